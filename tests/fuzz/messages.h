@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "protocol/codec.h"
+#include "protocol/request_codec.h"
 
 /// What the protocol's fuzzers do with messages. Any exception but a ProtocolError ends them.
 namespace playerlike::protocol::fuzz {
@@ -75,6 +76,12 @@ inline void take_message(const json& message, Encoding encoding) {
   require_true(sent_on(message, Encoding::kCbor) == message);
   take_value(message, encoding);
   attempt([&] { refuse_unknown_keys(message, {"id", "do"}, "a request"); });
+  attempt([&] {
+    const auto type = find_request(require_text(message, "do"));
+    if (!type) return;
+    const json again = encode_request(decode_request(*type, message, encoding), encoding);
+    require_true(encode_request(decode_request(*type, again, encoding), encoding) == again);
+  });
   for (const auto& [key, value] : message.items()) {
     take_value(value, encoding);
     const char* name = key.c_str();

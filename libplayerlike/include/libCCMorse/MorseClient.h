@@ -62,6 +62,7 @@ class MorseClient {
   MorseRobot GetRobot(const std::string& aName = "") const;
 
  private:
+  friend class ArenaProxy;
   friend class MorseTime;
   std::shared_ptr<playerlike::ClientCore> mCore;
 };

@@ -136,6 +136,9 @@ int get_whole(const void* bytes, std::size_t length) {
   return static_cast<int>(number);
 }
 
+// Whether a property is a number with decimals, which only a double can hold.
+bool has_decimals(const std::string& property) { return property == "height"; }
+
 // --- Poses: x, y, yaw; or x, y, z, yaw (Stage); or x, y, z, roll, pitch, yaw (Player)
 
 Numbers spread_pose(const Numbers& pose, std::size_t count) {
@@ -154,6 +157,7 @@ std::string forms_of(const std::string& property, std::size_t count) {
     return "2 doubles, along its own x and y (" + bytes(2) + "), or 3, with its height (" +
            bytes(3) + ')';
   }
+  if (has_decimals(property)) return "a double (" + bytes(1) + ')';
   if (count == 1) return "a bool, a 32-bit integer or a double (1, 4 or 8 bytes)";
   return std::to_string(count) + " doubles (" + bytes(count) + ')';
 }
@@ -186,7 +190,7 @@ void write_property(const std::string& property, const PropertyValue& value, voi
     return put_text(property, *text, bytes, length);
   }
   const auto& numbers = std::get<Numbers>(value);
-  if (numbers.size() == 1 && is_whole(length)) {
+  if (numbers.size() == 1 && is_whole(length) && !has_decimals(property)) {
     if (length == 1 && std::abs(numbers.front()) > std::numeric_limits<std::int8_t>::max()) {
       refuse_length(property, "a number that needs 4 or 8 bytes now", length);
     }

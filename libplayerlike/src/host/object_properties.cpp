@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/arena.h"
 #include "sim/core/colour.h"
 
 namespace playerlike {
@@ -23,7 +24,8 @@ using Numbers = std::vector<double>;
   throw SessionError(SessionError::Code::kBadArgument, message);
 }
 
-// An object with the data for its properties: the robot or the box that it is, if any.
+// An object with the data for its properties: the robot or the box that it is, if any. The arena
+// itself has kind "arena".
 struct Subject {
   SceneObject object;
   const sim::RobotDescription* robot = nullptr;
@@ -32,6 +34,12 @@ struct Subject {
 };
 
 Subject subject(const Simulation& simulation, const std::string& name) {
+  if (name == kArenaName && !simulation.find_object(name)) {
+    Subject arena;
+    arena.object.name = kArenaName;
+    arena.object.kind = kArenaName;
+    return arena;
+  }
   Subject found{require_object(simulation, name)};
   if (const auto robot = simulation.find_robot(name)) {
     found.robot_index = *robot;
@@ -45,6 +53,11 @@ Subject subject(const Simulation& simulation, const std::string& name) {
     }
   }
   return found;
+}
+
+// E.g. block "d1", for messages.
+std::string shown_name(const Subject& s) {
+  return s.object.kind == kArenaName ? "the arena" : s.object.kind + " \"" + s.object.name + '"';
 }
 
 double height_m(const Simulation& simulation, const Subject& s) {
@@ -88,6 +101,16 @@ bool is_robot(const Subject& s) { return s.robot != nullptr; }
 bool is_block(const Subject& s) { return s.object.kind == "block"; }
 bool is_robot_or_block(const Subject& s) { return is_robot(s) || is_block(s); }
 bool is_any(const Subject&) { return true; }
+bool is_arena(const Subject& s) { return s.object.kind == kArenaName; }
+bool is_object(const Subject& s) { return !is_arena(s); }
+
+// State and height of a block now.
+ArenaBlock block_now(const Simulation& simulation, const Subject& s) {
+  for (ArenaBlock& block : arena_blocks(simulation)) {
+    if (block.name == s.object.name) return std::move(block);
+  }
+  return {s.object.name, "extended", height_m(simulation, s)};  // a static one
+}
 
 constexpr Property kProperties[] = {
     {"colour", is_robot_or_block,
@@ -107,6 +130,22 @@ constexpr Property kProperties[] = {
        }
        require_done(simulation.set_object_colour(s.object.name, *colour));
      }},
+    {"configuration", is_arena,
+     [](const Simulation& simulation, const Subject&) -> PropertyValue {
+       return simulation.arena_state().configuration;
+     },
+     [](Simulation& simulation, const Subject&, const PropertyValue& value) {
+       set_configuration(simulation, text(value, "configuration"));
+     }},
+    {"configurations", is_arena,
+     [](const Simulation& simulation, const Subject&) -> PropertyValue {
+       std::string names;
+       for (const auto& configuration : simulation.world().controller.configurations) {
+         names += (names.empty() ? "" : ", ") + configuration.name;
+       }
+       return names;
+     },
+     nullptr},
     {"dynamics", is_robot,
      [](const Simulation& simulation, const Subject& s) -> PropertyValue {
        return Numbers{simulation.robot_dynamics(s.robot_index) ? 1.0 : 0.0};
@@ -115,6 +154,17 @@ constexpr Property kProperties[] = {
        const bool on = numbers(value, "dynamics", 1, 1).front() != 0.0;
        require_done(simulation.set_robot_dynamics(s.robot_index, on));
      }},
+    {"event", is_arena,
+     [](const Simulation& simulation, const Subject&) -> PropertyValue {
+       const sim::ArenaEvents& events = simulation.arena_events();
+       return events.newest.empty() ? std::string() : description(events.newest.back());
+     },
+     nullptr},
+    {"events", is_arena,
+     [](const Simulation& simulation, const Subject&) -> PropertyValue {
+       return Numbers{static_cast<double>(simulation.arena_events().count)};
+     },
+     nullptr},
     {"fiducial_return", is_robot_or_block,
      [](const Simulation&, const Subject& s) -> PropertyValue {
        return Numbers{
@@ -129,11 +179,21 @@ constexpr Property kProperties[] = {
        }
        require_done(simulation.set_object_fiducial(s.object.name, static_cast<int>(number)));
      }},
+    {"height", is_block,
+     [](const Simulation& simulation, const Subject& s) -> PropertyValue {
+       return Numbers{block_now(simulation, s).height_m};
+     },
+     nullptr},
     {"kind", is_any,
      [](const Simulation&, const Subject& s) -> PropertyValue { return s.object.kind; }, nullptr},
     {"model", is_robot,
      [](const Simulation&, const Subject& s) -> PropertyValue { return s.robot->model; }, nullptr},
-    {"pose", is_any,
+    {"phase", is_block,
+     [](const Simulation& simulation, const Subject& s) -> PropertyValue {
+       return block_now(simulation, s).state;
+     },
+     nullptr},
+    {"pose", is_object,
      [](const Simulation&, const Subject& s) -> PropertyValue {
        const sim::Pose& pose = s.object.pose;
        return Numbers{pose.x_m, pose.y_m, pose.yaw_rad};
@@ -142,7 +202,7 @@ constexpr Property kProperties[] = {
        const Numbers& n = numbers(value, "pose", 3, 3);
        place_object(simulation, s.object.name, {n[0], n[1], n[2]});
      }},
-    {"size", is_any,
+    {"size", is_object,
      [](const Simulation& simulation, const Subject& s) -> PropertyValue {
        return Numbers{s.object.size.x(), s.object.size.y(), height_m(simulation, s)};
      },
@@ -174,6 +234,11 @@ constexpr Property kProperties[] = {
        return std::string(s.object.dynamic ? "dynamic" : "static");
      },
      nullptr},
+    {"verdict", is_arena,
+     [](const Simulation& simulation, const Subject&) -> PropertyValue {
+       return verdict_text(simulation);
+     },
+     nullptr},
     {"velocity", is_robot,
      [](const Simulation& simulation, const Subject& s) -> PropertyValue {
        const sim::Twist& twist = simulation.body(s.robot_index).twist;
@@ -189,8 +254,7 @@ const Property& require_property(const Subject& s, const std::string& name) {
     if (property.name == name) return property;
     known += (known.empty() ? "" : ", ") + std::string(property.name);
   }
-  refuse(s.object.kind + " \"" + s.object.name + "\" has no property \"" + name +
-         "\"; it has: " + known);
+  refuse(shown_name(s) + " has no property \"" + name + "\"; it has: " + known);
 }
 
 }  // namespace
@@ -224,8 +288,7 @@ void set_object_property(Simulation& simulation, const std::string& name,
   const Subject s = subject(simulation, name);
   const Property& found = require_property(s, property);
   if (found.set == nullptr) {
-    refuse("the property \"" + property + "\" of " + s.object.kind + " \"" + name +
-           "\" cannot be changed");
+    refuse("the property \"" + property + "\" of " + shown_name(s) + " cannot be changed");
   }
   found.set(simulation, s, value);
 }

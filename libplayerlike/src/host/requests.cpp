@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/arena.h"
 #include "host/core.h"
 #include "host/object_properties.h"
 #include "session/checks.h"
@@ -197,7 +198,7 @@ struct Host::Core::RequestHandler {
     return map_of(arena, what);
   }
 
-  // --- Objects by name, and the log
+  // --- Objects by name
 
   ObjectPose operator()(const ObjectPoseRequest& what) const {
     const Lock lock = lock_readable();
@@ -227,6 +228,40 @@ struct Host::Core::RequestHandler {
     const Lock lock = lock_changeable();
     core.saved_states_.restore(what.name, core.simulation_);
   }
+
+  // --- The arena and its controller
+
+  ArenaStatus operator()(const ArenaRequest&) const {
+    const Lock lock = lock_readable();
+    return arena_status(core.simulation_);
+  }
+  ArenaEventList operator()(const ArenaEventsRequest& what) const {
+    const Lock lock = lock_readable();
+    return arena_events(core.simulation_, what.since);
+  }
+  void operator()(const SetConfigurationRequest& what) const {
+    const Lock lock = lock_readable();
+    require_unlocked();
+    set_configuration(core.simulation_, what.name);
+  }
+  void operator()(const SetBlockRequest& what) const {
+    const Lock lock = lock_readable();
+    require_unlocked();
+    set_block(core.simulation_, what.name, what.extended);
+  }
+  void operator()(const SetTimerRequest& what) const {
+    const Lock lock = lock_readable();
+    require_unlocked();
+    set_timer(core.simulation_, what.name, what.enabled);
+  }
+  void operator()(const SetTrapRequest& what) const {
+    const Lock lock = lock_readable();
+    require_unlocked();
+    set_trap(core.simulation_, what.name, what.enabled);
+  }
+
+  // --- Goals and the log
+
   void operator()(const NoteGoalRequest& what) const {
     require_device(core.robots_, what.device);
     if (!what.goal_m.allFinite() || !std::isfinite(what.tolerance_m)) {

@@ -125,6 +125,26 @@ constexpr auto fields_of(std::type_identity<RobotInfo> /*type*/) {
       field("snd_drivers", &T::snd_drivers), field("devices", &T::devices));
 }
 
+constexpr auto fields_of(std::type_identity<sim::ArenaTrigger> /*type*/) {
+  using T = sim::ArenaTrigger;
+  return std::tuple(field("name", &T::name), field("enabled", &T::enabled),
+                    field("count", &T::count),
+                    field("time_left", &T::time_left_s, Presence::kOptional));
+}
+
+constexpr auto fields_of(std::type_identity<sim::ArenaEvent> /*type*/) {
+  using T = sim::ArenaEvent;
+  return std::tuple(field("number", &T::number), field("t", &T::time_ns), field("kind", &T::kind),
+                    field("what", &T::what), field("who", &T::who), field("text", &T::text),
+                    field("value", &T::value));
+}
+
+constexpr auto fields_of(std::type_identity<sim::Verdict> /*type*/) {
+  using T = sim::Verdict;
+  return std::tuple(field("passed", &T::passed), field("reason", &T::reason),
+                    field("t", &T::time_ns));
+}
+
 template <typename Struct>
 concept HasFields = requires {
   fields_of(std::type_identity<Struct>{});
@@ -180,7 +200,8 @@ json encode_value(const Value& value, Encoding encoding) {
   } else if constexpr (std::is_same_v<Value, sim::TimeMode>) {
     return kTimeModes[value == sim::TimeMode::kLockstep ? 0 : 1];
   } else if constexpr (std::is_same_v<Value, sim::Colour> || std::is_same_v<Value, sim::ViewMode> ||
-                       std::is_same_v<Value, sim::io::MapMode>) {
+                       std::is_same_v<Value, sim::io::MapMode> ||
+                       std::is_same_v<Value, sim::ArenaEventKind>) {
     return to_string(value);
   } else if constexpr (std::is_same_v<Value, sim::OccupancyMap>) {
     return encode_map(value, encoding);
@@ -205,6 +226,14 @@ std::size_t decode_word(const json& value, const char* key, std::span<const std:
   const auto word = std::find(words.begin(), words.end(), value);
   if (word == words.end()) refuse_value(key, expected, value);
   return static_cast<std::size_t>(word - words.begin());
+}
+
+sim::ArenaEventKind decode_event_kind(const json& value, const char* key) {
+  for (int i = 0; i <= static_cast<int>(sim::ArenaEventKind::kEnd); ++i) {
+    const auto kind = static_cast<sim::ArenaEventKind>(i);
+    if (value == to_string(kind)) return kind;
+  }
+  refuse_value(key, "a kind of event", value);
 }
 
 template <typename Value>
@@ -287,6 +316,8 @@ Value decode_value(const json& object, const char* key, WholeRange range, Encodi
       return decode_word(value, key, kTimeModes, R"("lockstep" or "paced")") == 0
                  ? sim::TimeMode::kLockstep
                  : sim::TimeMode::kPaced;
+    } else if constexpr (std::is_same_v<Value, sim::ArenaEventKind>) {
+      return decode_event_kind(value, key);
     } else if constexpr (std::is_same_v<Value, sim::Colour>) {
       const auto* text = value.get_ptr<const std::string*>();
       const auto colour = text == nullptr ? std::nullopt : sim::parse_colour(*text);

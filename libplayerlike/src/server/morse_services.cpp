@@ -243,6 +243,17 @@ void require_command_all(const MorseCall& call) {
   throw MorseRefusal("access/denied: this connection has no tokens for all robots");
 }
 
+void require_truth(const MorseCall& call) {
+  if (call.from.rights().truth) return;
+  throw MorseRefusal(
+      "access/denied: this world keeps the poses of its objects private: that takes the tokens of "
+      "all robots");
+}
+
+bool is_world_component(std::string_view component) noexcept {
+  return component == "simulation" || component == "time" || component == "arena";
+}
+
 // --- Arguments
 
 void MorseArguments::refuse(std::size_t index, const std::string& expected) const {
@@ -294,6 +305,7 @@ const json& MorseArguments::list(std::size_t index) const {
 std::span<const MorseService> morse_services(std::string_view kind) {
   if (kind == "simulation") return simulation_services();
   if (kind == "time") return time_services();
+  if (kind == "arena") return arena_services();
   if (kind == "motion") return kMotion;
   if (kind == "waypoint") return kWaypoint;
   if (kind == "teleport") return kTeleport;
@@ -325,7 +337,7 @@ std::optional<json> call_service(MorseState& state, MorseConnection& from, const
   std::vector<const MorseService*> services;
   if (found != nullptr) {
     services = services_of(*found);
-  } else if (component == "simulation" || component == "time") {
+  } else if (is_world_component(component)) {
     for (const MorseService& row : morse_services(component)) services.push_back(&row);
   } else {
     throw MorseRefusal("there is no component \"" + std::string(component) + "\"");

@@ -47,7 +47,7 @@ struct MorseCall {
   MorseState& state;
   MorseConnection& from;
   const std::string& id;
-  const MorseComponent* component;  ///< null: `simulation` or `time`
+  const MorseComponent* component;  ///< null: `simulation`, `time` or `arena`
   MorseArguments arguments;
 };
 
@@ -88,21 +88,28 @@ struct MorseService {
   }
 };
 
-/// The services of `simulation` or `time`, or of a kind of component, in the order of
+/// The services of `simulation`, `time` or `arena`, or of a kind of component, in the order of
 /// docs/morse.md.
-/// @param kind  "simulation", "time", "motion", "waypoint", "teleport", "pen", "sensor" (services
+/// @param kind  "simulation", "time", "arena", "motion", "waypoint", "teleport", "pen", "sensor"
+/// (services
 ///              of all sensors) or "component" (services of all components).
 [[nodiscard]] std::span<const MorseService> morse_services(std::string_view kind);
 
 [[nodiscard]] std::span<const MorseService> simulation_services();
 [[nodiscard]] std::span<const MorseService> time_services();
+[[nodiscard]] std::span<const MorseService> arena_services();
 [[nodiscard]] std::span<const MorseService> pen_services();
+
+/// Whether this is a component that belongs to no robot: `simulation`, `time` or `arena`.
+[[nodiscard]] bool is_world_component(std::string_view component) noexcept;
 
 /// A client's value, shortened for error texts.
 [[nodiscard]] std::string shown(const nlohmann::json& value);
 /// Throws MorseRefusal unless the connection may command one robot, or all robots.
 void require_command(const MorseCall& call, int robot);
 void require_command_all(const MorseCall& call);
+/// Throws MorseRefusal in a private world unless the connection may know where all robots are.
+void require_truth(const MorseCall& call);
 
 /// The services of a component.
 [[nodiscard]] std::vector<const MorseService*> services_of(const MorseComponent& component);

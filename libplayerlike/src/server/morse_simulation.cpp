@@ -20,13 +20,6 @@ const MorseComponent& require_component(MorseCall& call, std::size_t argument) {
   return *component;
 }
 
-void require_truth(const MorseCall& call) {
-  if (call.from.rights().truth) return;
-  throw MorseRefusal(
-      "access/denied: this world keeps the poses of its objects private: that takes the tokens of "
-      "all robots");
-}
-
 // Throws the simulation's refusal, if there is one.
 void require_done(const std::optional<std::string>& refusal) {
   if (refusal) throw MorseRefusal(*refusal);
@@ -151,6 +144,11 @@ json set_object_visibility(MorseCall& call) {
       return o.name == name && o.kind == "block" && o.dynamic;
     };
     if (std::any_of(objects.begin(), objects.end(), is_block)) {
+      if (simulation.world().simulation.objects_locked) {
+        throw MorseRefusal(
+            "this world keeps its obstacles as they are (\"lock_objects\" in its "
+            "\"simulation\")");
+      }
       const auto state = visible ? sim::ObstacleState::kExtended : sim::ObstacleState::kRetracted;
       require_done(simulation.set_obstacle_state(name, state));
       return json(visible);
@@ -181,7 +179,7 @@ json set_object_dynamics(MorseCall& call) {
 
 json set_log_level(MorseCall& call) {
   const std::string component = call.arguments.text(0);
-  if (component != "simulation" && component != "time") {
+  if (!is_world_component(component)) {
     static_cast<void>(require_component(call, 0));
   }
   // The names and numbers of Python's log levels.

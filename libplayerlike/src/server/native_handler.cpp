@@ -148,6 +148,10 @@ struct NativeHandler::Guard {
   void check(const SetObjectPropertyRequest& what) const {
     handler.require_rights(handler.robot_named(what.name));
   }
+  void check(const SetConfigurationRequest&) const { handler.require_rights(-1); }
+  void check(const SetBlockRequest&) const { handler.require_rights(-1); }
+  void check(const SetTimerRequest&) const { handler.require_rights(-1); }
+  void check(const SetTrapRequest&) const { handler.require_rights(-1); }
   void check(const SaveStateRequest&) const { handler.require_rights(-1); }
   void check(const RestoreStateRequest&) const { handler.require_rights(-1); }
   void check(const WorldMapRequest& what) const {

@@ -2,7 +2,8 @@
 #include "session/checks.h"
 
 #include <algorithm>
-#include <string>
+
+#include "sim/core/error.h"
 
 namespace playerlike {
 
@@ -19,6 +20,26 @@ const DeviceInfo& require_device(const std::vector<RobotInfo>& robots, DeviceId 
   throw SessionError(SessionError::Code::kNoSuchDevice,
                      "the world has no device " + std::to_string(device.device) + " of robot " +
                          std::to_string(device.robot));
+}
+
+std::string unknown_name(const char* what, const std::string& name,
+                         const std::vector<std::string>& known) {
+  constexpr std::size_t kMostListed = 40;
+  std::string text = "there is no ";
+  text.append(what).append(" named \"").append(name).append("\"; ");
+  if (known.empty()) return text.append("this world has none");
+  if (const std::string near = sim::nearest_word(name, known); !near.empty()) {
+    text.append("did you mean \"").append(near).append("\"? ");
+  }
+  text += "this world has: ";
+  for (std::size_t i = 0; i < std::min(known.size(), kMostListed); ++i) {
+    if (i > 0) text += ", ";
+    text += known[i];
+  }
+  if (known.size() > kMostListed) {
+    text.append(" and ").append(std::to_string(known.size() - kMostListed)).append(" more");
+  }
+  return text;
 }
 
 bool is_printable(std::string_view text) {

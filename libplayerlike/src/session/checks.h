@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +13,11 @@ namespace playerlike {
 
 /// Finds the device among the robots. @throws SessionError kNoSuchDevice.
 const DeviceInfo& require_device(const std::vector<RobotInfo>& robots, DeviceId device);
+
+/// The error for a name that does not exist: it suggests a similar name and lists the known ones.
+/// @param what  e.g. "timer".
+[[nodiscard]] std::string unknown_name(const char* what, const std::string& name,
+                                       const std::vector<std::string>& known);
 
 /// Whether a text that is shown to other users has no control character; it may be UTF-8.
 [[nodiscard]] bool is_printable(std::string_view text);

@@ -92,7 +92,7 @@ void Waypoint::placed(const Pose& X_WB) {
 }
 
 void Waypoint::take_over_from(const Device& before, SimTime later_ns) {
-  Sensor::take_over_from(before, later_ns);
+  SensorOf<WaypointReading>::take_over_from(before, later_ns);
   const auto& old = dynamic_cast<const Waypoint&>(before);
   goal_number_ = old.goal_number_ + (old.has_goal_ || has_goal_ ? 1 : 0);
 }

@@ -147,6 +147,10 @@ std::optional<bool> Simulation::timer_or_trap_enabled(const std::string& name) c
   return impl_->controller->is_enabled(name);
 }
 
+ArenaState Simulation::arena_state() const {
+  return impl_->controller ? impl_->controller->state() : ArenaState{};
+}
+
 const std::vector<double>& Simulation::scores() const noexcept { return impl_->scores; }
 const std::optional<Verdict>& Simulation::verdict() const noexcept { return impl_->verdict; }
 

@@ -69,6 +69,7 @@ Simulation::Impl::Controller::Controller(Impl& owner)
 
 void Simulation::Impl::Controller::reset() {
   started_ = false;
+  configuration_.clear();
   timers_.clear();
   for (const TimerDescription& timer : description_.timers) {
     Timer& made = timers_.emplace_back();
@@ -284,6 +285,7 @@ std::optional<std::string> Simulation::Impl::Controller::configure(const std::st
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
   if (found == all.end()) return unknown("configuration", name, names_of(all));
+  configuration_ = name;
   impl_.record(ArenaEventKind::kConfiguration, name);
   std::string refused;
   const auto note = [&refused](const std::optional<std::string>& reason) {
@@ -315,6 +317,28 @@ std::optional<std::string> Simulation::Impl::Controller::configure(const std::st
 }
 
 // --- Pictures and state
+
+ArenaState Simulation::Impl::Controller::state() const {
+  ArenaState state;
+  state.configuration = configuration_;
+  for (std::size_t i = 0; i < timers_.size(); ++i) {
+    const Timer& timer = timers_[i];
+    ArenaTrigger& trigger = state.timers.emplace_back();
+    trigger.name = description_.timers[i].name;
+    trigger.enabled = started_ ? timer.enabled : description_.timers[i].enabled;
+    trigger.count = timer.count;
+    if (timer.enabled && timer.due_ns != kNever) {
+      trigger.time_left_s = to_seconds(timer.due_ns - impl_.now_ns);
+    }
+  }
+  for (std::size_t i = 0; i < trap_counts_.size(); ++i) {
+    ArenaTrigger& trigger = state.traps.emplace_back();
+    trigger.name = description_.traps[i].name;
+    trigger.enabled = watch_.enabled(i);
+    trigger.count = trap_counts_[i];
+  }
+  return state;
+}
 
 void Simulation::Impl::Controller::show(SceneSnapshot& scene) const {
   const auto left_s = [this](SimTime end_ns) { return to_seconds(end_ns - impl_.now_ns); };
@@ -358,7 +382,12 @@ void Simulation::Impl::Controller::shift_times(SimTime later_ns) {
 }
 
 void Simulation::Impl::Controller::archive(StateArchive& archive) {
-  archive(started_);
+  archive(started_, configuration_);
+  const auto& known = description_.configurations;
+  archive.expect(configuration_.empty() ||
+                     std::any_of(known.begin(), known.end(),
+                                 [&](const auto& c) { return c.name == configuration_; }),
+                 "a configuration of the world");
   archive.time(origin_ns_);
   for (std::size_t i = 0; i < timers_.size(); ++i) {
     Timer& timer = timers_[i];

@@ -39,6 +39,7 @@ class Simulation::Impl::Controller {
   std::optional<std::string> set_trap_enabled(const std::string& name, bool enabled);
   [[nodiscard]] std::optional<bool> is_enabled(const std::string& name) const;
 
+  [[nodiscard]] ArenaState state() const;
   void show(SceneSnapshot& scene) const;
   void archive(StateArchive& archive);
 
@@ -122,7 +123,8 @@ class Simulation::Impl::Controller {
   std::vector<int> fiducials_;  // index of each robot's first fiducial device; -1: none
 
   bool started_ = false;
-  SimTime origin_ns_ = 0;  // time of the start or of the last reset
+  SimTime origin_ns_ = 0;      // time of the start or of the last reset
+  std::string configuration_;  // the last one; "": none
   std::vector<Timer> timers_;
   SimTime next_time_ns_ = kNever;  // when the next timer is due or a text ends
   TrapWatch watch_;

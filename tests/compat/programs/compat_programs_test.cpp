@@ -52,6 +52,13 @@ const std::string kMaze = "examples/roomba_maze.json";
 
 std::vector<Case> cases() {
   return {
+      {"arena_gate",
+       "examples/living_arena.json",
+       {"2 configurations, the last is open", "did you mean \"open\"?", "gate: sinking",
+        "gate: 0 m high", "1.6 retracted gate", "trap goal", "10 points",
+        "verdict: the runner is at the goal"},
+       2.7,
+       3.0},
       {"arm_waves",
        "examples/pioneer_arm.json",
        {"6 joints", "joint 5: linear, 0.02 m, from 0.00 to 0.06", "reached it", "stalled at 2.09",

@@ -103,8 +103,9 @@ class MorseProtocol : public testing::Test {
 
   MorseClient start(RunSettings run = {}) {
     sim::WorldDescription world =
-        sim::load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/remote.json");
+        sim::load_world(std::string(PLAYPEN_SOURCE_DIR "/worlds/examples/") + world_name + ".json");
     world.simulation.own_sensors_only = own_sensors_only;
+    world.simulation.objects_locked = objects_locked;
     host = test::patient_host(std::move(world), std::move(run));
     server = std::make_unique<Server>(host, settings, [this](sim::LogLevel, std::string_view text) {
       const std::lock_guard lock(mutex_);
@@ -136,7 +137,9 @@ class MorseProtocol : public testing::Test {
   ServerSettings settings;
   std::shared_ptr<Host> host;
   std::unique_ptr<Server> server;
+  std::string world_name = "remote";
   bool own_sensors_only = false;
+  bool objects_locked = false;
 
  private:
   std::mutex mutex_;
@@ -448,6 +451,121 @@ TEST_F(MorseProtocol, WhatWaitsAtTheEndOfTheRunFails) {
   EXPECT_THAT(client.refusal("r1.waypoint goto [2, 1, 0]"), HasSubstr("session/finished"));
   EXPECT_THAT(client.refusal("r1.motion set_speed [1, 0]"), HasSubstr("session/finished"));
   EXPECT_DOUBLE_EQ(client.get("time now"), 1.0);
+}
+
+// --- arena
+
+TEST_F(MorseProtocol, ArenaChangesOnCommand) {
+  world_name = "living_arena";
+  MorseClient client = start();
+  EXPECT_EQ(client.get("arena list_configurations"), json::parse(R"(["closed", "open"])"));
+  EXPECT_EQ(client.get("arena get_configuration"), "");
+  EXPECT_EQ(client.get("arena set_configuration [\"open\"]"), nullptr);
+  EXPECT_EQ(client.get("arena get_configuration"), "open");
+  json state = client.get("arena get_state");
+  EXPECT_EQ(state["timestamp"], 0.0);
+  EXPECT_EQ(state["configuration"], "open");
+  EXPECT_EQ(state["blocks"]["gate"], json::parse(R"({"state": "sinking", "height": 0.16})"));
+  EXPECT_EQ(state["blocks"]["side"]["state"], "extended");
+  EXPECT_EQ(state["timers"]["opening"], json::parse(R"({"enabled": true, "count": 0})"));
+  EXPECT_EQ(state["traps"]["goal"]["enabled"], true);
+  EXPECT_EQ(state["scores"], json::parse(R"({"runner": 0.0, "chaser": 0.0})"));
+  EXPECT_EQ(state["verdict"], nullptr);
+  EXPECT_EQ(client.get("arena extend [\"gate\"]"), "rising");
+  EXPECT_EQ(client.get("arena retract [\"gate\"]"), "sinking");
+  EXPECT_EQ(client.get("arena retract [\"side\"]"), "retracted");
+  client.get("arena disable [\"goal\"]");
+  client.get("arena disable [\"opening\"]");
+  client.get("arena enable [\"closing\"]");
+  client.sleep(3.0);
+  state = client.get("arena get_state");
+  EXPECT_EQ(state["blocks"]["gate"], json::parse(R"({"state": "retracted", "height": 0.0})"));
+  EXPECT_EQ(state["traps"]["goal"]["enabled"], false);
+  EXPECT_EQ(state["timers"]["opening"]["enabled"], false);
+  EXPECT_NEAR(state["timers"]["closing"]["time_left"].get<double>(), 5.0, 1e-9);
+}
+
+TEST_F(MorseProtocol, ArenaTellsItsEventsAndTheVerdict) {
+  world_name = "living_arena";
+  MorseClient client = start();
+  EXPECT_EQ(client.get("arena events"), json::parse(R"({"events": [], "newest": 0, "lost": 0})"));
+  client.get("arena set_configuration [\"open\"]");
+  client.sleep(2.0);
+  const json events = client.get("arena events [3]");
+  const json last = json::parse(R"({"number": 5, "timestamp": 1.6, "kind": "retracted",
+      "what": "gate", "who": "", "text": "", "value": 0.0})");
+  EXPECT_EQ(events["newest"], 5);
+  EXPECT_EQ(events["events"].size(), 2U);
+  EXPECT_EQ(events["events"].back(), last);
+  client.get("runner.motion set_speed [0.5, 0]");
+  EXPECT_THAT(client.refusal("time sleep [60]"), HasSubstr("over"));
+  const json verdict = client.get("arena get_state")["verdict"];
+  EXPECT_EQ(verdict["passed"], true);
+  EXPECT_EQ(verdict["reason"], "the runner is at the goal");
+  EXPECT_GT(verdict["timestamp"], 2.0);
+  EXPECT_EQ(client.get("arena get_state")["scores"]["runner"], 10.0);
+}
+
+TEST_F(MorseProtocol, ArenaRefusesWhatIsUnknownOrWrong) {
+  world_name = "living_arena";
+  MorseClient client = start();
+  for (const auto& [request, part] : std::vector<std::pair<std::string, std::string>>{
+           {"set_configuration [\"opne\"]", "did you mean \"open\"? this world has: closed, open"},
+           {"set_configuration [3]", "argument 1 of set_configuration(name): expected a text"},
+           {"set_configuration", "wrong # of parameters"},
+           {"extend [\"gaet\"]", "did you mean \"gate\"?"},
+           {"extend [\"wall1\"]", "static"},
+           {"retract [\"nothing\"]", "there is no dynamic block named \"nothing\""},
+           {"enable [\"openign\"]",
+            "there is no timer or trap named \"openign\"; did you mean \"opening\"?"},
+           {"disable [\"x\"]", "this world has: opening, closing, plate, caught, goal"},
+           {"events [-1]", "expected a whole number from 0"},
+           {"close", "close has not been registered for arena; it has: list_configurations"}}) {
+    EXPECT_THAT(client.refusal("arena " + request), HasSubstr(part)) << request;
+  }
+  EXPECT_EQ(client.get("arena events")["newest"], 0);
+  client.get("simulation set_log_level [\"arena\", 10]");
+  client.get("arena get_configuration");
+  EXPECT_THAT(logged(), HasSubstr("arena get_configuration"));
+}
+
+TEST_F(MorseProtocol, ArenaWithoutAControllerHasBlocks) {
+  MorseClient client = start();
+  EXPECT_EQ(client.get("arena list_configurations"), json::array());
+  EXPECT_EQ(client.get("arena extend [\"gate\"]"), "extended");
+  EXPECT_THAT(client.refusal("arena set_configuration [\"open\"]"),
+              HasSubstr("this world has none"));
+  EXPECT_THAT(client.refusal("arena enable [\"t\"]"), HasSubstr("this world has none"));
+}
+
+TEST_F(MorseProtocol, ArenaIsOnlyReadWhereObjectsAreLocked) {
+  world_name = "living_arena";
+  objects_locked = true;
+  MorseClient client = start();
+  for (const std::string request :
+       {"set_configuration [\"open\"]", "extend [\"side\"]", "retract [\"gate\"]",
+        "enable [\"closing\"]", "disable [\"goal\"]"}) {
+    EXPECT_THAT(client.refusal("arena " + request), HasSubstr("lock_objects"));
+  }
+  EXPECT_THAT(client.refusal("simulation set_object_visibility [\"gate\", false, false]"),
+              HasSubstr("lock_objects"));
+  EXPECT_EQ(client.get("arena get_state")["blocks"]["gate"]["state"], "extended");
+}
+
+TEST_F(MorseProtocol, ArenaTakesTheTokensOfAllRobots) {
+  world_name = "living_arena";
+  own_sensors_only = true;
+  settings.access.robot_tokens = {{"runner", "first"}, {"chaser", "second"}};
+  MorseClient client = start();
+  client.get("playpen token [\"first\"]");
+  for (const std::string request :
+       {"set_configuration [\"open\"]", "extend [\"side\"]", "enable [\"closing\"]", "get_state",
+        "events", "list_configurations", "get_configuration"}) {
+    EXPECT_THAT(client.refusal("arena " + request), HasSubstr("access/denied")) << request;
+  }
+  client.get("playpen token [\"second\"]");
+  client.get("arena set_configuration [\"open\"]");
+  EXPECT_EQ(client.get("arena events")["newest"], 4);
 }
 
 // --- Actuators
@@ -983,8 +1101,8 @@ std::string text_of(const std::string& file) {
 TEST(MorsePage, HasARowForEachService) {
   const std::string page = text_of(PLAYPEN_SOURCE_DIR "/docs/morse.md");
   int services = 0;
-  for (const char* kind :
-       {"simulation", "time", "motion", "waypoint", "teleport", "pen", "sensor", "component"}) {
+  for (const char* kind : {"simulation", "time", "arena", "motion", "waypoint", "teleport", "pen",
+                           "sensor", "component"}) {
     for (const server::MorseService& service : server::morse_services(kind)) {
       ++services;
       const std::string call =

@@ -449,6 +449,12 @@ TEST(NativeAccess, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
       {"restore_state", {{"name", "s"}}},
       {"blackboard", json::object()},
       {"world_map", {{"cell_size", 0.1}}},
+      {"arena", json::object()},
+      {"arena_events", {{"since", 0}}},
+      {"set_configuration", {{"name", "open"}}},
+      {"set_block", {{"name", "gate"}, {"extended", true}}},
+      {"set_timer", {{"name", "tick"}, {"enabled", true}}},
+      {"set_trap", {{"name", "home"}, {"enabled", true}}},
       {"watch", {{"rate", 10}}}};
   for (const auto& [name, request] : truths) {
     EXPECT_EQ(player.error(name, request), "access/denied") << name;

@@ -83,7 +83,43 @@ std::vector<Request> examples() {
           LogRequest{"f", true, false, true},
           SetBlackboardRequest{"g", "k", 1, 65535, {0, 255, 10}},
           BlackboardRequest{},
-          BlackboardRequest{7, "", "k"}};
+          BlackboardRequest{7, "", "k"},
+          ArenaRequest{},
+          ArenaEventsRequest{std::uint64_t{1} << 62U},
+          SetConfigurationRequest{"open"},
+          SetBlockRequest{"gate", true},
+          SetTimerRequest{"tick", false},
+          SetTrapRequest{"home", true}};
+}
+
+/// A state of the arena without empty members.
+ArenaStatus arena_status() {
+  ArenaStatus status;
+  status.time_ns = 5;
+  status.configurations = {"open", "closed"};
+  status.configuration = "closed";
+  status.blocks = {{"gate", "rising", 0.1}, {"side", "retracted", 0.0}};
+  status.timers = {{"tick", true, 3, 0.25}, {"late", false, 0, std::nullopt}};
+  status.traps = {{"home", true, std::uint64_t{1} << 62U, std::nullopt}};
+  status.scores = {{"r1", -1.0 / 3.0}};
+  status.verdict = sim::Verdict{true, "\"at\" home", 7};
+  status.newest = 12;
+  return status;
+}
+
+std::vector<sim::ArenaEvent> all_kinds_of_events() {
+  std::vector<sim::ArenaEvent> events;
+  for (int i = 0; i <= static_cast<int>(sim::ArenaEventKind::kEnd); ++i) {
+    sim::ArenaEvent& event = events.emplace_back();
+    event.number = 22 + static_cast<std::uint64_t>(i);
+    event.time_ns = std::int64_t{1} << 62U;
+    event.kind = static_cast<sim::ArenaEventKind>(i);
+    event.what = "gate";
+    event.who = "r1";
+    event.text = "to\u00fc wide";
+    event.value = 0.1;
+  }
+  return events;
 }
 
 /// Names of all requests that are sent as messages.
@@ -135,6 +171,10 @@ TEST_P(RequestMessages, AnswersComeOutAsTheyWentIn) {
       {ObjectPropertyRequest{}, PropertyValue("text")},
       {ObjectPropertyRequest{}, PropertyValue(std::vector{0.1, -0.0})},
       {LogRequest{}, LogStatus{true, false, "f"}},
+      {ArenaRequest{}, ArenaStatus{}},
+      {ArenaRequest{}, arena_status()},
+      {ArenaEventsRequest{}, ArenaEventList{}},
+      {ArenaEventsRequest{}, ArenaEventList{all_kinds_of_events(), 40, 21}},
       {BlackboardRequest{}, std::vector<BlackboardEntry>{{"", "k", 1, 2, {0, 255}, 5, 6}}},
       {TimeRequest{}, time}};
   for (const auto& [request, answer] : all) {
@@ -156,6 +196,7 @@ TEST_P(RequestMessages, HaveDefaultsForWhatMayBeLeftOut) {
             sim::io::MapMode::kTrinary);
   EXPECT_FALSE(std::get<ReplaceRequest>(read({{"do", "replace"}, {"replace", false}})).device);
   EXPECT_FALSE(std::get<LogRequest>(read({{"do", "log"}})).running);
+  EXPECT_EQ(std::get<ArenaEventsRequest>(read({{"do", "arena_events"}})).since, 0U);
 }
 
 std::string refusal(const json& message) {
@@ -185,6 +226,32 @@ TEST(RequestCodec, AreRefusedForWhatIsWrongByName) {
             "\"upside-down\"");
   EXPECT_THAT(refusal({{"do", "set_cells"}, {"layer", 0}, {"rect", {0, 0, 1}}, {"cells", ""}}),
               HasSubstr("[column, row, width, height]"));
+}
+
+TEST(RequestCodec, RefuseWrongAnswersAboutTheArena) {
+  const auto refusal_of = [](const Request& request, const json& answer) -> std::string {
+    try {
+      static_cast<void>(decode_answer(request, answer, Encoding::kJson));
+    } catch (const ProtocolError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  json events = encode_answer(ArenaEventsRequest{}, ArenaEventList{all_kinds_of_events(), 40, 21},
+                              Encoding::kJson);
+  events["events"][0]["kind"] = "party";
+  EXPECT_EQ(refusal_of(ArenaEventsRequest{}, events),
+            "kind: expected a kind of event, found \"party\"");
+  events["events"] = 3;
+  EXPECT_EQ(refusal_of(ArenaEventsRequest{}, events), "events: expected a list, found 3");
+  json status = encode_answer(ArenaRequest{}, arena_status(), Encoding::kJson);
+  status["timers"][0]["count"] = -1;
+  EXPECT_THAT(refusal_of(ArenaRequest{}, status), HasSubstr("count: expected a whole number"));
+  EXPECT_EQ(refusal({{"do", "set_block"}, {"name", "gate"}, {"extended", 1}}),
+            "protocol/bad-value: extended: expected true or false, found 1");
+  EXPECT_THAT(refusal({{"do", "arena_events"}, {"since", -1}}),
+              HasSubstr("since: expected a whole number from 0"));
+  EXPECT_THAT(refusal({{"do", "arena"}, {"since", 1}}), HasSubstr("the unknown key \"since\""));
 }
 
 // The table of docs/protocol.md: | `NAME` | `key`, `key`... | ... |

@@ -376,6 +376,36 @@ TEST(LivingArena, KeepsScoresAndVerdictInSnapshots) {
   EXPECT_TRUE(fork.finished());
 }
 
+TEST(LivingArena, TellsItsStateAndKeepsItInSnapshots) {
+  Simulation simulation(living_arena());
+  ArenaState state = simulation.arena_state();
+  EXPECT_EQ(state.configuration, "");
+  ASSERT_EQ(state.timers.size(), 2U);
+  EXPECT_EQ(state.timers[0].name, "opening");
+  EXPECT_TRUE(state.timers[0].enabled);
+  EXPECT_FALSE(state.timers[0].time_left_s) << "it counts from the first step on";
+  EXPECT_FALSE(state.timers[1].enabled);
+  ASSERT_EQ(state.traps.size(), 3U);
+  EXPECT_EQ(state.traps[2].name, "goal");
+  EXPECT_TRUE(state.traps[2].enabled);
+  run(simulation, 1.0);
+  EXPECT_NEAR(simulation.arena_state().timers[0].time_left_s.value(), 19.0, 3.0);  // jitter
+  run(simulation, 24.0);
+  Simulation fork(living_arena());
+  const std::uint64_t before = fork.state_hash();
+  ASSERT_FALSE(fork.set_configuration("closed"));
+  EXPECT_NE(fork.state_hash(), before);
+  fork.restore(simulation.save());
+  state = fork.arena_state();
+  EXPECT_EQ(state.configuration, "open");
+  EXPECT_EQ(state.timers[0].count, 1U);
+  EXPECT_TRUE(state.timers[1].enabled);
+  EXPECT_EQ(state.timers[1].time_left_s, simulation.arena_state().timers[1].time_left_s);
+  fork.reset();
+  EXPECT_EQ(fork.arena_state().configuration, "");
+  EXPECT_EQ(fork.arena_state().timers[0].count, 0U);
+}
+
 TEST(LivingArena, RefusesDamagedSnapshots) {
   Simulation simulation(living_arena());
   for (int i = 0; simulation.moving_blocks().empty(); ++i) go(simulation, i, i + 1);

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -12,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "playerlike/messages/arena_requests.h"
+#include "playerlike/messages/message_field.h"
 #include "playerlike/messages/messages.h"
 #include "sim/canvas/layers.h"
 #include "sim/io/map_file.h"
@@ -30,48 +31,6 @@
 /// All requests are executed immediately. On a closed session they throw SessionError
 /// kDisconnected, except those that only read time, canvas size, view mode or overflow.
 namespace playerlike {
-
-/// Whether a message contains a field.
-enum class Presence {
-  kAlways,    ///< required
-  kOptional,  ///< may be missing; the member then keeps its value
-  kNullable,  ///< null if the member has no value; may also be missing
-};
-
-/// Range of an integer field.
-struct WholeRange {
-  std::int64_t least = 0;
-  std::int64_t most = std::numeric_limits<std::int64_t>::max();
-};
-/// Range of columns, rows and side lengths in cells.
-inline constexpr WholeRange kCellRange{-(1 << 30), 1 << 30};
-/// Range of layer numbers.
-inline constexpr WholeRange kLayerRange{0, 1 << 30};
-/// Range of the side lengths of a canvas or map in cells.
-inline constexpr WholeRange kMapSideRange{1, 8192};
-
-/// Description of a struct's member in messages.
-template <typename Struct, typename Value>
-struct MessageField {
-  const char* key;
-  Value Struct::*member;
-  Presence presence;
-  WholeRange range;
-};
-/// Makes an entry of `kFields`.
-/// @param range  range of an integer.
-template <typename Struct, typename Value>
-constexpr MessageField<Struct, Value> field(const char* key, Value Struct::*member,
-                                            WholeRange range = {},
-                                            Presence presence = Presence::kAlways) {
-  return {key, member, presence, range};
-}
-/// Makes an entry of `kFields` for a member that is not an integer.
-template <typename Struct, typename Value>
-constexpr MessageField<Struct, Value> field(const char* key, Value Struct::*member,
-                                            Presence presence) {
-  return {key, member, presence, {}};
-}
 
 /// @name Readings and time
 /// @{
@@ -570,14 +529,15 @@ using Request = std::variant<
     CanvasInfoRequest, ResizeCanvasRequest, SaveImageRequest, SaveMapRequest, ViewModeRequest,
     SetViewModeRequest, WorldMapRequest, ObjectPoseRequest, PlaceObjectRequest,
     ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest, RestoreStateRequest,
-    NoteGoalRequest, LogRequest, SetBlackboardRequest, BlackboardRequest>;
+    NoteGoalRequest, LogRequest, SetBlackboardRequest, BlackboardRequest, ArenaRequest,
+    ArenaEventsRequest, SetConfigurationRequest, SetBlockRequest, SetTimerRequest, SetTrapRequest>;
 
 /// The result of any request; std::monostate for requests without a result.
 using Answer =
     std::variant<std::monostate, std::uint32_t, sim::LayerId, std::optional<sim::CellValue>,
                  std::vector<sim::CellValue>, std::vector<sim::LayerInfo>, CanvasImage, CanvasInfo,
                  sim::ViewMode, WorldMap, ObjectPose, PropertyValue, LogStatus, TimeStatistics,
-                 std::vector<BlackboardEntry>>;
+                 std::vector<BlackboardEntry>, ArenaStatus, ArenaEventList>;
 
 /// Calls the function of `visitor` for the type of a request. The function returns the `Result` of
 /// the request's type.

@@ -15,6 +15,7 @@
 #include "sim/devices/device.h"
 #include "sim/devices/pen.h"
 #include "sim/simulation/arena_event.h"
+#include "sim/simulation/arena_state.h"
 #include "sim/simulation/scene_snapshot.h"
 #include "sim/world/description.h"
 #include "sim/world/robot_model.h"
@@ -210,6 +211,8 @@ class Simulation {
   std::optional<std::string> set_trap_enabled(const std::string& name, bool enabled);
   /// Whether the timer or trap of that name is on; nullopt if there is none.
   [[nodiscard]] std::optional<bool> timer_or_trap_enabled(const std::string& name) const;
+  /// The configuration, timers and traps as they are now; empty without an arena controller.
+  [[nodiscard]] ArenaState arena_state() const;
   /// Whether this world records events: it has an arena controller, or blocks that rise slowly or
   /// wait.
   [[nodiscard]] bool records_arena_events() const noexcept;

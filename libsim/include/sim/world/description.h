@@ -139,10 +139,10 @@ struct SimulationDescription {
   double time_factor = 1.0;      ///< paced: simulated seconds per wall-clock second, > 0
   int start_gate_clients = 1;    ///< the clock waits until this many clients have joined, >= 1
   bool objects_locked = false;   ///< clients may look up robots and obstacles by name, but not move
-                                 ///< or change them
+                                 ///< or change them, nor command the arena controller
   Realism realism = Realism::kCourse;
   bool own_sensors_only = false;  ///< for contests: clients read only the sensors of their own
-                                  ///< robots, and neither objects by name nor the map
+                                  ///< robots, and no objects by name, map, state of the arena
 };
 
 /// A sensor or actuator of a robot.
