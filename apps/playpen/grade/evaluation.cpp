@@ -41,6 +41,17 @@ double inscribed_radius(const sim::Polygon& outline) {
                                           std::move(found), std::move(hint)});
 }
 
+/// Copies the results of the world's controller from the report, if the world has one.
+void read_verdict(const nlohmann::json& report, const Reference& reference, Measures& measures) {
+  if (report.contains("scores")) {
+    measures.score = report.at("scores").at(reference.robot).get<double>();
+  }
+  if (report.contains("verdict") && !report.at("verdict").is_null()) {
+    measures.verdict = report.at("verdict").at("passed").get<bool>();
+    measures.verdict_reason = report.at("verdict").at("reason").get<std::string>();
+  }
+}
+
 /// Copies the graded robot's results from the report. @return an error, if there is one.
 std::optional<std::string> read_report(const fs::path& file, const Reference& reference,
                                        const playerlike::Grading& asked, Measures& measures) {
@@ -82,6 +93,7 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
         found.path_ratio = *found.path_length_m / *found.shortest_path_m;
       }
     }
+    read_verdict(report, reference, found);
     measures = found;
     if (!measures.path_length_m) return "the report has no robot " + reference.robot;
   } catch (const nlohmann::json::exception& error) {
@@ -123,6 +135,7 @@ Ending ending_of(const playerlike::JobEnd& end, const Measures& measures,
   }
   if (end.program.signal) return Ending::kSignal;
   if (end.program.status != 0) return Ending::kBadStatus;
+  if (measures.verdict) return Ending::kVerdict;
   constexpr double kRounding_s = 1e-6;  // tolerance for the report's times
   const bool over = reference.duration_s && measures.sim_time_s &&
                     *measures.sim_time_s >= *reference.duration_s - kRounding_s;
@@ -135,6 +148,7 @@ std::optional<std::string> fault_of(Ending ending, const playerlike::JobEnd& end
   switch (ending) {
     case Ending::kBySelf:
     case Ending::kTimeOver:
+    case Ending::kVerdict:
       return std::nullopt;
     case Ending::kBadStatus:
     case Ending::kSignal:
@@ -224,6 +238,12 @@ Reference make_reference(const Task& task, const TaskWorld& task_world,
     refuse(task, "task/missing-goal", "", "a \"goal\" that holds for every world",
            "none for \"" + reference.world + '"', "the thresholds ask for one");
   }
+  if (world.controller.empty() && (task.thresholds.must_pass || task.thresholds.min_score)) {
+    refuse(task, "task/missing-controller", "/thresholds",
+           "worlds with a \"controller\", which gives points and verdicts",
+           "none in \"" + reference.world + '"',
+           task.thresholds.must_pass ? "\"must_pass\" asks for one" : "\"min_score\" asks for one");
+  }
   if (!task.map_layer.empty() || reference.goal) reference.truth = make_truth(world.arena);
   if (reference.goal) {
     const double radius_m = inscribed_radius(sim::find_robot_model(world, robot->model)->footprint);
@@ -250,6 +270,8 @@ std::string name_of(Ending ending) {
       return "by-itself";
     case Ending::kTimeOver:
       return "time-over";
+    case Ending::kVerdict:
+      return "verdict";
     case Ending::kBadStatus:
       return "bad-status";
     case Ending::kSignal:
@@ -276,6 +298,12 @@ std::vector<std::string> faults_of(const Thresholds& t, const Measures& m, Endin
     judge.add("goal not reached: " + sim::fixed_text(*m.goal_distance_m, 2) +
               " m away from it at the end");
   }
+  if (t.must_pass && !m.verdict) {
+    judge.add("no verdict: the world's controller did not end the run");
+  } else if (t.must_pass && !*m.verdict) {
+    judge.add("verdict: failed" + (m.verdict_reason.empty() ? "" : ": " + m.verdict_reason));
+  }
+  judge.at_least("score", m.score, t.min_score, 0);
   judge.at_least("coverage", m.coverage, t.min_coverage, 3);
   judge.at_least("map correctness", m.correctness, t.min_correctness, 3);
   judge.at_most("collisions", m.collisions ? std::optional<double>(*m.collisions) : std::nullopt,

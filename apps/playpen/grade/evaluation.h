@@ -33,8 +33,9 @@ struct Reference {
 /// The path is that of the robot's centre on the true map (kTruthCell_m), inflated by the radius of
 /// the largest circle around the middle of its axle that fits into its outline.
 ///
-/// @throws sim::ConfigError if the task does not match the world: no robot of that name, a goal
-///         that is missing although the thresholds need one, or a goal that can't be reached.
+/// @throws sim::ConfigError if the task does not match the world: no robot of that name; a goal or
+///         a controller that is missing although the thresholds need one; or a goal that can't be
+///         reached.
 [[nodiscard]] Reference make_reference(const Task& task, const TaskWorld& task_world,
                                        const sim::WorldDescription& world);
 
@@ -51,6 +52,9 @@ struct Measures {
   std::optional<double> least_clearance_m;
   std::optional<double> stalled_time_s;
   std::optional<double> sim_time_s;
+  std::optional<double> score;  ///< points of the robot; none without a controller of the arena
+  std::optional<bool> verdict;  ///< of the controller: whether the run has passed; none: no verdict
+  std::string verdict_reason;   ///< for people; may be empty
 };
 
 /// Limit of the output of a program [bytes]: the total size of the files in its output folder.
@@ -60,6 +64,7 @@ inline constexpr std::uint64_t kMostOutput = 250'000'000;
 enum class Ending {
   kBySelf,         ///< with status 0, before the end of the simulated time
   kTimeOver,       ///< with status 0, at the end of the simulated time
+  kVerdict,        ///< with status 0, after the world's controller had ended the run
   kBadStatus,      ///< the program ended with another status
   kSignal,         ///< a signal ended it: it crashed, or was killed
   kTimedOut,       ///< it exceeded its wall-clock limit
@@ -68,8 +73,8 @@ enum class Ending {
   kNotRun,         ///< the grader was told to stop before the run
 };
 
-/// Name of an ending in the JSON file: "by-itself", "time-over", "bad-status", "signal", "timeout",
-/// "too-much-output", "interrupted", "not-run".
+/// Name of an ending in the JSON file: "by-itself", "time-over", "verdict", "bad-status", "signal",
+/// "timeout", "too-much-output", "interrupted", "not-run".
 [[nodiscard]] std::string name_of(Ending ending);
 
 /// A run and its grade.

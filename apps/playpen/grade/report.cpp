@@ -30,6 +30,7 @@ constexpr Summarized kSummarized[] = {
     {"path_length", "path [m]", 2, &Measures::path_length_m},
     {"least_clearance", "least clearance [m]", 3, &Measures::least_clearance_m},
     {"sim_time", "simulated time [s]", 1, &Measures::sim_time_s},
+    {"score", "score", 0, &Measures::score},
 };
 
 struct Spread {
@@ -60,6 +61,7 @@ std::string ending_text(const GradedRun& run) {
       return "status " + std::to_string(run.status);
     case Ending::kSignal:
       return "signal " + std::to_string(run.signal.value_or(0));
+    case Ending::kVerdict:
     case Ending::kTimedOut:
     case Ending::kTooMuchOutput:
     case Ending::kInterrupted:
@@ -82,10 +84,11 @@ struct Column {
 };
 
 constexpr Column kColumns[] = {
-    {"world", true, false}, {"seed", false, false}, {"", true, false},        {"end", true, false},
-    {"goal", false, true},  {"cover", false, true}, {"correct", false, true}, {"path", false, true},
-    {"ratio", false, true}, {"coll", false, true},  {"clear", false, true},   {"sim", false, true},
-    {"wall", false, true},
+    {"world", true, false}, {"seed", false, false},   {"", true, false},
+    {"end", true, false},   {"goal", false, true},    {"score", false, true},
+    {"cover", false, true}, {"correct", false, true}, {"path", false, true},
+    {"ratio", false, true}, {"coll", false, true},    {"clear", false, true},
+    {"sim", false, true},   {"wall", false, true},
 };
 constexpr std::size_t kVerdict = 2;
 constexpr std::size_t kLeastColumns = 4;  ///< world, seed, verdict and end are always shown
@@ -99,6 +102,7 @@ Row row_of(const GradedRun& run) {
           run.passed() ? "pass" : "FAIL",
           ending_text(run),
           m.reached ? (*m.reached ? "yes" : "no") : "-",
+          number_or_dash(m.score, 0),
           number_or_dash(m.coverage, 3),
           number_or_dash(m.correctness, 3),
           number_or_dash(m.path_length_m, 2),
@@ -212,6 +216,9 @@ ordered_json to_json(const GradedRun& run) {
           {"least_clearance", or_null(m.least_clearance_m)},
           {"stalled_time", or_null(m.stalled_time_s)},
           {"sim_time", or_null(m.sim_time_s)},
+          {"score", or_null(m.score)},
+          {"verdict", m.verdict ? ordered_json(*m.verdict ? "passed" : "failed") : ordered_json()},
+          {"verdict_reason", m.verdict ? ordered_json(m.verdict_reason) : ordered_json()},
           {"wall_time", run.wall_time_s}};
 }
 

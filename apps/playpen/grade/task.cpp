@@ -24,6 +24,7 @@ constexpr NumberRange kPosition{-1e6, 1e6, false, "m"};
 constexpr NumberRange kLength{0.0, 1e6, false, "m"};
 constexpr NumberRange kTime{0.0, 1e9, true, "s"};
 constexpr NumberRange kShare{0.0, 1.0, false, ""};
+constexpr NumberRange kPoints{-1e9, 1e9, false, ""};
 
 /// An optional number.
 std::optional<double> optional_number(Reader& reader, const char* key, const NumberRange& range) {
@@ -196,6 +197,8 @@ class TaskReader {
     t.max_stalled_time_s = optional_number(*reader, "max_stalled_time", {0.0, 1e9, false, "s"});
     t.must_reach = reader->boolean("must_reach", t.must_reach);
     t.must_end = reader->boolean("must_end", t.must_end);
+    t.min_score = optional_number(*reader, "min_score", kPoints);
+    t.must_pass = reader->boolean("must_pass", t.must_pass);
     for (const char* key : {"min_coverage", "min_correctness"}) {
       if (!reader->has(key) || root.has("map")) continue;
       reader->issue("task/missing-map", "a task with the key \"map\"", "none",

@@ -32,7 +32,9 @@ struct Thresholds {
   std::optional<double> max_sim_time_s;     ///< [s]
   std::optional<double> max_stalled_time_s;  ///< [s]
   bool must_reach = false;                   ///< the robot must reach the goal
-  bool must_end = false;  ///< the program must end before the simulated time is over
+  bool must_end = false;            ///< the program must end before the simulated time is over
+  std::optional<double> min_score;  ///< points of the robot from the world's controller
+  bool must_pass = false;           ///< the controller must end the run with the verdict "passed"
 };
 
 /// A world of a task, and its own settings.

@@ -27,6 +27,7 @@ namespace {
 using nlohmann::json;
 using playerlike::JobEnd;
 using test_support::TemporaryFolder;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -120,10 +121,34 @@ TEST(MakeReference, RefusesWhatDoesNotGoTogether) {
             "");
 }
 
+TEST(MakeReference, PointsAndVerdictsNeedAController) {
+  const auto issues_of = [](const Task& task, const std::string& controller) {
+    const auto world =
+        sim::load_world_text(R"({"arena": {"size": [2, 2]}, "robots": [{}])" + controller + "}");
+    try {
+      static_cast<void>(make_reference(task, {"room.json", {}, {}}, world));
+    } catch (const sim::ConfigError& error) {
+      return error.issues().front().message();
+    }
+    return std::string();
+  };
+  Task passes;
+  passes.thresholds.must_pass = true;
+  Task scores;
+  scores.thresholds.min_score = 1.0;
+  EXPECT_THAT(issues_of(passes, ""), AllOf(HasSubstr("controller"), HasSubstr("none in \"room\""),
+                                           HasSubstr("must_pass")));
+  EXPECT_THAT(issues_of(scores, ""), HasSubstr("min_score"));
+  for (const Task& task : {passes, scores}) {
+    EXPECT_EQ(issues_of(task, R"(, "controller": {"timers": [{"name": "end", "at": 5}]})"), "");
+  }
+}
+
 /// Runs in a separate folder, on the room with a goal at (1.5, 1).
 class EvaluateTest : public testing::Test {
  protected:
-  void write_report(const json& changes = json::object(), double sim_time_s = 20.0) const {
+  void write_report(const json& changes = json::object(), double sim_time_s = 20.0,
+                    const json& of_controller = json::object()) const {
     json robot = {{"name", "a"},         {"path_length", 1.25},
                   {"collisions", 2},     {"least_clearance", 0.0},
                   {"stalled_time", 0.5}, {"final_pose", {{"x", 1.45}, {"y", 1.0}, {"yaw", 3.0}}}};
@@ -131,8 +156,9 @@ class EvaluateTest : public testing::Test {
     json other = robot;
     other["name"] = "b";
     other["path_length"] = 99.0;
-    const json report = {{"run", {{"sim_time", sim_time_s}, {"steps", steps_}}},
-                         {"robots", {other, robot}}};
+    json report = {{"run", {{"sim_time", sim_time_s}, {"steps", steps_}}},
+                   {"robots", {other, robot}}};
+    report.update(of_controller);
     folder_.write("report.json", playerlike::signed_report(report.dump(), signed_as_));
   }
 
@@ -189,6 +215,53 @@ TEST_F(EvaluateTest, AReportThatWasEditedIsRefused) {
   text.replace(at, 15, "\"collisions\": 0");
   folder_.write("report.json", text);
   EXPECT_THAT(evaluated().faults, ElementsAre("report.json was changed after the run had ended"));
+}
+
+TEST_F(EvaluateTest, TakesPointsAndVerdictOfTheController) {
+  task_.thresholds.must_pass = true;
+  task_.thresholds.min_score = 3.0;
+  const auto room_with_controller = [] {
+    sim::WorldDescription world = room();
+    world.controller.timers.emplace_back();
+    return world;
+  };
+  const auto graded = [&](const json& of_controller, double sim_time_s) {
+    write_report(json::object(), sim_time_s, of_controller);
+    GradedRun run;
+    run.asked = asked_;
+    evaluate(task_, make_reference(task_, {}, room_with_controller()),
+             {JobEnd::Kind::kEnded, {}, 1.5}, folder_.path(), run);
+    return run;
+  };
+  const json scores = {{"a", 4.0}, {"b", 99.0}};
+  const GradedRun passed =
+      graded({{"scores", scores},
+              {"verdict", {{"passed", true}, {"reason", "at the goal"}, {"time", 20.0}}}},
+             20.0);
+  EXPECT_THAT(passed.faults, IsEmpty());
+  EXPECT_EQ(passed.ending, Ending::kVerdict);
+  EXPECT_EQ(name_of(passed.ending), "verdict");
+  EXPECT_EQ(passed.measures.score, 4.0);
+  EXPECT_EQ(passed.measures.verdict, true);
+  EXPECT_EQ(passed.measures.verdict_reason, "at the goal");
+
+  task_.thresholds.must_end = true;
+  const GradedRun failed =
+      graded({{"scores", {{"a", -1.0}}},
+              {"verdict", {{"passed", false}, {"reason", "no points are left"}, {"time", 60.0}}}},
+             60.0);
+  EXPECT_THAT(failed.faults,
+              ElementsAre("verdict: failed: no points are left", "score -1, at least 3 needed"));
+  EXPECT_EQ(failed.ending, Ending::kVerdict) << "also at the end of the simulated time";
+
+  const GradedRun neither = graded({{"scores", scores}, {"verdict", nullptr}}, 60.0);
+  EXPECT_THAT(neither.faults,
+              ElementsAre("the simulated time was over before the program ended",
+                          "no verdict: the world's controller did not end the run"));
+  EXPECT_EQ(neither.ending, Ending::kTimeOver);
+
+  const GradedRun broken = graded({{"scores", json::object()}, {"verdict", nullptr}}, 20.0);
+  EXPECT_THAT(broken.faults, ElementsAre(HasSubstr("the report is not as expected")));
 }
 
 // The path is 1 m long; the goal is reached 0.1 m before its end.
@@ -376,6 +449,8 @@ TEST(FaultsOf, EachThresholdHoldsAtItsLimitAndTellsBeyond) {
   m.path_ratio = 1.5;
   m.sim_time_s = 100.0;
   m.stalled_time_s = 3.0;
+  m.score = -5.0;
+  m.verdict = true;
 
   Thresholds at;
   at.min_coverage = 0.9;
@@ -387,6 +462,8 @@ TEST(FaultsOf, EachThresholdHoldsAtItsLimitAndTellsBeyond) {
   at.max_path_ratio = 1.5;
   at.max_sim_time_s = 100.0;
   at.max_stalled_time_s = 3.0;
+  at.min_score = -5.0;
+  at.must_pass = true;
   EXPECT_THAT(faults_of(at, m, Ending::kBySelf), IsEmpty());
 
   Thresholds t;
@@ -422,6 +499,13 @@ TEST(FaultsOf, EachThresholdHoldsAtItsLimitAndTellsBeyond) {
   t.max_stalled_time_s = 0.0;
   EXPECT_THAT(faults_of(t, m, Ending::kBySelf),
               ElementsAre("stalled time 3.00 s, at most 0 s allowed"));
+  t = {};
+  t.min_score = 7.5;
+  EXPECT_THAT(faults_of(t, m, Ending::kVerdict), ElementsAre("score -5, at least 7.5 needed"));
+  t = {};
+  t.must_pass = true;
+  m.verdict = false;
+  EXPECT_THAT(faults_of(t, m, Ending::kVerdict), ElementsAre("verdict: failed"));
 }
 
 TEST(FaultsOf, ReachingAndEndingAreAskedForInWords) {

@@ -112,6 +112,20 @@ TEST(Table, HasNoColumnForWhatNoRunHasMeasured) {
                                    "room      1  pass  by itself  12.35     0  0.032  61.0   0.2"));
 }
 
+TEST(Table, HasAColumnForPointsAndTheVerdictAsEnd) {
+  GradedRun run = good_run();
+  run.measures.reached.reset();
+  run.measures.coverage.reset();
+  run.measures.correctness.reset();
+  run.measures.path_ratio.reset();
+  run.measures.score = -3.0;
+  run.ending = Ending::kVerdict;
+  EXPECT_THAT(
+      rows_of({run}, {}),
+      testing::ElementsAre("world  seed        end      score   path  coll  clear   sim  wall",
+                           "room      1  pass  verdict     -3  12.35     0  0.032  61.0   0.2"));
+}
+
 TEST(Table, LosesBlanksThenNamesThenColumnsUntilItFits) {
   // With all columns, 7 + 4 + 4 + 9 + 4 + 5 + 7 + 5 + 5 + 4 + 5 + 4 + 4 = 67 characters and 12 gaps
   // of one blank: 79.
@@ -181,11 +195,24 @@ TEST(JsonText, HasEverythingMeasuredAndNullForTheRest) {
                          {"path_length", 12.345},     {"shortest_path", 10.0},
                          {"path_ratio", 1.2345},      {"collisions", 0},
                          {"least_clearance", 0.0321}, {"stalled_time", 0.0},
-                         {"sim_time", 61.04},         {"wall_time", 0.25}};
+                         {"sim_time", 61.04},         {"score", nullptr},
+                         {"verdict", nullptr},        {"verdict_reason", nullptr},
+                         {"wall_time", 0.25}};
   EXPECT_EQ(whole.at("runs").at(0), expected);
   const json& crashed = whole.at("runs").at(1);
   EXPECT_EQ(crashed.at("end"), json({{"kind", "signal"}, {"signal", 11}}));
   EXPECT_EQ(crashed.at("faults").size(), 1U);
+
+  GradedRun failed = good_run();
+  failed.ending = Ending::kVerdict;
+  failed.measures.score = -2.5;
+  failed.measures.verdict = false;
+  failed.measures.verdict_reason = "caught";
+  const json run = json::parse(json_text(grade_of({failed}))).at("runs").at(0);
+  EXPECT_EQ(run.at("end"), json({{"kind", "verdict"}}));
+  EXPECT_EQ(run.at("score"), -2.5);
+  EXPECT_EQ(run.at("verdict"), "failed");
+  EXPECT_EQ(run.at("verdict_reason"), "caught");
   for (const char* key : {"reached", "coverage", "path_ratio", "collisions", "sim_time"}) {
     EXPECT_TRUE(crashed.at(key).is_null()) << key;
   }

@@ -72,6 +72,8 @@ TEST_F(TaskTest, NeedsWorldsOnlyAndHasDefaults) {
   EXPECT_FALSE(t.max_collisions);
   EXPECT_FALSE(t.must_reach);
   EXPECT_FALSE(t.must_end);
+  EXPECT_FALSE(t.min_score);
+  EXPECT_FALSE(t.must_pass);
 }
 
 TEST_F(TaskTest, ReadsEverySetting) {
@@ -87,7 +89,8 @@ TEST_F(TaskTest, ReadsEverySetting) {
     "thresholds": {
       "min_coverage": 0.9, "min_correctness": 0.8, "max_collisions": 3, "min_clearance": 0.01,
       "min_path_length": 1, "max_path_length": 2, "max_path_ratio": 1.5, "max_sim_time": 20,
-      "max_stalled_time": 0, "must_reach": true, "must_end": true
+      "max_stalled_time": 0, "must_reach": true, "must_end": true,
+      "min_score": -2.5, "must_pass": true
     }
   })");
   EXPECT_EQ(task.description, "what to do");
@@ -123,6 +126,8 @@ TEST_F(TaskTest, ReadsEverySetting) {
   EXPECT_EQ(t.max_stalled_time_s, 0.0);
   EXPECT_TRUE(t.must_reach);
   EXPECT_TRUE(t.must_end);
+  EXPECT_EQ(t.min_score, -2.5);
+  EXPECT_TRUE(t.must_pass);
 }
 
 TEST_F(TaskTest, SeedsMayBeANumberOfThem) {
@@ -245,6 +250,12 @@ const BadTask kBadTasks[] = {
      "/thresholds/max_stalled_time", "at least 0 s", "-0.1"},
     {"must_end_number", R"("thresholds": {"must_end": 1})", "world/wrong-type",
      "/thresholds/must_end", "true or false", "1"},
+    {"score_text", R"("thresholds": {"min_score": "5"})", "world/wrong-type",
+     "/thresholds/min_score", "a number", "\"5\""},
+    {"score_large", R"("thresholds": {"min_score": 1e10})", "world/out-of-range",
+     "/thresholds/min_score", "from -1e9", "1e10"},
+    {"must_pass_number", R"("thresholds": {"must_pass": 1})", "world/wrong-type",
+     "/thresholds/must_pass", "true or false", "1"},
     {"must_reach_text", R"("thresholds": {"must_reach": "yes"})", "world/wrong-type",
      "/thresholds/must_reach", "true or false", "\"yes\""},
     {"coverage_without_map", R"("thresholds": {"min_coverage": 1})", "task/missing-map",
