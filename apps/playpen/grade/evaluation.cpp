@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -52,9 +55,60 @@ void read_verdict(const nlohmann::json& report, const Reference& reference, Meas
   }
 }
 
+/// The blocks of the arena, according to a report.
+struct Blocks {
+  std::map<std::string, bool> at_end;  ///< whether each dynamic block is in the way, by its name
+  std::set<std::string> opened;        ///< those that were out of the way at some time of the run
+};
+
+/// Reads the blocks from a report; nullopt if it has none: then they do not change.
+std::optional<Blocks> read_blocks(const nlohmann::json& report, const Reference& reference) {
+  if (!report.contains("blocks")) return std::nullopt;
+  Blocks blocks;
+  for (const auto& [name, state] : report.at("blocks").items()) {
+    blocks.at_end[name] = state == "extended" || state == "rising" || state == "sinking";
+    if (!blocks.at_end[name]) blocks.opened.insert(name);
+  }
+  for (const sim::ObstacleDescription& block : reference.arena.obstacles) {
+    if (block.state == sim::ObstacleState::kRetracted) blocks.opened.insert(block.name);
+  }
+  for (const nlohmann::json& event : report.at("events")) {
+    if (event.at("kind") == "retracted") blocks.opened.insert(event.at("what").get<std::string>());
+  }
+  return blocks;
+}
+
+/// The arena in which some dynamic blocks have another state.
+sim::ArenaDescription with_blocks(sim::ArenaDescription arena,
+                                  const std::function<bool(const std::string&)>& is_extended) {
+  for (sim::ObstacleDescription& block : arena.obstacles) {
+    if (block.type != sim::ObstacleType::kDynamic) continue;
+    block.state =
+        is_extended(block.name) ? sim::ObstacleState::kExtended : sim::ObstacleState::kRetracted;
+  }
+  return arena;
+}
+
+/// Compares a map with the arena at the end of the run. Floor counts as reachable if the robot's
+/// start leads to it through blocks that were out of the way at some time.
+MapScore score_with_blocks(const sim::OccupancyMap& map, const Reference& reference,
+                           const Blocks& blocks) {
+  const auto stands = [&blocks](const std::string& name) {
+    const auto found = blocks.at_end.find(name);
+    return found != blocks.at_end.end() && found->second;
+  };
+  const auto never_opened = [&blocks](const std::string& name) {
+    return blocks.opened.count(name) == 0;
+  };
+  return score_map_within(
+      map, make_truth(with_blocks(reference.arena, stands)),
+      reachable_cells(make_truth(with_blocks(reference.arena, never_opened)), reference.start));
+}
+
 /// Copies the graded robot's results from the report. @return an error, if there is one.
 std::optional<std::string> read_report(const fs::path& file, const Reference& reference,
-                                       const playerlike::Grading& asked, Measures& measures) {
+                                       const playerlike::Grading& asked, Measures& measures,
+                                       std::optional<Blocks>& blocks) {
   std::string text;
   if (const auto problem = sim::read_whole_file(file.string(), {}, text)) {
     if (problem->fault == sim::FileFault::kMissing) {
@@ -94,6 +148,7 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
       }
     }
     read_verdict(report, reference, found);
+    blocks = read_blocks(report, reference);
     measures = found;
     if (!measures.path_length_m) return "the report has no robot " + reference.robot;
   } catch (const nlohmann::json::exception& error) {
@@ -103,13 +158,15 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
 }
 
 std::optional<std::string> read_drawn_map(const fs::path& folder, const Task& task,
-                                          const Reference& reference, Measures& measures) {
+                                          const Reference& reference,
+                                          const std::optional<Blocks>& blocks, Measures& measures) {
   const std::string name = "layers/" + task.map_layer + ".yaml";
   std::error_code error;
   if (!fs::is_regular_file(folder / name, error)) return "no map: there is no " + name;
   try {
     const sim::OccupancyMap map = sim::io::read_map((folder / name).string());
-    const MapScore score = score_map(map, reference.truth, reference.start);
+    const MapScore score = blocks ? score_with_blocks(map, reference, *blocks)
+                                  : score_map(map, reference.truth, reference.start);
     measures.coverage = score.coverage;
     measures.correctness = score.correctness;
   } catch (const sim::ConfigError& e) {
@@ -229,6 +286,7 @@ Reference make_reference(const Task& task, const TaskWorld& task_world,
   }
   reference.robot = robot->name;
   reference.start = robot->pose.position();
+  reference.arena = world.arena;
   reference.duration_s = task.duration_s;
   if (!reference.duration_s && world.simulation.duration_ns) {
     reference.duration_s = sim::to_seconds(*world.simulation.duration_ns);
@@ -322,9 +380,10 @@ void evaluate(const Task& task, const Reference& reference, const playerlike::Jo
   std::optional<std::string> problem;
   if (end.kind != playerlike::JobEnd::Kind::kNotStarted) {
     run.measures.shortest_path_m = reference.shortest_path_m;
-    problem = read_report(folder / "report.json", reference, run.asked, run.measures);
+    std::optional<Blocks> blocks;
+    problem = read_report(folder / "report.json", reference, run.asked, run.measures, blocks);
     if (!problem && !task.map_layer.empty()) {
-      problem = read_drawn_map(folder, task, reference, run.measures);
+      problem = read_drawn_map(folder, task, reference, blocks, run.measures);
       // A missing map is no problem if no threshold needs it.
       if (!task.thresholds.min_coverage && !task.thresholds.min_correctness) problem.reset();
     }

@@ -25,7 +25,8 @@ struct Reference {
   std::optional<double> duration_s;  ///< simulated limit [s]
   std::optional<Goal> goal;
   std::optional<double> shortest_path_m;  ///< from start to goal; none without a goal
-  sim::OccupancyMap truth;                ///< empty unless the task names a map
+  sim::OccupancyMap truth;      ///< at the start; empty unless the task names a map or a goal
+  sim::ArenaDescription arena;  ///< at the start
 };
 
 /// Computes what does not depend on the program: the true map and the shortest path to the goal.

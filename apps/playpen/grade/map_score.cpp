@@ -99,13 +99,17 @@ std::vector<std::uint8_t> reachable_cells(const sim::OccupancyMap& truth, const 
 
 MapScore score_map(const sim::OccupancyMap& map, const sim::OccupancyMap& truth,
                    const sim::Vec2& start) {
+  return score_map_within(map, truth, reachable_cells(truth, start));
+}
+
+MapScore score_map_within(const sim::OccupancyMap& map, const sim::OccupancyMap& truth,
+                          const std::vector<std::uint8_t>& reachable) {
   MapScore score;
-  const std::vector<std::uint8_t> reachable = reachable_cells(truth, start);
   std::size_t covered = 0;
   for (int row = 0; row < truth.height; ++row) {
     for (int column = 0; column < truth.width; ++column) {
       const Cell cell{column, row};
-      if (reachable[index(truth, cell)] == 0) continue;
+      if (reachable[index(truth, cell)] == 0 || state_at(truth, cell) != CellState::kFree) continue;
       ++score.reachable_cells;
       const std::optional<Cell> drawn = cell_at(map, middle_of(truth, cell));
       if (drawn && state_at(map, *drawn) == CellState::kFree) ++covered;

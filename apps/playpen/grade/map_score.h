@@ -48,4 +48,10 @@ struct MapScore {
 [[nodiscard]] MapScore score_map(const sim::OccupancyMap& map, const sim::OccupancyMap& truth,
                                  const sim::Vec2& start);
 
+/// Compares a map with the truth, as score_map() does.
+/// @param reachable  for each cell of the true map: whether coverage considers it if it is free.
+[[nodiscard]] MapScore score_map_within(const sim::OccupancyMap& map,
+                                        const sim::OccupancyMap& truth,
+                                        const std::vector<std::uint8_t>& reachable);
+
 }  // namespace playpen::grade

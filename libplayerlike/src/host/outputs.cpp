@@ -15,6 +15,7 @@
 #include <system_error>
 #include <vector>
 
+#include "host/arena.h"
 #include "host/picture_sizes.h"
 #include "host/recorder.h"
 #include "playerlike/host/results.h"
@@ -152,7 +153,7 @@ void add_events(const sim::Simulation& simulation, const std::vector<Goal>& goal
   }
 }
 
-// Events of the arena, and the scores and the verdict of its controller.
+// Events of the arena, its blocks, and the scores and the verdict of its controller.
 void add_arena(const sim::Simulation& simulation, nlohmann::ordered_json& report) {
   using nlohmann::ordered_json;
   if (!simulation.records_arena_events()) return;
@@ -167,6 +168,8 @@ void add_arena(const sim::Simulation& simulation, nlohmann::ordered_json& report
     if (e.value != 0.0 || e.kind == sim::ArenaEventKind::kEnd) event["value"] = e.value;
     events.push_back(std::move(event));
   }
+  ordered_json& blocks = report["blocks"] = ordered_json::object();
+  for (const ArenaBlock& block : arena_blocks(simulation)) blocks[block.name] = block.state;
   if (simulation.world().controller.empty()) return;
   ordered_json& scores = report["scores"] = ordered_json::object();
   for (std::size_t i = 0; i < simulation.scores().size(); ++i) {

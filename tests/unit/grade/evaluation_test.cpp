@@ -424,6 +424,53 @@ TEST_F(EvaluateTest, ScoresTheMapOfTheNamedLayer) {
   EXPECT_THAT(half.faults, ElementsAre("coverage 0.500, at least 0.98 needed"));
 }
 
+// A block divides the room into halves.
+TEST_F(EvaluateTest, ScoresTheMapByTheBlocksAtTheEnd) {
+  const auto divided = [](const char* state) {
+    return room(
+        R"({"name": "d", "center": [1, 1], "size": [0.1, 2], "type": "dynamic", "state": ")" +
+        std::string(state) + "\"}");
+  };
+  task_ = Task();
+  task_.map_layer = "occupancy";
+  const auto measured = [&](const char* at_start, const char* at_end, const json& events) {
+    write_report(json::object(), 20.0, {{"events", events}, {"blocks", {{"d", at_end}}}});
+    GradedRun run;
+    run.asked = asked_;
+    evaluate(task_, make_reference(task_, {}, divided(at_start)), {JobEnd::Kind::kEnded, {}, 1.5},
+             folder_.path(), run);
+    return run.measures;
+  };
+  const json sank = {{{"kind", "retracted"}, {"what", "d"}}};
+  folder_.write("layers/occupancy.yaml", "");  // makes the folder
+  // The map shows the left half, the block, and nothing of the right half.
+  sim::OccupancyMap map = make_truth(divided("extended").arena);
+  for (int row = 0; row < map.height; ++row) {
+    for (int column = map.width / 2 + 3; column < map.width; ++column) {
+      map.cells[static_cast<std::size_t>(row * map.width + column)] = 0.5F;
+    }
+  }
+  sim::io::write_map(map, folder_ / "layers/occupancy");
+  const Measures closed = measured("extended", "extended", json::array());
+  EXPECT_EQ(closed.coverage, 1.0) << "the right half was never within reach";
+  EXPECT_EQ(closed.correctness, 1.0);
+  for (const Measures& m :
+       {measured("extended", "extended", sank), measured("retracted", "rising", json::array())}) {
+    EXPECT_NEAR(m.coverage.value_or(0.0), 0.5, 0.01) << "the block was open for a while";
+    EXPECT_EQ(m.correctness, 1.0);
+  }
+  const Measures open = measured("extended", "waiting", json::array());
+  EXPECT_LT(open.coverage.value_or(1.0), 0.49) << "the place of the block is free at the end";
+  EXPECT_LT(open.correctness.value_or(1.0), 1.0);
+
+  write_report(json::object(), 20.0, {{"blocks", {{"d", "extended"}}}});
+  GradedRun run;
+  run.asked = asked_;
+  evaluate(task_, make_reference(task_, {}, divided("extended")), {JobEnd::Kind::kEnded, {}, 1.5},
+           folder_.path(), run);
+  EXPECT_THAT(run.faults, ElementsAre(HasSubstr("the report is not as expected")));
+}
+
 TEST_F(EvaluateTest, AMapThatNoThresholdAsksForMayBeMissing) {
   write_report();
   task_.map_layer = "occupancy";

@@ -61,6 +61,16 @@ TEST(ScoreMap, TheTruthItselfIsPerfect) {
   EXPECT_EQ(score.known_cells, 40U);
 }
 
+TEST(ScoreMap, WithinGivenCellsConsidersTheFreeOnesOfThem) {
+  std::vector<std::uint8_t> all(kTruth.cells.size(), 1);
+  const MapScore whole = score_map_within(kTruth, kTruth, all);
+  EXPECT_EQ(whole.coverage, 1.0);
+  EXPECT_GT(whole.reachable_cells, 12U) << "free cells that do not hang together with the start";
+  EXPECT_LT(whole.reachable_cells, all.size()) << "solid cells do not count";
+  EXPECT_EQ(score_map_within(kTruth, kTruth, std::vector<std::uint8_t>(all.size(), 0)).coverage,
+            0.0);
+}
+
 TEST(ScoreMap, UnknownCellsCoverNothingAndAreNotJudged) {
   const OccupancyMap map = drawn_map({"????????",  //
                                       "?..?????",  //

@@ -230,9 +230,25 @@ TEST(OutputsOfAnArenaController, AreEventsScoresAndVerdict) {
   EXPECT_EQ(report.at("scores"), nlohmann::json::parse(R"({"r1": 2.0})"));
   EXPECT_EQ(report.at("verdict"),
             nlohmann::json::parse(R"({"passed": false, "reason": "why", "time": 0.0})"));
-  for (const char* key : {"events", "scores", "verdict"}) {
+  EXPECT_EQ(report.at("blocks"), nlohmann::json::object());
+  for (const char* key : {"events", "blocks", "scores", "verdict"}) {
     EXPECT_FALSE(report_of("").contains(key)) << key;
   }
+}
+
+TEST(OutputsOfAnArenaController, HaveTheStateOfEachDynamicBlock) {
+  sim::Simulation simulation(sim::load_world_text(R"({"arena": {"size": [4, 4], "obstacles": [
+      {"name": "wall", "center": [3, 1]}, {"name": "a", "center": [3, 2], "type": "dynamic"},
+      {"name": "b", "center": [3, 3], "type": "dynamic", "rise_speed": 0.1},
+      {"name": "c", "center": [1, 1], "type": "dynamic", "state": "retracted",
+       "when_blocked": "wait"}]},
+    "robots": [{"pose": {"x": 1, "y": 1}}],
+    "controller": {"timers": [{"at": 0, "do": [{"extend": ["c"]}, {"retract": ["b"]}]}]}})"));
+  simulation.step();
+  const auto report =
+      nlohmann::json::parse(report_text(simulation, Recorder({}, simulation), {}, {}));
+  EXPECT_EQ(report.at("blocks"),
+            nlohmann::json::parse(R"({"a": "extended", "b": "sinking", "c": "waiting"})"));
 }
 
 TEST(OutputsInALocale, WithADecimalCommaAreTheSameBytesAsWithout) {
