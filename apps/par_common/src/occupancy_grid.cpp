@@ -122,6 +122,26 @@ void OccupancyGrid::set_free(const Point& centre, double radius_m) {
   }
 }
 
+void OccupancyGrid::set_unknown(const Pose& centre, double length_m, double width_m) {
+  const double reach_m = 0.5 * std::hypot(length_m, width_m);
+  const Cell low = frame().cell_of({centre.x - reach_m, centre.y + reach_m});
+  const Cell high = frame().cell_of({centre.x + reach_m, centre.y - reach_m});
+  const double c = std::cos(centre.yaw);
+  const double s = std::sin(centre.yaw);
+  for (int row = std::max(0, low.row); row <= std::min(frame().height - 1, high.row); ++row) {
+    for (int column = std::max(0, low.column); column <= std::min(frame().width - 1, high.column);
+         ++column) {
+      const Point point = frame().centre_of({column, row});
+      const double dx = point.x - centre.x;
+      const double dy = point.y - centre.y;
+      if (std::fabs(c * dx + s * dy) <= 0.5 * length_m &&
+          std::fabs(c * dy - s * dx) <= 0.5 * width_m) {
+        log_odds_[{column, row}] = 0.0F;
+      }
+    }
+  }
+}
+
 Mask cells_in_state(const Grid<CellState>& states, CellState state) {
   Mask mask(states.frame());
   std::transform(states.values().begin(), states.values().end(), mask.values().begin(),

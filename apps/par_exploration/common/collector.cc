@@ -152,6 +152,9 @@ void CCollector::integrate() {
   }
   seen.echoes = smooth(seen.echoes);
 
+  for (const Area& area : map.takeForgotten()) {
+    grid.set_unknown(area.centre, area.length, area.width);
+  }
   if (laser->IsFresh()) {
     laser->NotFresh();
     grid.update(scan);

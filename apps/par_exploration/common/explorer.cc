@@ -183,6 +183,7 @@ bool CExplorer::mustPlan() const {
 // nothing left to do.
 CExplorer::Outcome CExplorer::plan() {
   planTime = now.time;
+  const bool mayEnd = lookAhead();
   known = map->copy().states();
 
   // The robot's centre must not enter inflated obstacles or unknown cells.
@@ -224,7 +225,7 @@ CExplorer::Outcome CExplorer::plan() {
     noStart = 0;
     if (!chooseTarget(frontiers, hidden, *start)) {
       layers->drawPath({});
-      nothingFound++;
+      nothingFound = mayEnd ? nothingFound + 1 : 0;
       return nothingFound < SURE ? RUNNING : EXPLORED;
     }
   }
@@ -249,6 +250,11 @@ void CExplorer::keepOrDropTarget(const par::Mask& frontier) {
   } else if (target.lookedFor >= LOOK || now.time > target.deadline) {
     giveUp();
   }
+}
+
+void CExplorer::lookAgain(const Area& area) {
+  map->forget(area);
+  std::fill(tries.values().begin(), tries.values().end(), static_cast<std::uint8_t>(0));
 }
 
 // Excludes the target's cells and their neighbours from all later frontiers.

@@ -32,8 +32,9 @@
 // find the frontiers, find for each the best place to observe it from, choose one, plan the path,
 // and smooth it.
 //
-// The exploration ends when no frontier is left that can be seen from a reachable place. Each
-// frontier is tried only once. If a frontier remains after the robot has observed it, or if the
+// The exploration ends when no frontier is left that can be seen from a reachable place. (A solution
+// for an arena that changes can delay the end, and make the robot look at places again: lookAhead(),
+// lookAgain().) Each frontier is tried only once. If a frontier remains after the robot has observed it, or if the
 // robot does not reach it in time, its cells are given up for good. This guarantees that the
 // exploration ends.
 class CExplorer : public imr::concurrent::CThread {
@@ -74,6 +75,15 @@ class CExplorer : public imr::concurrent::CThread {
   // is at least one candidate. `states` is the state of each cell of the map.
   virtual std::size_t choose(const std::vector<Candidate>& candidates,
                              const par::Grid<par::CellState>& states) = 0;
+
+  // Called before each plan, that is, at least twice a second. Returns whether the exploration may
+  // end if there is nothing left to explore now.
+  virtual bool lookAhead() { return true; }
+  // Forgets the map of an area, where something has changed, and tries all frontiers once more. Only
+  // lookAhead() may call it.
+  void lookAgain(const Area& area);
+  // The client of the thread that calls choose() and lookAhead().
+  CCMorse::PlayerClient* getClient() const { return client.get(); }
 
   void threadBody() override;
 

@@ -39,6 +39,18 @@ par::OccupancyGrid CSharedMap::copy() const {
   return map;
 }
 
+void CSharedMap::forget(const Area& area) {
+  const ScopedLock lk(mtx);
+  forgotten.push_back(area);
+}
+
+std::vector<Area> CSharedMap::takeForgotten() {
+  const ScopedLock lk(mtx);
+  std::vector<Area> areas;
+  areas.swap(forgotten);
+  return areas;
+}
+
 bool CSharedMap::closed() const {
   const ScopedLock lk(mtx);
   return isClosed;

@@ -14,6 +14,13 @@ struct Observation {
   std::vector<par::Point> echoes;  // echoes of the laser, in the robot's frame: x ahead, y left [m]
 };
 
+// A rectangle of the floor.
+struct Area {
+  par::Pose centre;     // yaw: the direction of its length
+  double length = 0.0;  // [m]
+  double width = 0.0;   // [m]
+};
+
 // The map and its time: the only data that the two threads share.
 //
 // The thread that collects data writes; the thread that drives reads. A reader that has received
@@ -34,6 +41,10 @@ class CSharedMap {
   bool waitFor(double time, Observation& observation);
   // A copy of the map, which does not change while the other thread continues.
   par::OccupancyGrid copy() const;
+  // Asks the writer to forget what it knows of an area, before it adds the next scan.
+  void forget(const Area& area);
+  // For the writer: the areas since its last call.
+  std::vector<Area> takeForgotten();
   // Whether close() was called.
   bool closed() const;
 
@@ -45,6 +56,7 @@ class CSharedMap {
   imr::concurrent::Condition changed;
   par::OccupancyGrid map;
   Observation newest;
+  std::vector<Area> forgotten;
   bool isClosed = false;
 };
 

@@ -186,6 +186,27 @@ TEST(OccupancyGrid, TakesTheFloorUnderTheRobotAsFree) {
   EXPECT_EQ(map.state({0, 8}), CellState::kFree);
 }
 
+TEST(OccupancyGrid, ForgetsTheCellsOfARectangle) {
+  const auto unknown_of = [](const Pose& centre, double length_m, double width_m) {
+    OccupancyGrid map(test::frame(9, 9, 0.1));
+    map.set_free({0.45, 0.45}, 2.0);  // all cells
+    map.set_unknown(centre, length_m, width_m);
+    return count(cells_in_state(map.states(), CellState::kUnknown));
+  };
+  EXPECT_EQ(unknown_of({0.45, 0.45, 0.0}, 0.5, 0.1), 5U);
+  EXPECT_EQ(unknown_of({0.45, 0.45, kPi / 2.0}, 0.5, 0.1), 5U);
+  // Along a diagonal, the centres are 0.141 m apart; the next diagonal is 0.07 m away.
+  EXPECT_EQ(unknown_of({0.45, 0.45, kPi / 4.0}, 0.58, 0.1), 5U);
+  EXPECT_EQ(unknown_of({0.0, 0.0, 0.0}, 0.4, 0.2), 2U) << "partly outside";
+  EXPECT_EQ(unknown_of({20.0, -3.0, 0.0}, 1.0, 1.0), 0U);
+
+  OccupancyGrid map(test::frame(9, 9, 0.1));
+  map.set_free({0.45, 0.45}, 2.0);
+  map.set_unknown({0.25, 0.75, 0.0}, 0.1, 0.1);
+  EXPECT_EQ(map.log_odds({2, 1}), 0.0);
+  EXPECT_EQ(map.state({2, 2}), CellState::kFree);
+}
+
 TEST(OccupancyGrid, RefusesParametersWithoutSense) {
   const auto refused = [](auto change) {
     OccupancyParams params;

@@ -87,6 +87,13 @@ class OccupancyGrid {
   /// laser may not see it.
   void set_free(const Point& centre, double radius_m);
 
+  /// Forgets all cells whose centre is in a rectangle: they become unknown. Use it where something
+  /// has changed since the robot was there.
+  /// @param centre    its middle, in W; yaw is the direction of its length.
+  /// @param length_m  extent along the yaw [m], >= 0.
+  /// @param width_m   extent across the yaw [m], >= 0.
+  void set_unknown(const Pose& centre, double length_m, double width_m);
+
  private:
   void mark_ray(const Cell& from, const Cell& to, bool hit);
 
