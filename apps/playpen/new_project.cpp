@@ -74,7 +74,7 @@ void add_new(CommandLine& line) {
     list += (list.empty() ? "" : ", ") + std::string(one.name);
   }
   CLI::Option* const kind =
-      command.add_option("template", request->kind, "intro, planning, exploration or client");
+      command.add_option("template", request->kind, "A task of the course, or client");
   line.takes(kind->required()->type_name(""), names);
   kind->check([names, list](const std::string& text) {
     for (const std::string& name : names) {
@@ -88,8 +88,9 @@ void add_new(CommandLine& line) {
       command.add_option("dir", request->folder, "Folder to make; it may be there if it is empty");
   line.takes(folder->required()->type_name(""), ValueKind::Kind::kFolder);
   command.footer(
-      "intro, planning and exploration are the course's tasks (docs/course_guide.md),\n"
-      "client is the smallest client program, with CMakeLists.txt and Makefile.\n"
+      "intro, planning, exploration, traps, exploration_changing and chase are the\n"
+      "course's tasks (docs/course_guide.md), client is the smallest client program,\n"
+      "with CMakeLists.txt and Makefile.\n"
       "For example:\n"
       "  playpen new intro my_robot");
   command.callback([request, &line] {

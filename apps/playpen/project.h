@@ -18,13 +18,18 @@ struct ProjectTemplate {
   const char* task;           ///< the task that it is for; "": none
 };
 
-inline constexpr std::array<ProjectTemplate, 4> kProjectTemplates{{
+inline constexpr std::array<ProjectTemplate, 7> kProjectTemplates{{
     {"intro", "the introduction task", "apps/par_intro/template", "par_intro_template",
      "par_intro"},
     {"planning", "the planning task", "apps/par_planning/template", "par_planning_template",
      "par_planning"},
     {"exploration", "the exploration task", "apps/par_exploration/template",
      "par_exploration_template", "par_exploration"},
+    {"traps", "the traps task", "apps/par_traps/template", "par_traps_template", "par_traps"},
+    {"exploration_changing", "the task of exploring an arena that changes",
+     "apps/par_exploration_changing/template", "par_exploration_changing_template",
+     "par_exploration_changing"},
+    {"chase", "the chase task", "apps/par_chase/template", "par_chase_template", "par_chase"},
     {"client", "a Player client program", "apps/client/template", "my_robot", ""},
 }};
 

@@ -23,7 +23,8 @@ else
     docs_actarray_actarray \
     compat_four_ports compat_roomba_maze \
     par_intro_solution_wall par_intro_solution_avoid par_planning_solution_dijkstra par_planning_solution_theta \
-    par_exploration_solution_nearest
+    par_exploration_solution_nearest par_traps_solution_learn \
+    par_exploration_changing_solution_again par_chase_solution_patrol
   bin=build/dev/bin
 fi
 out=out/pictures
@@ -65,6 +66,13 @@ done
 run worlds/tasks/par_planning_2.json planning_2 -- "$bin/par_planning_solution_dijkstra"
 take planning_2/scene.png planning_2
 
+run worlds/tasks/par_traps.json traps -- "$bin/par_traps_solution_learn"
+take traps/scene.png traps
+run worlds/tasks/par_exploration_changing.json exploration_changing --snapshot-every 4 -- \
+  "$bin/par_exploration_changing_solution_again"
+take exploration_changing/snapshots/scene_000048.000s.png exploration_changing
+run worlds/tasks/par_chase.json chase -- "$bin/par_chase_solution_patrol"
+take chase/scene.png chase
 run worlds/tasks/par_exploration.json exploration --snapshot-every 4 -- \
   "$bin/par_exploration_solution_nearest"
 take exploration/snapshots/scene_000024.000s.png exploration

@@ -16,7 +16,7 @@ endforeach()
 # Each template is copied and finds the package at its new place.
 set(projects "${STAGE_DIR}/new projects")
 file(REMOVE_RECURSE "${projects}")
-foreach(kind IN ITEMS intro planning exploration client)
+foreach(kind IN ITEMS intro planning exploration traps exploration_changing chase client)
   run("playpen new ${kind}" "${command}" new ${kind} "${projects}/${kind}")
   if(NOT run_output MATCHES "cmake --build")
     message(FATAL_ERROR "playpen new printed no commands:\n${run_output}")

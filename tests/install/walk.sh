@@ -132,7 +132,7 @@ has out/cave/scene.png out/cave/report.json
 
 headline "playpen new, list and doctor"
 says 'cave' "$playpen" list
-for kind in intro planning exploration client; do
+for kind in intro planning exploration traps exploration_changing chase client; do
   cd "$HOME/walk"
   says . "$playpen" new "$kind" "new_$kind"
   says . cmake -S "new_$kind" -B "new_$kind/build"

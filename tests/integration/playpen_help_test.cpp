@@ -156,11 +156,12 @@ TEST(PlaypenCompletion, OfBashKnowsCommandsOptionsValuesAndNames) {
   EXPECT_THAT(completed({"run", "off"}), ElementsAre("office"));
   EXPECT_THAT(completed({"run", "--duration", "5", "off"}), ElementsAre("office"));
   EXPECT_THAT(completed({"run", "wo"}), ElementsAre("world.json"));
-  EXPECT_THAT(completed({"grade", "par_e"}), ElementsAre("par_exploration"));
+  EXPECT_THAT(completed({"grade", "par_p"}), ElementsAre("par_planning"));
   EXPECT_THAT(completed({"grade", "par_intro", "cav"}), ElementsAre("cave"));
   EXPECT_THAT(completed({"check", "pioneer2"}), ElementsAre("pioneer2dx"));
   EXPECT_THAT(completed({"new", ""}),
-              UnorderedElementsAre("intro", "planning", "exploration", "client"));
+              UnorderedElementsAre("intro", "planning", "exploration", "traps",
+                                   "exploration_changing", "chase", "client"));
   EXPECT_THAT(completed({"help", "gr"}), ElementsAre("grade"));
   EXPECT_THAT(completed({"run", "cave", "--", "./n"}), ElementsAre("./notes.txt"));
   EXPECT_THAT(completed({"run", "cave", "--", "./x", "no"}), ElementsAre("notes.txt"));

@@ -83,6 +83,15 @@ TEST(PlaypenNew, TheExplorationTemplateBuildsAndRuns) {
   build_and_run("exploration", "out/par_exploration/report.json");
 }
 
+TEST(PlaypenNew, TheTrapsTemplateBuildsAndRuns) {
+  build_and_run("traps", "out/par_traps/report.json");
+}
+
+TEST(PlaypenNew, TheTemplatesOfChangingArenasBuildAndRun) {
+  build_and_run("exploration_changing", "out/par_exploration_changing/report.json");
+  build_and_run("chase", "out/par_chase/report.json");
+}
+
 TEST(PlaypenNew, TheClientBuildsAndDrives) { build_and_run("client", "out/cave/report.json"); }
 
 TEST(PlaypenNew, PrintsTheNextCommandsForTheTask) {

@@ -145,6 +145,10 @@ TEST_F(RemotePrograms, OfExplorationDoTheSame) {
   }
 }
 
+TEST_F(RemotePrograms, OfTheTrapsDoTheSame) {
+  expect_the_same_across_a_network(task_world("par_traps"), {"--seed", "3"}, {TRAPS_PROGRAM});
+}
+
 TEST_F(RemotePrograms, AsTheyAreInTheWildDoTheSame) {
   const std::string world = PLAYPEN_SOURCE_DIR "/worlds/syrotek.json";
   expect_the_same_across_a_network(world, {}, {PLAYER_PROGRAM});

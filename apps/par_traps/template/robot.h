@@ -1,0 +1,95 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef PAR_TRAPS_ROBOT_H
+#define PAR_TRAPS_ROBOT_H
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "imr-h/imr_config.h"
+#include "imr-h/thread.h"
+#include "libCCMorse/ArenaProxy.h"
+#include "libCCMorse/CCMorse.h"
+#include "robot_types.h"
+
+// A square of the map: column from the left and row from the TOP, both starting at 0. It is the
+// pixel of the canvas with the same column and row.
+struct Cell {
+  int column;
+  int row;
+};
+
+// The map, or any other set of cells: a cell is occupied if it belongs to the set.
+struct Map {
+  int width = 0;               // columns
+  int height = 0;              // rows
+  double cellSize = 0.0;       // side of a cell [m]
+  std::vector<bool> occupied;  // cell (column, row) is at row * width + column
+
+  bool isOccupied(const Cell& cell) const {
+    return occupied[static_cast<std::size_t>(cell.row * width + cell.column)];
+  }
+};
+
+// A robot controlled by its own thread, as in the other tasks. The thread runs navigation(), in
+// robot.cc.
+class CRobot : public imr::concurrent::CThread {
+ public:
+  // Declares the command-line settings and their defaults.
+  static imr::CConfig& getConfig(imr::CConfig& config);
+
+  // Connects to the robot and waits for its first data.
+  explicit CRobot(imr::CConfig& cfg);
+  ~CRobot();
+
+  // Asks the thread to end after its current iteration. Any thread may call this.
+  void stop();
+
+ protected:
+  void threadBody() override;
+
+ private:
+  void navigation();
+
+  // Yours, in this order:
+  bool lookAtEvents();            // learns from the events; true: plan a new path
+  void addTraps(Map& map) const;  // occupies the cells that the robot must not enter
+
+  // These already work, like the functions that you wrote for the planning task.
+  Map fetchMap() const;
+  Map inflate(const Map& map, double radius) const;
+  std::vector<Cell> plan(const Map& map, const Cell& from, const Cell& to) const;
+  bool canSee(const Map& map, const Cell& from, const Cell& to) const;
+  void makePath();
+  void decideSpeeds();
+  void drawMap(const std::string& layer, const Map& map) const;
+  void drawPath() const;
+  void drawGoal() const;
+  Cell cellOf(double x, double y) const;
+  double xOf(const Cell& cell) const;
+  double yOf(const Cell& cell) const;
+  bool moveToFree(const Map& map, Cell& cell) const;
+
+  double goalX, goalY;  // the goal [m]
+
+  // The connection and its devices. The order matters: members are destroyed in reverse order, and
+  // a proxy must be destroyed before its client.
+  std::unique_ptr<CCMorse::PlayerClient> client;
+  std::unique_ptr<CCMorse::Position2dProxy> position;
+  std::unique_ptr<CCMorse::ArenaProxy> arena;  // events and points
+  CCMorse::WindowProxy& window;                // the canvas
+
+  imr::robot::SPosition pose;      // where the robot is
+  imr::robot::SPosition lastPose;  // where it was one reading ago
+  std::vector<Cell> path;          // the cells where the path turns
+  std::size_t next = 0;            // the cell of the path that the robot drives to
+
+  double forwardSpeed = 0.0;  // commanded [m/s], positive ahead
+  double turnRate = 0.0;      // commanded [rad/s], positive to the left
+  // Your own variables go here.
+
+  bool quit = false;  // guarded by mtx; stop() sets it from another thread
+  Mutex mtx;
+};
+
+#endif

@@ -1,0 +1,136 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// The tasks in arenas that change: each solution passes with the seeds of the task, each template
+// fails with a reason. (The templates, filled in as their comments describe, are graded by the
+// tests ..._template_filled.)
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "playpen_process.h"
+#include "temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test_support::playpen;
+using test_support::ProcessOptions;
+using test_support::ProcessResult;
+using test_support::read_bytes;
+using test_support::TemporaryFolder;
+using testing::HasSubstr;
+
+class ArenaTasks : public testing::Test {
+ protected:
+  /// `playpen grade TASK OPTIONS -- PROGRAM`, without a limit of wall-clock time.
+  [[nodiscard]] ProcessResult grade(const std::string& task,
+                                    const std::vector<std::string>& options,
+                                    const std::string& program) const {
+    std::vector<std::string> call = {"grade", task, "--timeout", "3000", "--out", out_};
+    call.insert(call.end(), options.begin(), options.end());
+    call.insert(call.end(), {"--", program});
+    ProcessOptions patient;
+    patient.timeout = std::chrono::seconds(3000);
+    return playpen(call, patient);
+  }
+  [[nodiscard]] json runs() const {
+    return json::parse(read_bytes(fs::path(out_) / "grade.json")).at("runs");
+  }
+  /// The events of a run, from its report.
+  [[nodiscard]] json events(const std::string& run) const {
+    return json::parse(read_bytes(fs::path(out_) / run / "report.json")).at("events");
+  }
+  /// The names of what a run's events of a kind are about.
+  [[nodiscard]] std::set<std::string> named(const std::string& run, const std::string& kind) const {
+    std::set<std::string> names;
+    for (const json& event : events(run)) {
+      if (event.at("kind") == kind) names.insert(event.at("what").get<std::string>());
+    }
+    return names;
+  }
+
+  TemporaryFolder folder_;
+  std::string out_ = folder_ / "out";
+};
+
+TEST_F(ArenaTasks, TheSolutionLearnsWhereTheTrapsAre) {
+  const ProcessResult graded = grade("par_traps", {}, TRAPS_PROGRAM);
+  EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
+  EXPECT_THAT(graded.out, HasSubstr("par_traps: 5 of 5 runs passed"));
+  std::set<double> times;
+  std::set<std::string> sprung;
+  for (const json& run : runs()) {
+    EXPECT_EQ(run.at("verdict"), "passed");
+    EXPECT_EQ(run.at("verdict_reason"), "the robot is at the goal");
+    EXPECT_EQ(run.at("end").at("kind"), "verdict");
+    times.insert(run.at("sim_time").get<double>());
+    sprung.merge(named(run.at("folder").get<std::string>(), "trap"));
+  }
+  EXPECT_GT(times.size(), 1U) << "the seeds make no difference";
+  for (const char* trap : {"pit", "plate", "mud", "snare_north", "goal"}) {
+    EXPECT_EQ(sprung.count(trap), 1U) << trap;
+  }
+}
+
+TEST_F(ArenaTasks, TheTemplateLosesItsPointsInATrap) {
+  const ProcessResult graded = grade("par_traps", {"--seeds", "2"}, TRAPS_TEMPLATE);
+  EXPECT_EQ(graded.status, 1) << graded.out << graded.err;
+  EXPECT_THAT(graded.out,
+              HasSubstr("par_traps seed 1: verdict: failed: the robot has no points left"));
+  EXPECT_THAT(graded.out, HasSubstr("par_traps: 0 of 2 runs passed"));
+  EXPECT_EQ(named("par_traps_seed1", "trap"), std::set<std::string>{"pit"});
+}
+
+TEST_F(ArenaTasks, TheSolutionLooksAgainWhereTheArenaHasChanged) {
+  const ProcessResult graded = grade("par_exploration_changing", {}, CHANGING_PROGRAM);
+  EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
+  EXPECT_THAT(graded.out, HasSubstr("par_exploration_changing: 5 of 5 runs passed"));
+  std::set<json> ends;
+  for (const json& run : runs()) {
+    EXPECT_EQ(run.at("end").at("kind"), "by-itself");
+    const fs::path report = fs::path(out_) / run.at("folder").get<std::string>() / "report.json";
+    ends.insert(json::parse(read_bytes(report)).at("blocks"));
+  }
+  EXPECT_GT(ends.size(), 1U) << "the arena is the same in the end, whatever the seed";
+}
+
+TEST_F(ArenaTasks, ExplorersWhichIgnoreTheChangesFail) {
+  const ProcessResult still =
+      grade("par_exploration_changing", {"--seeds", "1,"}, CHANGING_TEMPLATE);
+  EXPECT_EQ(still.status, 1) << still.err;
+  EXPECT_THAT(still.out, HasSubstr("coverage 0.000, at least 0.98 needed"));
+  // The solution of the exploration task ends while the arena still changes.
+  const ProcessResult early = grade("par_exploration_changing", {}, NEAREST_PROGRAM);
+  EXPECT_EQ(early.status, 1) << early.err;
+  EXPECT_THAT(early.out, HasSubstr("0 of 5 runs passed"));
+  EXPECT_THAT(early.out, HasSubstr("score 0, at least 1 needed"));
+}
+
+TEST_F(ArenaTasks, TheSolutionCatchesTheFox) {
+  const ProcessResult graded = grade("par_chase", {}, CHASE_PROGRAM);
+  EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
+  EXPECT_THAT(graded.out, HasSubstr("par_chase: 5 of 5 runs passed"));
+  std::set<double> times;
+  for (const json& run : runs()) {
+    EXPECT_EQ(run.at("verdict_reason"), "the fox is caught");
+    times.insert(run.at("sim_time").get<double>());
+  }
+  EXPECT_GT(times.size(), 1U) << "the fox does the same with each seed";
+}
+
+TEST_F(ArenaTasks, TheFoxGetsAwayFromTheTemplate) {
+  const ProcessResult graded = grade("par_chase", {}, CHASE_TEMPLATE);
+  EXPECT_EQ(graded.status, 1) << graded.out << graded.err;
+  for (const char* seed : {"1", "2", "3", "4", "5"}) {
+    EXPECT_THAT(graded.out, HasSubstr("par_chase seed " + std::string(seed) +
+                                      ": verdict: failed: the fox got away"));
+  }
+}
+
+}  // namespace
