@@ -34,7 +34,7 @@ using Kind = PhysicsWorld::Contact::Kind;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kStep_s = 0.01;
-constexpr PhysicsWorld::Contact kNothing{-1, Kind::kObstacle, -1};
+const PhysicsWorld::Contact kNothing{-1, Kind::kObstacle, -1};
 
 // A notch of 1 x 1 m that opens upwards: concave.
 const Polygon kNotch{{0, 0},     {1.4, 0},   {1.4, 1.2}, {1.2, 1.2},
