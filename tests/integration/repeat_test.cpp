@@ -10,14 +10,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "machine_load.h"
 #include "playpen_process.h"
 #include "run_process.h"
 #include "temporary_folder.h"
@@ -62,22 +61,6 @@ std::vector<Command> programs() {
   }
   return all;
 }
-
-/// Four busy processes per core. They end with this object, and with the test.
-class Load {
- public:
-  Load() {
-    const unsigned count = 4 * std::max(1U, std::thread::hardware_concurrency());
-    for (unsigned i = 0; i < count; ++i) {
-      processes_.push_back(std::make_unique<Process>(
-          std::vector<std::string>{"sh", "-c", "echo on; while :; do :; done"}));
-    }
-    for (const auto& process : processes_) EXPECT_TRUE(process->read_until("on\n"));
-  }
-
- private:
-  std::vector<std::unique_ptr<Process>> processes_;
-};
 
 class Repeats : public testing::Test {
  protected:
@@ -125,7 +108,7 @@ TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
   ASSERT_GE(all.size(), 29U);
   int runs = 0;
   int different = 0;
-  const Load load;
+  const test_support::MachineLoad load;
   for (const Command& program : all) {
     const std::string& name = program.back();
     std::optional<std::string> printed;

@@ -268,6 +268,7 @@ void Shape::add_dashed_outline(const std::vector<Vec2>& points, double width_px,
     const Vec2& b = points[(i + 1) % points.size()];
     // A side consists of half a dash, alternating gaps and dashes, and half a dash: n periods.
     const double length = (b - a).norm();
+    if (!std::isfinite(length)) continue;
     constexpr double kMostPeriods =
         2000.0;  // bounds the work for a side far longer than the picture
     const int periods =
