@@ -187,6 +187,18 @@ TEST(ObstaclePath, BeginsAnewAfterAReset) {
   expect_near(obstacle(simulation).center, {1.5, 1});
 }
 
+TEST(ObstaclePath, SpringsATrapThatFollowsIt) {
+  // It comes within 0.5 m of the robot's centre after 3.5 m, 7 s.
+  Simulation simulation(load_world_text(R"({"arena": {"size": [6, 4], "obstacles": [
+      {"name": "o", "shape": "circle", "radius": 0.1, "center": [1, 1],
+       "motion": {"type": "path", "speed": 0.5, "points": [[5.5, 1]]}}]},
+      "robots": [{"name": "r1", "pose": {"x": 5, "y": 1.0001}}],
+      "controller": {"traps": [{"name": "met", "near": {"object": "o", "distance": 0.5},
+                                "do": [{"message": "hello"}]}]}})"));
+  run(simulation, 7.2);
+  EXPECT_THAT(events_of(simulation), Contains(HasSubstr("7.01 robot r1 springs trap met")));
+}
+
 // --- sensors
 
 TEST(MovingObstacle, LaserSeesAMovingCircleExactly) {

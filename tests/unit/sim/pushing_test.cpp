@@ -2,9 +2,11 @@
 // Obstacles as bodies: pushing against the formulas, and drives that reach their poses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
-#include <string>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -291,6 +293,75 @@ TEST(DrivenObstacle, SuspendedOnesStand) {
   floor->drive_obstacle(floor.body(0), {2.1, 4, 0}, kStep_s);
   floor.run(1);
   EXPECT_EQ(floor.pose(0), (Pose{2, 4, 0}));
+}
+
+TEST(DrivenObstacle, DoesNotCrushARobotOrACrateAtAWall) {
+  for (const double speed_mps : {0.3, 10.0}) {
+    for (const bool robot : {true, false}) {
+      const Pose X_WB{robot ? 7.0 : 1.0, robot ? 4.0 : 1.0, kPi / 2};
+      Floor floor({X_WB}, {driven(circle(5, 4, 0.2)),
+                           pushable(robot ? circle(1, 7, 0.1) : circle(7, 4, 0.1), 0.5)});
+      double least_m = 8.0;
+      for (int i = 0; i < 1000; ++i) {
+        const Pose at = floor.pose(0);
+        floor->drive_obstacle(floor.body(0), {at.x_m + speed_mps * kStep_s, at.y_m, 0}, kStep_s);
+        floor.run(1);
+        // Of the centres, without the radii; the side of an S1R is 0.081 m from its centre.
+        const double other_m = robot ? floor->body(0).X_WB.x_m - 0.081 : floor.x_m(1) - 0.1;
+        least_m = std::min(least_m, other_m - floor.x_m(0) - 0.2);
+      }
+      // The impact at 10 m/s lets a light crate sink in a little for one step.
+      EXPECT_GT(least_m, -0.002) << speed_mps << ' ' << robot;
+      EXPECT_LT(floor.x_m(0), 8.0 - 0.2 - 2.0 * (robot ? 0.081 : 0.1)) << speed_mps << ' ' << robot;
+    }
+  }
+}
+
+TEST(MovableObstacle, CrowdsAtRandomDoNotSinkIntoEachOther) {
+  // Every third of 24 circles is driven, every third can be pushed, the others stand.
+  std::mt19937 engine(5);
+  const auto uniform = [&engine](double a, double b) {
+    return a + (b - a) * static_cast<double>(engine()) / 4294967296.0;
+  };
+  std::vector<ObstacleDescription> obstacles;
+  for (int i = 0; i < 24; ++i) {
+    ObstacleDescription o = circle(0.6 + 0.75 * (i % 6), 0.6 + i / 6, uniform(0.03, 0.15));
+    if (i % 3 == 0) o = driven(o);
+    if (i % 3 == 1) o = pushable(o, uniform(0.1, 3.0), uniform(0.0, 0.6));
+    obstacles.push_back(o);
+  }
+  // A wall at y = 5 keeps all together.
+  obstacles.push_back(box(4, 6.5, 0.1));
+  obstacles.back().size = {8.0, 3.0};
+  Floor floor({{0.4, 4.4, 0}, {1.4, 4.4, 1}, {2.4, 4.4, 2}, {3.4, 4.4, 3}}, obstacles);
+  std::vector<Vec2> velocities(24);
+  double deepest_m = 1.0;
+  for (int step = 0; step < 4000; ++step) {
+    if (step % 50 == 0) {
+      for (int i = 0; i < 4; ++i) floor.drive(uniform(-0.5, 0.5), uniform(-3.0, 3.0), i);
+      for (Vec2& v : velocities) v = {uniform(-0.5, 0.5), uniform(-0.5, 0.5)};
+    }
+    for (std::size_t i = 0; i < 24; i += 3) {
+      const int index = static_cast<int>(i);
+      const Vec2 p = floor.pose(index).position() + kStep_s * velocities[i];
+      floor->drive_obstacle(floor.body(index), {p.x(), p.y(), 0}, kStep_s);
+    }
+    floor.run(1);
+    for (std::size_t i = 0; i < 24; ++i) {
+      if (is_movable(obstacles[i])) {
+        obstacles[i].center = floor.pose(static_cast<int>(i)).position();
+      }
+      for (std::size_t k = 0; k < i; ++k) {
+        if (!is_movable(obstacles[i]) && !is_movable(obstacles[k])) continue;
+        const double apart_m = (obstacles[i].center - obstacles[k].center).norm();
+        deepest_m = std::min(deepest_m, apart_m - radius_m(obstacles[i]) - radius_m(obstacles[k]));
+      }
+    }
+  }
+  // Box2D lets bodies that push each other sink in by its tolerance of 0.5 mm, and a little more
+  // where several push.
+  EXPECT_GT(deepest_m, -0.0015);
+  EXPECT_LT(deepest_m, 0.002) << "some touched";
 }
 
 TEST(MovableObstacle, ContactsNameTheObstacle) {
