@@ -11,7 +11,6 @@
 
 namespace CCMorse {
 
-using playerlike::ArenaBlock;
 using playerlike::ArenaStatus;
 using playerlike::ClientCore;
 using playerlike::translated;
