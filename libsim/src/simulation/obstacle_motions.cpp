@@ -229,7 +229,9 @@ Pose Simulation::Impl::ObstacleMotions::walk(Moving& m, const Pose& X_WO, double
   force += force_of_solids(m, p_WO);
   if (!direction.isZero(0.0)) {
     // White noise, so that its effect does not depend on the step.
-    force += kFluctuation / std::sqrt(dt_s) * Vec2(m.random->normal(), m.random->normal());
+    const double x = m.random->normal();
+    const double y = m.random->normal();
+    force += kFluctuation / std::sqrt(dt_s) * Vec2(x, y);
   }
   Vec2 next = velocity + dt_s * force;
   const double most_mps = social_force::kSpeedRatio * m.motion.speed_mps;
