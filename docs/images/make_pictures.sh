@@ -18,7 +18,7 @@ if [[ -n $given ]]; then
   bin=$given
 else
   cmake --preset dev >/dev/null
-  cmake --build build/dev --target playpen docs_thirteen docs_layers docs_living_arena docs_snd_snd_goals \
+  cmake --build build/dev --target playpen docs_thirteen docs_layers docs_living_arena docs_moving docs_snd_snd_goals \
     docs_speech_speech docs_blinkenlight_blinkenlight docs_camera_camera docs_gripper_gripper \
     docs_actarray_actarray \
     compat_four_ports compat_roomba_maze \
@@ -54,6 +54,9 @@ run worlds/examples/living_arena.json living_arena --duration 14 --snapshot-ever
   "$bin/docs_living_arena"
 take living_arena/snapshots/scene_000004.800s.png arena_controller
 take living_arena/snapshots/scene_000012.800s.png arena_controller_waiting
+
+run worlds/examples/moving.json moving --duration 7 --hide fans -- "$bin/docs_moving"
+take moving/scene.png moving
 
 run worlds/tasks/par_intro.json intro --duration 120 -- "$bin/par_intro_solution_wall"
 take intro/scene.png wall_follower

@@ -17,6 +17,7 @@
 #include "controller_load.h"
 #include "crowd.h"
 #include "figures.h"
+#include "moving_load.h"
 #include "physics/physics_world.h"
 #include "realtime.h"
 #include "sim/devices/laser.h"
@@ -232,5 +233,6 @@ int main(int argc, char** argv) {
   sim::bench::memory_figure();
   sim::bench::save_figures();
   sim::bench::controller_figures();
+  sim::bench::moving_figures();
   sim::bench::print_realtime_factors();
 }

@@ -229,7 +229,7 @@ std::size_t decode_word(const json& value, const char* key, std::span<const std:
 }
 
 sim::ArenaEventKind decode_event_kind(const json& value, const char* key) {
-  for (int i = 0; i <= static_cast<int>(sim::ArenaEventKind::kEnd); ++i) {
+  for (int i = 0; i <= static_cast<int>(sim::kLastArenaEventKind); ++i) {
     const auto kind = static_cast<sim::ArenaEventKind>(i);
     if (value == to_string(kind)) return kind;
   }

@@ -9,6 +9,7 @@
 #include "io/controller_io.h"
 #include "io/document.h"
 #include "io/robot_io.h"
+#include "io/solid_limits.h"
 #include "sim/world/limits.h"
 #include "sim/world/robot_model.h"
 
@@ -355,6 +356,28 @@ class ControllerChecker {
   }
   void check(const EndAction& action, const std::string& pointer, bool) {
     need_text(pointer + "/end/reason", action.reason);
+  }
+  void check(const MoveAction& action, const std::string& pointer, bool) {
+    need_obstacle(pointer + "/move/obstacle", action.obstacle);
+    const std::string place = pointer + "/move";
+    if (!arena_trusted_ || !trusted_(place)) return;
+    const ObstacleMotion& motion = action.motion;
+    if (motion.law != MotionLaw::kPath && motion.law != MotionLaw::kStand) {
+      add("world/out-of-range", place, "a path, or to stop", "another motion");
+    } else if (motion.law == MotionLaw::kPath && motion.points.empty() && !motion.final_yaw_rad) {
+      add("world/missing-key", place, "a point or an angle to move to", "none");
+    }
+    for (const ObstacleDescription& obstacle : world_.arena.obstacles) {
+      if (obstacle.name != action.obstacle) continue;
+      ObstacleDescription driven = obstacle;
+      if (!driven.motion) driven.motion = motion;
+      if (auto error = check_movable(driven)) {
+        add(error->id, place + "/obstacle", error->expected, error->found + " of " + obstacle.name,
+            error->hint);
+      } else if (const auto wrong = check_motion(motion)) {
+        add(wrong->id, place + wrong->key, wrong->expected, wrong->found, wrong->hint);
+      }
+    }
   }
 
   const WorldDescription& world_;

@@ -229,8 +229,11 @@ class Checker {
     bool all = passes(check_floor(arena), "/arena") && passes(check_walls(arena), "/arena");
     // Elements of a preset have no position in the file.
     for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
-      all &=
-          passes(check_obstacle(arena.obstacles[i]), obstacle_pointer(i), arena.obstacles[i].name);
+      const ObstacleDescription& obstacle = arena.obstacles[i];
+      all &= passes(check_obstacle(obstacle), obstacle_pointer(i), obstacle.name) &&
+             passes(check_movable(obstacle), obstacle_pointer(i), obstacle.name);
+      if (!obstacle.motion) continue;
+      all &= passes(check_motion(*obstacle.motion), obstacle_pointer(i) + "/motion", obstacle.name);
     }
     for (std::size_t i = 0; i < arena.dock_separators.size(); ++i) {
       const ObstacleDescription& separator = arena.dock_separators[i];
@@ -280,11 +283,43 @@ class Checker {
     for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
       check_inside(arena.obstacles[i], obstacle_pointer(i), "n obstacle");
     }
+    check_movable_places();
     for (std::size_t i = 0; i < arena.dock_separators.size(); ++i) {
       check_inside(arena.dock_separators[i], separator_pointer(i), " separator");
     }
     for (std::size_t i = 0; i < arena.docks.size(); ++i) {
       check_inside(area_of(arena.docks[i]), dock_pointer(i), " dock");
+    }
+  }
+
+  /// Obstacles that move or can be pushed must not overlap others: the physics would throw them
+  /// apart.
+  void check_movable_places() {
+    const ArenaDescription& arena = world_.arena;
+    if (std::none_of(arena.obstacles.begin(), arena.obstacles.end(), is_movable)) return;
+    const std::vector<NamedSolid> solids = standing_solids(arena);
+    for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
+      const ObstacleDescription& obstacle = arena.obstacles[i];
+      if (!is_movable(obstacle)) continue;
+      const std::vector<Solid> body = solids_of(obstacle);
+      const auto add_overlap = [&](const std::string& expected, const std::string& found) {
+        add("world/obstacles-overlap", obstacle_pointer(i) + "/center",
+            "a place clear of " + expected + " for an obstacle that can move",
+            obstacle.name + " at " + place(obstacle.center) + found, "move one of the two");
+      };
+      for (const NamedSolid& other : solids) {
+        if (other.obstacle == &obstacle) continue;
+        const double depth_m = overlap_m(body, other.parts);
+        if (depth_m <= 0.0) continue;
+        add_overlap((other.separator ? "separator " : "obstacle ") + other.obstacle->name,
+                    " overlapping it by " + metres(depth_m));
+        break;
+      }
+      for (const Solid& part : body) {
+        if (!wall_within(arena.walls, part)) continue;
+        add_overlap("the map's walls", " in a wall");
+        break;
+      }
     }
   }
 

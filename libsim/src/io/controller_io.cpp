@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/document.h"
+#include "io/motion_io.h"
 #include "sim/world/limits.h"
 
 namespace sim::io {
@@ -230,6 +231,8 @@ ArenaAction read_action_of(Reader& owner, const std::string& kind, const ArenaDe
       score.robot = reader.string("robot", "");
       score.points = reader.number("points", score.points, {-1e6, 1e6, false, ""});
       action = score;
+    } else if (kind == "move") {
+      action = read_move(reader);
     } else {
       EndAction end;
       if (reader.require("verdict", "\"passed\" or \"failed\"")) {
@@ -246,10 +249,11 @@ std::vector<ArenaAction> read_actions(Reader& owner, const ArenaDescription& are
   std::vector<ArenaAction> actions;
   for (Reader& reader : owner.array("do", kMostParts)) {
     if (!reader.expect_object()) continue;
-    const auto kind = only_key(reader,
-                               {"configuration", "extend", "retract", "toggle", "place", "message",
-                                "text", "canvas", "restart", "score", "enable", "disable", "end"},
-                               "an action");
+    const auto kind =
+        only_key(reader,
+                 {"configuration", "extend", "retract", "toggle", "place", "message", "text",
+                  "canvas", "restart", "score", "enable", "disable", "end", "move"},
+                 "an action");
     if (kind) actions.push_back(read_action_of(reader, *kind, arena));
     reader.finish();
   }

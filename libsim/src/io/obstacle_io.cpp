@@ -9,6 +9,7 @@
 
 #include "io/controller_io.h"
 #include "io/document.h"
+#include "io/motion_io.h"
 #include "sim/world/outline.h"
 
 namespace sim::io {
@@ -114,6 +115,7 @@ void read_blocks(Reader& arena, const char* key, const char* prefix, bool separa
         block.fiducial = read_fiducial(reader);
         block.portable = reader.boolean("portable", block.portable);
         if (reader.has("colour")) block.colour = reader.colour("colour", {});
+        read_motion(reader, block);
       }
       reader.finish();
     }

@@ -170,6 +170,79 @@ std::optional<SolidError> check_obstacle(const ObstacleDescription& obstacle) {
   return check_box(obstacle);
 }
 
+std::optional<SolidError> check_movable(const ObstacleDescription& obstacle) {
+  if (!is_movable(obstacle)) return std::nullopt;
+  const char* key = obstacle.motion ? "/motion" : "/mass";
+  const char* what = obstacle.motion ? "a static obstacle that moves" : "a static obstacle to push";
+  if (obstacle.type == ObstacleType::kDynamic || obstacle.state == ObstacleState::kRetracted) {
+    return SolidError{key, what, "a dynamic one", "blocks that rise and sink do not move",
+                      "world/conflicting-keys"};
+  }
+  if (obstacle.portable) {
+    return SolidError{key, what, "a portable one", "grippers take only obstacles that stand fast",
+                      "world/conflicting-keys"};
+  }
+  if (obstacle.shape == ObstacleShape::kPolygon &&
+      (obstacle.outline.size() > kMostVertices || !is_convex(obstacle.outline))) {
+    return bad_outline(std::string("a convex outline of at most ") + std::to_string(kMostVertices) +
+                           " points, because the obstacle can move",
+                       is_convex(obstacle.outline)
+                           ? std::to_string(obstacle.outline.size()) + " points in the outline"
+                           : std::string("a concave outline"),
+                       "use a simpler outline, or several obstacles");
+  }
+  if (obstacle.mass_kg && !within(*obstacle.mass_kg, kLeastMass_kg, kGreatestMass_kg)) {
+    return SolidError{"/mass", range_text(kLeastMass_kg, kGreatestMass_kg, "kg"),
+                      number_text(*obstacle.mass_kg) + " kg", ""};
+  }
+  if (!within(obstacle.friction, 0.0, 10.0)) {
+    return SolidError{"/friction", "a number from 0 to 10", number_text(obstacle.friction), ""};
+  }
+  return std::nullopt;
+}
+
+std::optional<SolidError> check_motion(const ObstacleMotion& motion) {
+  const auto wrong = [](const char* key, double value, double most, const char* unit) {
+    return SolidError{
+        key, std::string("a number greater than 0 and at most ") + number_text(most) + ' ' + unit,
+        number_text(value), ""};
+  };
+  if (!(motion.speed_mps > 0.0 && motion.speed_mps <= kMaxObstacleSpeed_mps)) {
+    return wrong("/speed", motion.speed_mps, kMaxObstacleSpeed_mps, "m/s");
+  }
+  if (!(motion.turn_rate_radps > 0.0 && motion.turn_rate_radps <= kMaxObstacleTurnRate_radps)) {
+    return wrong("/turn_rate_deg", motion.turn_rate_radps, kMaxObstacleTurnRate_radps, "rad/s");
+  }
+  if (!within(motion.wait_s, 0.0, kLongestArenaTime_s)) {
+    return SolidError{"/wait", range_text(0.0, kLongestArenaTime_s, "s"),
+                      number_text(motion.wait_s), ""};
+  }
+  if (!within(motion.leg_m, kLeastLength_m, kGreatestLength_m)) {
+    return SolidError{"/leg", range_text(kLeastLength_m, kGreatestLength_m, "m"),
+                      number_text(motion.leg_m), ""};
+  }
+  if (motion.final_yaw_rad && !std::isfinite(*motion.final_yaw_rad)) {
+    return SolidError{"/yaw_deg", "a number", number_text(*motion.final_yaw_rad), ""};
+  }
+  if (!(motion.area_size.minCoeff() >= 0.0 && motion.area_size.allFinite() &&
+        motion.area_center.allFinite())) {
+    return SolidError{"/area", "finite numbers", "others", ""};
+  }
+  for (const Vec2& point : motion.points) {
+    if (within(greatest_coordinate(point), 0.0, kFarthest_m)) continue;
+    return SolidError{"/points", range_text(-kFarthest_m, kFarthest_m, "m") + " for x and y",
+                      number_text(point.x()) + " and " + number_text(point.y()), ""};
+  }
+  const SocialForce& force = motion.force;
+  if (!(force.relaxation_s > 0.0 && force.repulsion_range_m > 0.0 && force.wall_range_m > 0.0 &&
+        force.repulsion_m2ps2 >= 0.0 && force.wall_repulsion_m2ps2 >= 0.0 &&
+        std::isfinite(force.repulsion_m2ps2 + force.wall_repulsion_m2ps2))) {
+    return SolidError{"/force", "times and ranges greater than 0, and forces of at least 0",
+                      "others", ""};
+  }
+  return std::nullopt;
+}
+
 std::optional<SolidError> check_floor(const ArenaDescription& arena) {
   for (const Eigen::Index axis : {0, 1}) {
     if (auto error =

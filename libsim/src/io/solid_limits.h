@@ -29,6 +29,13 @@ struct SolidError {
 /// large. nullopt if it can be built.
 [[nodiscard]] std::optional<SolidError> check_obstacle(const ObstacleDescription& obstacle);
 
+/// Checks what only obstacles need that move or can be pushed: a circle, a box, or a convex polygon
+/// of at most 8 vertices; neither dynamic nor portable; its mass and friction. nullopt for others.
+[[nodiscard]] std::optional<SolidError> check_movable(const ObstacleDescription& obstacle);
+
+/// Checks the numbers of a motion; the keys are those of a file's "motion".
+[[nodiscard]] std::optional<SolidError> check_motion(const ObstacleMotion& motion);
+
 /// Checks the size and the position of a floor.
 [[nodiscard]] std::optional<SolidError> check_floor(const ArenaDescription& arena);
 

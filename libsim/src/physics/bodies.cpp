@@ -2,8 +2,10 @@
 #include "physics/bodies.h"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
+#include "sim/core/assert.h"
 #include "sim/world/limits.h"
 #include "sim/world/outline.h"
 
@@ -34,6 +36,20 @@ void make_heavy(b2Body& body) {
   mass.mass *= kMore;
   mass.I *= kMore;
   body.SetMassData(&mass);
+}
+
+// Centre of a polygon's area.
+Vec2 center_of_area(const Polygon& outline) {
+  Vec2 sum = Vec2::Zero();
+  double twice_area = 0.0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 a = outline[i] - outline[0];
+    const Vec2 b = outline[(i + 1) % outline.size()] - outline[0];
+    const double cross = a.x() * b.y() - a.y() * b.x();
+    sum += cross * (a + b);
+    twice_area += cross;
+  }
+  return outline[0] + sum / (3.0 * twice_area);
 }
 
 // Whether an outline is one polygon for Box2D. Otherwise Box2D has its sides as edges, as it has
@@ -88,7 +104,9 @@ void Bodies::add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int 
   b2BodyDef def;  // a separate body, so that it can be disabled
   b2Body* body = world_.CreateBody(&def);
   Parts parts{infos_.size(), 1, o.shape};
-  if (o.shape == ObstacleShape::kCircle) {
+  if (is_movable(o)) {
+    parts.count = 0;
+  } else if (o.shape == ObstacleShape::kCircle) {
     FixtureInfo* info = new_info(kind, index, o.height_m);
     info->cylinder = static_cast<int>(cylinders_.size());
     cylinders_.push_back({o.center, radius_m(o), o.height_m, index});
@@ -114,6 +132,7 @@ void Bodies::add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int 
   if (kind == Contact::Kind::kObstacle) {
     obstacles_.push_back(body);
     parts_.push_back(parts);
+    body_of_.push_back(-1);
   }
 }
 
@@ -196,6 +215,15 @@ void Bodies::set_corners(const Parts& parts, const std::vector<Vec2>& corners, d
 }
 
 void Bodies::change_obstacle(int index, const ObstacleDescription& now) {
+  if (const int moving = body_of(index); moving >= 0) {
+    Robot& r = robot(moving);
+    const Pose X_WO = pose_of(now);
+    const Vec2 p_WB = X_WO * Vec2(-r.details->obstacle.p_BO);
+    set_pose(r, {p_WB.x(), p_WB.y(), X_WO.yaw_rad});
+    r.details->obstacle.v_WB.setZero();
+    r.details->obstacle.omega_radps = 0.0;
+    return;
+  }
   b2Body& body = obstacle(index);
   const Parts& parts = parts_[static_cast<std::size_t>(index)];
   const std::vector<Vec2> corners = corners_of(now);
@@ -241,18 +269,93 @@ int Bodies::add_robot(const RobotModel& model, const Pose& X_WB) {
   for (const Vec2& v : model.footprint) r.radius_m = std::max(r.radius_m, v.norm());
   r.details->seen_radius_m = r.radius_m;
   r.X_WB = X_WB;
-  r.state->X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
-
+  r.details->traction_arm_m =
+      r.drive == DriveKind::kDifferential ? 0.5 * model.drive.wheel_separation_m : r.radius_m;
   r.details->info = new_info(Contact::Kind::kRobot, index, model.height_m);
   r.details->mass_kg = model.mass_kg;
+  ++robot_count_;
+  return add_body(std::move(r));
+}
+
+int Bodies::add_moving_obstacle(int index, const ObstacleDescription& o) {
+  SIM_ASSERT(is_movable(o) && body_of(index) < 0);
+  Robot r;
+  r.state = &states_.emplace_back();
+  r.details = &details_.emplace_back();
+  RobotDetails& d = *r.details;
+  d.round = o.shape == ObstacleShape::kCircle;
+  r.drive = DriveKind::kOmnidirectional;
+  r.pushable = is_pushable(o);
+  if (d.round) {
+    r.radius_m = radius_m(o);
+    d.disc = circle_shape(Vec2::Zero(), r.radius_m);
+  } else {
+    ObstacleDescription own = o;
+    own.center.setZero();
+    own.yaw_rad = 0.0;
+    Polygon outline = corners_of(own);
+    const Vec2 middle = center_of_area(outline);
+    for (Vec2& p : outline) {
+      p -= middle;
+      r.radius_m = std::max(r.radius_m, p.norm());
+    }
+    d.obstacle.p_BO = -middle;
+    d.shape = polygon_shape(outline);
+    d.reaching_shape = d.shape;
+  }
+  d.reaching_shape.m_radius = static_cast<float>(3.0 * kMaxTravel_m) * kScaleF;
+  d.height_m = o.height_m;
+  d.seen_radius_m = r.radius_m;
+  d.traction_arm_m = r.radius_m;
+  const Pose X_WO = pose_of(o);
+  const Vec2 p_WB = X_WO * Vec2(-d.obstacle.p_BO);
+  r.X_WB = {p_WB.x(), p_WB.y(), X_WO.yaw_rad};
+  d.mass_kg = o.mass_kg.value_or(kMovingObstacleMass_kg);
+  d.info = new_info(Contact::Kind::kObstacle, index, o.height_m);
+  if (d.round) {
+    d.round_load.push_back({Vec2::Zero(), r.radius_m, d.height_m, index});
+  }
+  has_pushable_ = has_pushable_ || r.pushable;
+  if (r.pushable) d.obstacle.friction_mps2 = o.friction * kGravity_mps2;
+  body_of_[static_cast<std::size_t>(index)] = static_cast<int>(robots_.size());
+  const int body = add_body(std::move(r));
+  d.obstacle.friction_arm_m = 2.0 / 3.0 * std::sqrt(2.0 * d.inertia_kgm2 / d.mass_kg);
+  return body;
+}
+
+// Adds a body that is complete except for what all bodies have in common.
+int Bodies::add_body(Robot r) {
+  const int index = static_cast<int>(robots_.size());
+  r.state->X_WB = {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
+  r.details->info->body = index;
   ensure_box2d_body(r);
   r.details->inertia_kgm2 = static_cast<double>(r.body->GetInertia()) / (kScale * kScale);
-
   largest_radius_m_ = std::max(largest_radius_m_, r.radius_m);
-  by_x_.push_back({X_WB.x_m, X_WB.y_m, r.radius_m, index});
+  by_x_.push_back({r.X_WB.x_m, r.X_WB.y_m, r.radius_m, index});
   robots_.push_back(std::move(r));
   order_fresh_ = false;
   return index;
+}
+
+int Bodies::body_of(const Contact& target) const {
+  if (target.kind == Contact::Kind::kRobot) return target.index;
+  if (target.kind != Contact::Kind::kObstacle || target.index < 0) return -1;
+  return body_of(target.index);
+}
+
+Pose Bodies::obstacle_pose(const Robot& r) {
+  const Vec2& p_BO = r.details->obstacle.p_BO;
+  if (p_BO.isZero(0.0)) return {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
+  const Vec2 p_WO = r.X_WB * p_BO;
+  return {p_WO.x(), p_WO.y(), normalize_angle(r.X_WB.yaw_rad)};
+}
+
+std::vector<b2FrictionJoint*> Bodies::joints() const {
+  std::vector<b2FrictionJoint*> joints;
+  for (const Robot& r : robots_) {
+    if (r.details->obstacle.joint != nullptr) joints.push_back(r.details->obstacle.joint);
+  }
+  return joints;
 }
 
 void Bodies::set_pose(Robot& r, const Pose& X_WB) {
@@ -272,7 +375,11 @@ void Bodies::set_pose(Robot& r, const Pose& X_WB) {
 void Bodies::set_suspended(Robot& r, bool suspended) {
   if (suspended == r.suspended) return;
   r.suspended = suspended;
-  if (suspended) r.target = {};
+  if (suspended) {
+    r.target = {};
+    r.details->obstacle.v_WB.setZero();
+    r.details->obstacle.omega_radps = 0.0;
+  }
   if (r.body == nullptr) return;
   if (!suspended) {
     r.body->ResetMassData();
@@ -284,43 +391,46 @@ void Bodies::set_suspended(Robot& r, bool suspended) {
   r.body->SetAngularVelocity(0.0F);
 }
 
-int Bodies::robot_within(const b2Shape& shape, const b2Transform& xf) const {
+int Bodies::robot_within(const b2Shape& shape, const b2Transform& xf, int ignored) const {
   const auto it = std::find_if(robots_.begin(), robots_.end(), [&](const Robot& r) {
-    return b2TestOverlap(&shape, 0, &r.details->shape, 0, xf, transform_of(r));
+    return r.details->info->body != ignored &&
+           b2TestOverlap(&shape, 0, &r.details->solid(), 0, xf, transform_of(r));
   });
   return it == robots_.end() ? -1 : static_cast<int>(it - robots_.begin());
 }
 
-int Bodies::robot_within(const std::vector<Vec2>& outline) const {
-  const auto overlaps = [&outline](const Robot& r) {
+int Bodies::robot_within(const std::vector<Vec2>& outline, int ignored) const {
+  const auto overlaps = [&outline, ignored](const Robot& r) {
+    if (r.details->info->body == ignored) return false;
     const b2Transform xf = transform_of(r);
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const b2EdgeShape side = edge_shape(outline, i);
-      if (b2TestOverlap(&side, 0, &r.details->shape, 0, identity_transform(), xf)) return true;
+      if (b2TestOverlap(&side, 0, &r.details->solid(), 0, identity_transform(), xf)) return true;
     }
-    const b2Vec2 corner = b2Mul(xf, r.details->shape.m_vertices[0]);
-    return is_inside(outline, {metres(corner.x), metres(corner.y)});
+    const b2Vec2 point =
+        b2Mul(xf, r.details->round ? b2Vec2(0.0F, 0.0F) : r.details->shape.m_vertices[0]);
+    return is_inside(outline, {metres(point.x), metres(point.y)});
   };
   const auto it = std::find_if(robots_.begin(), robots_.end(), overlaps);
   return it == robots_.end() ? -1 : static_cast<int>(it - robots_.begin());
 }
 
-int Bodies::robot_within(const ObstacleDescription& solid) const {
+int Bodies::robot_within(const ObstacleDescription& solid, int ignored) const {
   if (solid.shape == ObstacleShape::kCircle) {
-    return robot_within(circle_shape(solid.center, radius_m(solid)), identity_transform());
+    return robot_within(circle_shape(solid.center, radius_m(solid)), identity_transform(), ignored);
   }
   const std::vector<Vec2> corners = corners_of(solid);
   if (solid.shape == ObstacleShape::kPolygon && !is_one_polygon(corners)) {
-    return robot_within(corners);
+    return robot_within(corners, ignored);
   }
-  return robot_within(polygon_shape(corners), identity_transform());
+  return robot_within(polygon_shape(corners), identity_transform(), ignored);
 }
 
 int Bodies::robot_on(int index) const {
   const Parts& parts = parts_[static_cast<std::size_t>(index)];
-  if (parts.count > 1) return robot_within(corners_of_parts(parts));
+  if (parts.count > 1) return robot_within(corners_of_parts(parts), -1);
   const b2Body& block = obstacle(index);
-  return robot_within(*block.GetFixtureList()->GetShape(), block.GetTransform());
+  return robot_within(*block.GetFixtureList()->GetShape(), block.GetTransform(), -1);
 }
 
 bool Bodies::is_inside_edged(const Vec2& p_W, double height_m) const {
@@ -341,16 +451,25 @@ void Bodies::create_box2d_body(Robot& r) {
   r.body = world_.CreateBody(&def);
   ++in_box2d_;
   b2MassData unit;
-  r.details->shape.ComputeMass(&unit, 1.0F);
-  attach(r.body, r.details->shape, r.details->info,
+  r.details->solid().ComputeMass(&unit, 1.0F);
+  attach(r.body, r.details->solid(), r.details->info,
          static_cast<float>(r.details->mass_kg) / unit.mass);
   center_mass_on_axle(*r.body);
   if (r.suspended) make_heavy(*r.body);
+  if (r.pushable) add_joint(r);
+}
+
+void Bodies::add_joint(Robot& r) {
+  b2FrictionJointDef def;
+  def.Initialize(static_body_, r.body, r.body->GetPosition());
+  def.collideConnected = true;
+  r.details->obstacle.joint = static_cast<b2FrictionJoint*>(world_.CreateJoint(&def));
 }
 
 void Bodies::destroy_box2d_body(Robot& r) {
-  world_.DestroyBody(r.body);
+  world_.DestroyBody(r.body);  // and its joint
   r.body = nullptr;
+  r.details->obstacle.joint = nullptr;
   --in_box2d_;
 }
 

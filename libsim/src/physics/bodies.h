@@ -17,10 +17,10 @@
 
 namespace sim::physics {
 
-/// Box2D's world: the solids of the arena, and a body for each hindered robot.
+/// Box2D's world: the solids of the arena, and a body for each hindered robot or moving obstacle.
 class Bodies {
  public:
-  /// A robot's bounding circle.
+  /// The bounding circle of a robot or a moving obstacle.
   struct Circle {
     double x, y, radius;
     int robot;
@@ -34,6 +34,21 @@ class Bodies {
   // --- Robots
   /// Adds a robot at rest, with a Box2D body.
   int add_robot(const RobotModel& model, const Pose& X_WB);
+  /// Adds an obstacle that moves, after all robots. @return its index in robots().
+  int add_moving_obstacle(int index, const ObstacleDescription& o);
+  /// The number of robots; the moving obstacles follow them in robots().
+  [[nodiscard]] std::size_t robot_count() const noexcept { return robot_count_; }
+  /// The index in robots() of an obstacle that moves; -1: it is static.
+  [[nodiscard]] int body_of(int obstacle) const {
+    return body_of_[static_cast<std::size_t>(obstacle)];
+  }
+  /// The index in robots() of a robot or an obstacle that moves; -1: it is static, or there is
+  /// none.
+  [[nodiscard]] int body_of(const Contact& target) const;
+  /// Whether robots can push any obstacle.
+  [[nodiscard]] bool has_pushable() const noexcept { return has_pushable_; }
+  /// Pose X_WO of an obstacle that moves.
+  [[nodiscard]] static Pose obstacle_pose(const Robot& r);
   [[nodiscard]] std::vector<Robot>& robots() noexcept { return robots_; }
   [[nodiscard]] const std::vector<Robot>& robots() const noexcept { return robots_; }
   [[nodiscard]] Robot& robot(int index) { return robots_[static_cast<std::size_t>(index)]; }
@@ -44,8 +59,9 @@ class Bodies {
   void set_pose(Robot& r, const Pose& X_WB);
   void set_suspended(Robot& r, bool suspended);
   [[nodiscard]] double largest_radius_m() const noexcept { return largest_radius_m_; }
-  /// The first robot whose footprint overlaps a solid; -1 if there is none.
-  [[nodiscard]] int robot_within(const ObstacleDescription& solid) const;
+  /// The first of robots() that overlaps a solid; -1 if there is none.
+  /// @param ignored  index in robots() that does not count, or -1.
+  [[nodiscard]] int robot_within(const ObstacleDescription& solid, int ignored) const;
 
   /// Gives a robot a Box2D body for the next substeps.
   void ensure_box2d_body(Robot& r);
@@ -85,7 +101,7 @@ class Bodies {
   /// Whether a point is inside an extended obstacle that is higher than `height_m` and consists of
   /// edges for Box2D.
   [[nodiscard]] bool is_inside_edged(const Vec2& p_W, double height_m) const;
-  /// The first robot whose footprint overlaps an obstacle, extended or not; -1 if there is none.
+  /// The first of robots() that overlaps a static obstacle, extended or not; -1 if there is none.
   [[nodiscard]] int robot_on(int index) const;
   [[nodiscard]] std::size_t separator_count() const noexcept { return separator_count_; }
   void change_obstacle(int index, const ObstacleDescription& now);
@@ -93,6 +109,8 @@ class Bodies {
   void set_height(int index, double height_m);
   /// Writes or reads the state, including the shapes of obstacles.
   void archive(StateArchive& archive);
+  /// The friction joints of pushed obstacles, in the order of robots().
+  [[nodiscard]] std::vector<b2FrictionJoint*> joints() const;
   /// All existing fixtures, by FixtureInfo::id; nullptr if Box2D has none of that id.
   [[nodiscard]] std::vector<b2Fixture*> fixtures();
   /// Whether the world has walls of a map, and their largest x coordinate.
@@ -101,6 +119,7 @@ class Bodies {
 
  private:
   // The fixtures of an obstacle: a polygon, a circle, or one edge for each side of the outline.
+  // None if it moves.
   struct Parts {
     std::size_t first_info;
     std::size_t count;
@@ -111,13 +130,15 @@ class Bodies {
   void append_outline(FixtureInfo& info, const std::vector<Vec2>& vertices);
   [[nodiscard]] std::vector<Vec2> corners_of_parts(const Parts& parts) const;
   void set_corners(const Parts& parts, const std::vector<Vec2>& corners, double height_m);
-  [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf) const;
-  [[nodiscard]] int robot_within(const std::vector<Vec2>& outline) const;
+  [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf, int ignored) const;
+  [[nodiscard]] int robot_within(const std::vector<Vec2>& outline, int ignored) const;
+  int add_body(Robot r);
   void add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int index);
   void add_obstacles(const ArenaDescription& arena);
   void add_border(const ArenaDescription& arena);
   void add_wall(const WallLoop& loop);
   void create_box2d_body(Robot& r);
+  void add_joint(Robot& r);
   void archive_obstacle(StateArchive& archive, int index);
   void archive_cylinder(StateArchive& archive, b2Body& body, bool enabled, const FixtureInfo& info);
 
@@ -126,6 +147,7 @@ class Bodies {
   std::vector<std::unique_ptr<FixtureInfo>> infos_;
   std::vector<b2Body*> obstacles_;
   std::vector<Parts> parts_;        // of `obstacles_`
+  std::vector<int> body_of_;        // of `obstacles_`
   std::vector<std::size_t> edged_;  // those of more than one part
   std::vector<Cylinder> cylinders_;
   std::size_t separator_count_ = 0;
@@ -133,7 +155,9 @@ class Bodies {
   double wall_right_m_ = -std::numeric_limits<double>::infinity();
   EdgeList edges_;
 
-  std::vector<Robot> robots_;
+  std::vector<Robot> robots_;  // robots, then obstacles that move
+  std::size_t robot_count_ = 0;
+  bool has_pushable_ = false;
   std::deque<BodyState> states_;      // of `robots_`
   std::deque<RobotDetails> details_;  // of `robots_`
   double largest_radius_m_ = 0.0;

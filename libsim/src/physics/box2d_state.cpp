@@ -34,6 +34,8 @@ SIM_OPEN(BodySleepTime, b2Body, float, m_sleepTime)
 SIM_OPEN(ContactFlags, b2Contact, uint32, m_flags)
 SIM_OPEN(FixtureProxies, b2Fixture, b2FixtureProxy*, m_proxies)
 SIM_OPEN(FixtureProxyCount, b2Fixture, int32, m_proxyCount)
+SIM_OPEN(JointImpulse, b2FrictionJoint, b2Vec2, m_linearImpulse)
+SIM_OPEN(JointTurnImpulse, b2FrictionJoint, float, m_angularImpulse)
 SIM_OPEN(WorldInverseStep, b2World, float, m_inv_dt0)
 SIM_OPEN(WorldNewContacts, b2World, bool, m_newContacts)
 SIM_OPEN(WorldContacts, b2World, b2ContactManager, m_contactManager)
@@ -242,6 +244,18 @@ void archive_cache(StateArchive& archive, b2SimplexCache& cache, const b2Shape& 
     archive.index(cache.indexA[i], corners(a));
     archive.index(cache.indexB[i], corners(b));
   }
+}
+
+void archive_joint(StateArchive& archive, b2FrictionJoint& joint) {
+  archive_vector(archive, joint.*member_of(JointImpulse{}));
+  archive(joint.*member_of(JointTurnImpulse{}));
+  float most_force = joint.GetMaxForce();
+  float most_torque = joint.GetMaxTorque();
+  archive(most_force, most_torque);
+  archive.expect(most_force >= 0.0F && most_torque >= 0.0F, "friction of obstacles");
+  if (!archive.reading()) return;
+  joint.SetMaxForce(most_force);
+  joint.SetMaxTorque(most_torque);
 }
 
 void archive_box2d(StateArchive& archive, b2World& world, const std::vector<b2Fixture*>& fixtures) {

@@ -19,6 +19,9 @@ namespace sim::physics {
 ///     When reading, the bodies must exist, created in the order of those that were written.
 void archive_box2d(StateArchive& archive, b2World& world, const std::vector<b2Fixture*>& fixtures);
 
+/// Writes or reads the impulses with which a joint starts its next step.
+void archive_joint(StateArchive& archive, b2FrictionJoint& joint);
+
 /// Writes or reads the starting point of b2Distance.
 /// @param a, b  the two shapes.
 void archive_cache(StateArchive& archive, b2SimplexCache& cache, const b2Shape& a,

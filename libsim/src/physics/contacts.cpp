@@ -54,7 +54,7 @@ std::size_t Contacts::slot(const FixtureInfo& info) const {
 void Contacts::count_contact(const b2Contact& contact, const b2Fixture* robot_fixture,
                              const b2Fixture* other, int change) {
   const FixtureInfo& mine = info_of(robot_fixture);
-  if (mine.kind != Contact::Kind::kRobot) return;
+  if (mine.kind != Contact::Kind::kRobot) return;  // of moving obstacles none are noted
   const FixtureInfo& theirs = info_of(other);
   std::vector<int>& touching = bodies_.robot(mine.index).details->touching;
   const std::size_t where = slot(theirs);

@@ -21,7 +21,8 @@ struct FixtureInfo {
   Contact::Kind kind;
   int index;  ///< of the obstacle, separator or robot; -1 for borders and walls
   double height_m;
-  std::size_t first_edge = 0;  ///< into Bodies::edges(); unused for robots
+  int body = -1;  ///< index in Bodies::robots() of a robot or a moving obstacle; -1: it is static
+  std::size_t first_edge = 0;  ///< into Bodies::edges(); unused for bodies that move
   std::size_t edge_count = 0;
   std::size_t id = 0;  ///< its index in Bodies::infos()
   int cylinder = -1;   ///< index in Bodies::cylinders(), for round obstacles; these have no edges
@@ -63,13 +64,13 @@ inline const FixtureInfo& info_of(const b2Fixture* fixture) {
       const_cast<b2Fixture*>(fixture)->GetUserData().pointer);
 }
 
-/// Calls visit(fixture) for every fixture, except those of robots, whose fat AABB meets the box.
+/// Calls visit(fixture) for every static fixture whose fat AABB meets the box.
 template <typename Visitor>
 void visit_fixed(const b2World& world, const b2AABB& box, Visitor visit) {
   struct Callback : b2QueryCallback {
     explicit Callback(Visitor& v) : visitor(v) {}
     bool ReportFixture(b2Fixture* fixture) override {
-      if (info_of(fixture).kind != Contact::Kind::kRobot) visitor(*fixture);
+      if (info_of(fixture).body < 0) visitor(*fixture);
       return true;
     }
     Visitor& visitor;

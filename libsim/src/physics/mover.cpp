@@ -30,6 +30,14 @@ constexpr double kStallDelay_s = 0.2;
 // [m]. It suffices to find everything that touches.
 constexpr double kLeastTravel_m = 0.25 * kMaxTravel_m;
 
+// Coefficient of friction between the wheels and the floor: a tyre that slides on dry concrete
+// (J. Y. Wong, Theory of Ground Vehicles, table 1.3).
+constexpr double kTraction = 0.75;
+
+// Integral gain of a drive that pushes. With the mass M of a robot and m of an obstacle the
+// velocity's error decays if the gain is below 1.
+constexpr double kPushGain = 0.2;
+
 constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
 
@@ -46,7 +54,8 @@ inline double sinc(double x) {
 double advance_m(const Robot& r, const b2Transform& xf, const b2Vec2& direction, const Twist& twist,
                  double dt_s) {
   const b2Vec2 n = b2MulT(xf.q, direction);
-  float lever = -b2_maxFloat;  // about B, in the direction of the rotation
+  // About B, in the direction of the rotation.
+  float lever = r.details->round ? 0.0F : -b2_maxFloat;
   const float sense = twist.omega_radps < 0.0 ? -1.0F : 1.0F;
   for (int32 i = 0; i < r.details->shape.m_count; ++i) {
     lever = std::max(lever, sense * b2Cross(r.details->shape.m_vertices[i], n));
@@ -66,6 +75,45 @@ inline Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
   return {X_WB.x_m + chord * std::cos(heading) - side * std::sin(heading),
           X_WB.y_m + chord * std::sin(heading) + side * std::cos(heading),
           X_WB.yaw_rad + twist.omega_radps * dt_s};
+}
+
+// The twist with which a body of a constant velocity in W moves during dt_s.
+Twist twist_of(const Vec2& v_WB, double omega_radps, double yaw_rad, double dt_s) {
+  if (omega_radps == 0.0 && v_WB.isZero(0.0)) return {};
+  const double half_turn = 0.5 * omega_radps * dt_s;
+  const double c = std::cos(yaw_rad + half_turn);
+  const double s = std::sin(yaw_rad + half_turn);
+  const double arc_per_chord = 1.0 / sinc(half_turn);
+  return {(v_WB.x() * c + v_WB.y() * s) * arc_per_chord, omega_radps,
+          (v_WB.y() * c - v_WB.x() * s) * arc_per_chord};
+}
+
+// Lowers the velocity of a pushed obstacle by the floor's friction: the ellipsoid approximation of
+// the limit surface (R. Howe and M. Cutkosky, Practical force-motion models for sliding
+// manipulation, Int. J. of Robotics Research 15(6), 1996). The friction that is not used up here
+// remains against a push.
+void slow_down(ObstacleBody& o, double dt_s) {
+  const double most_mps = o.friction_mps2 * dt_s;
+  const double speed_mps = std::hypot(o.v_WB.x(), o.v_WB.y(), o.friction_arm_m * o.omega_radps);
+  if (speed_mps <= most_mps) {
+    o.v_WB.setZero();
+    o.omega_radps = 0.0;
+    o.friction_left = most_mps > 0.0 ? 1.0 - speed_mps / most_mps : 0.0;
+    return;
+  }
+  const double rest = 1.0 - most_mps / speed_mps;
+  o.v_WB *= rest;
+  o.omega_radps *= rest;
+  o.friction_left = 0.0;
+}
+
+// Whether a robot touches an obstacle that it can push.
+bool touches_pushable(const Bodies& bodies, const Robot& r) {
+  for (const b2ContactEdge* e = contact_list(r.body); e != nullptr; e = e->next) {
+    const int other = info_of(e->other->GetFixtureList()).body;
+    if (other >= 0 && bodies.robot(other).pushable && e->contact->IsTouching()) return true;
+  }
+  return false;
 }
 
 // Reverts changes that Box2D's solver made to a body that must not move.
@@ -116,6 +164,7 @@ inline void Mover::record_travel(Robot& r, double way_m, double turn_rad) {
 // Moves a robot to the end of its arc.
 inline void Mover::move_to_goal(Robot& r, const Pose& goal, const Twist& twist, double dt_s) {
   r.X_WB = goal;
+  if (bodies_.has_pushable()) r.details->achieved = twist;
   const double travel = twist.v_mps * dt_s;
   const double side = twist.lateral_mps * dt_s;
   r.state->travel_m += travel;
@@ -133,7 +182,10 @@ inline void Mover::move_freely(Robot& r, double dt_s) {
       r.body->SetAwake(false);
     }
   }
-  if (r.target == Twist{}) return;
+  if (r.target == Twist{}) {
+    if (bodies_.has_pushable()) r.details->achieved = {};
+    return;
+  }
   const Pose goal = arc_end(r.X_WB, r.target, dt_s);
   if (r.body != nullptr) {
     r.body->SetTransform(to_box2d(goal.position()), static_cast<float>(goal.yaw_rad));
@@ -143,6 +195,7 @@ inline void Mover::move_freely(Robot& r, double dt_s) {
 
 void Mover::step(double dt_s) {
   double travel_m = 0.0;
+  set_obstacle_targets(dt_s);
   for (const Robot& r : bodies_.robots()) travel_m = std::max(travel_m, most_travel_m(r, dt_s));
   const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
   neighbours_.begin_step(std::max(travel_m / substeps, kLeastTravel_m));
@@ -156,6 +209,13 @@ void Mover::step(double dt_s) {
 // free, or stay clear of everything near, are moved at once, without Box2D. Robots that push each
 // other are moved in several Box2D steps.
 void Mover::substep(double dt_s, bool first, bool last) {
+  if (bodies_.has_pushable()) {
+    for (std::size_t i = bodies_.robot_count(); i < bodies_.robots().size(); ++i) {
+      if (bodies_.robots()[i].pushable) slow_down(bodies_.robots()[i].details->obstacle, dt_s);
+    }
+  }
+  // Otherwise step() has just set them.
+  if (!first || !last || bodies_.has_pushable()) set_obstacle_targets(dt_s);
   neighbours_.find(dt_s);
   if (neighbours_.something_was_placed()) {
     // Lets Box2D find the contacts of everything that was placed since the last step.
@@ -165,8 +225,9 @@ void Mover::substep(double dt_s, bool first, bool last) {
   std::vector<Robot>& robots = bodies_.robots();
   goals_.resize(robots.size());
   twists_.resize(robots.size());
+  wanted_.resize(robots.size());
   farthest_m_ = 0.0;
-  find_contact_groups();
+  find_contact_groups(dt_s);
   hindered_.clear();
   for (std::size_t i = 0; i < robots.size(); ++i) {
     Robot& r = robots[i];
@@ -213,13 +274,15 @@ void Mover::substep(double dt_s, bool first, bool last) {
 // Adds the limits of the closing speed towards a circle for robot `r`. All point in the direction
 // from the nearest point of the robot to the circle. Besides that point, each corner is limited by
 // the gap along this direction, so that a side beside a large circle cannot turn into it.
-void Mover::add_round_constraints(const Robot& r, const b2CircleShape& circle, double dt_s) {
+void Mover::add_round_constraints(const Robot& r, const b2CircleShape& circle,
+                                  const b2Transform& circle_xf, double share, double dt_s) {
+  const b2Vec2 center = b2Mul(circle_xf, circle.m_p);
   const b2PolygonShape& shape = r.details->shape;
   const double radius_m = metres(core_radius(circle));
   const double c = std::cos(r.X_WB.yaw_rad);
   const double s = std::sin(r.X_WB.yaw_rad);
-  const double dx = metres(circle.m_p.x) - r.X_WB.x_m;
-  const double dy = metres(circle.m_p.y) - r.X_WB.y_m;
+  const double dx = metres(center.x) - r.X_WB.x_m;
+  const double dy = metres(center.y) - r.X_WB.y_m;
   const Vec2 p_BC(c * dx + s * dy, c * dy - s * dx);
   std::array<Vec2, b2_maxPolygonVertices> corners;
   corners.fill(Vec2::Zero());
@@ -241,7 +304,7 @@ void Mover::add_round_constraints(const Robot& r, const b2CircleShape& circle, d
   const Vec2 normal = (p_BC - nearest) / distance_m;
   const auto add = [&](const Vec2& p, double gap_m) {
     constraints_.push_back({normal.x(), p.x() * normal.y() - p.y() * normal.x(),
-                            std::max(0.0, gap_m - kRestingGap_m) / dt_s, normal.y()});
+                            share * std::max(0.0, gap_m - kRestingGap_m) / dt_s, normal.y()});
   };
   const double reach_m = metres(r.details->reaching_shape.m_radius);
   if (distance_m - radius_m > reach_m) return;
@@ -255,12 +318,43 @@ void Mover::add_round_constraints(const Robot& r, const b2CircleShape& circle, d
   }
 }
 
+// Adds the limit of the closing speed of a round obstacle `r` towards another shape. The distance
+// of its centre from a convex shape is a convex function of its position, so the limit along the
+// direction to the nearest point is sufficient.
+void Mover::add_disc_constraint(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
+                                double share, double dt_s) {
+  b2SimplexCache cache;
+  cache.count = 0;
+  b2DistanceInput input;
+  input.proxyA.Set(&r.details->disc, 0);
+  input.proxyB.Set(&other, 0);
+  input.transformA = transform_of(r);
+  input.transformB = other_xf;
+  input.useRadii = false;
+  b2DistanceOutput found;  // to the centre of the disc, and of a circle
+  b2Distance(&found, &cache, &input);
+  if (found.distance <= 0.0F) return;
+  const double gap_m = metres(found.distance - core_radius(r.details->disc) - core_radius(other));
+  if (gap_m > metres(r.details->reaching_shape.m_radius)) return;
+  const b2Vec2 normal = (1.0F / found.distance) * (found.pointB - found.pointA);
+  const double nx = static_cast<double>(normal.x);
+  const double ny = static_cast<double>(normal.y);
+  const double c = std::cos(r.X_WB.yaw_rad);
+  const double s = std::sin(r.X_WB.yaw_rad);
+  constraints_.push_back(
+      {nx * c + ny * s, 0.0, share * std::max(0.0, gap_m - kRestingGap_m) / dt_s, ny * c - nx * s});
+}
+
 // Adds the limits of the closing speed that a pair of shapes implies for robot `r` to constraints_.
 // `share` is the fraction of the gap that r may close in this step.
 void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
                             double share, double dt_s) {
+  if (r.details->round) {
+    add_disc_constraint(r, other, other_xf, share, dt_s);
+    return;
+  }
   if (other.GetType() == b2Shape::e_circle) {
-    add_round_constraints(r, static_cast<const b2CircleShape&>(other), dt_s);
+    add_round_constraints(r, static_cast<const b2CircleShape&>(other), other_xf, share, dt_s);
     return;
   }
   const b2Transform xf = transform_of(r);
@@ -326,8 +420,8 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
       continue;
     }
     // The robots push each other: Box2D's solver distributes the momentum.
-    if (!other.suspended && touches(r.body, other.body)) continue;
-    add_constraints(r, other.details->shape, transform_of(other), share, dt_s);
+    if (!other.suspended && (touches(r.body, other.body) || r.pushable || other.pushable)) continue;
+    add_constraints(r, other.details->solid(), transform_of(other), share, dt_s);
   }
   if (constraints_.empty()) return r.target;
   switch (r.drive) {
@@ -355,8 +449,54 @@ bool Mover::clears_all(const Robot& r, const Twist& allowed, double dt_s) const 
   });
 }
 
+// Sets the targets of the moving obstacles to their velocities.
+void Mover::set_obstacle_targets(double dt_s) {
+  for (std::size_t i = bodies_.robot_count(); i < bodies_.robots().size(); ++i) {
+    Robot& r = bodies_.robots()[i];
+    const ObstacleBody& o = r.details->obstacle;
+    r.target = r.suspended ? Twist{} : twist_of(o.v_WB, o.omega_radps, r.X_WB.yaw_rad, dt_s);
+  }
+}
+
+// Whether a robot may reach an obstacle that it can push. Box2D exchanges their momentum, so
+// nothing else may stop them.
+bool Mover::may_push(const Neighbours::NearPair& pair, double dt_s) const {
+  const Robot& a = bodies_.robot(pair.first);
+  const Robot& b = bodies_.robot(pair.second);
+  if (!a.pushable && !b.pushable) return false;
+  const double way_m = std::max(most_travel_m(a, dt_s), most_travel_m(b, dt_s));
+  return 0.5 * (pair.apart_m - kTouchingGap_m) <= way_m;
+}
+
+// A drive that pushes an obstacle changes its velocity by at most what the friction of its wheels
+// permits in dt_s. It controls its velocity with an integral part, so that the push does not slow
+// it down as long as the wheels have traction.
+Twist Mover::limit_by_traction(Robot& r, const Twist& wanted, double dt_s) const {
+  Twist& excess = r.details->excess;
+  if (!touches_pushable(bodies_, r)) {
+    excess = {};
+    return wanted;
+  }
+  const Twist& before = r.details->achieved;
+  const double most_mps = kTraction * kGravity_mps2 * dt_s;
+  const double most_radps =
+      most_mps * r.details->mass_kg * r.details->traction_arm_m / r.details->inertia_kgm2;
+  const auto change = [](double target, double now, double most, double& more) {
+    const double error = target - now;
+    const bool controls = std::abs(error) < most && target * (more + error) > 0.0;
+    more = controls ? std::clamp(more + kPushGain * error, -most, most) : 0.0;
+    return error + more;
+  };
+  const double dv = change(wanted.v_mps, before.v_mps, most_mps, excess.v_mps);
+  const double dl = change(wanted.lateral_mps, before.lateral_mps, most_mps, excess.lateral_mps);
+  const double dw = change(wanted.omega_radps, before.omega_radps, most_radps, excess.omega_radps);
+  const double share = most_mps / std::max(most_mps, std::hypot(dv, dl));
+  return {before.v_mps + share * dv, before.omega_radps + std::clamp(dw, -most_radps, most_radps),
+          before.lateral_mps + share * dl};
+}
+
 // Collects the robots that touch others, those near them, those near these, and so on.
-void Mover::find_contact_groups() {
+void Mover::find_contact_groups(double dt_s) {
   for (const std::size_t i : contact_robots_) bodies_.robots()[i].in_contact_group = false;
   contact_robots_.clear();
   const auto add = [this](int index) {
@@ -364,7 +504,10 @@ void Mover::find_contact_groups() {
     if (!std::exchange(bodies_.robots()[i].in_contact_group, true)) contact_robots_.push_back(i);
   };
   for (const Neighbours::NearPair& pair : neighbours_.near_pairs()) {
-    if (!touches(bodies_.robot(pair.first).body, bodies_.robot(pair.second).body)) continue;
+    if (!touches(bodies_.robot(pair.first).body, bodies_.robot(pair.second).body) &&
+        !may_push(pair, dt_s)) {
+      continue;
+    }
     add(pair.first);
     add(pair.second);
   }
@@ -394,8 +537,16 @@ void Mover::contact_substep(double dt_s, double others_dt_s) {
       continue;
     }
     if (others_dt_s > 0.0 && r.in_contact_group) twists_[i] = allowed_twist(i, others_dt_s);
+    if (bodies_.has_pushable()) set_friction(i, own_dt_s, others_dt_s > 0.0);
     goals_[i] = arc_end(r.X_WB, twists_[i], own_dt_s);
     if (goals_[i] == r.X_WB && !r.body->IsAwake()) continue;
+    if (r.pushable && (others_dt_s == 0.0 || twists_[i] == r.target)) {
+      // Its velocity is its state. One towards the goal would turn the rounding of the body's
+      // position into momentum.
+      r.body->SetLinearVelocity(to_box2d(r.details->obstacle.v_WB));
+      r.body->SetAngularVelocity(static_cast<float>(r.details->obstacle.omega_radps));
+      continue;
+    }
     // This velocity takes Box2D's single-precision body to the exact goal, so that rounding errors
     // do not accumulate.
     const b2Vec2 goal = to_box2d(goals_[i].position());
@@ -408,6 +559,22 @@ void Mover::contact_substep(double dt_s, double others_dt_s) {
     const double own_dt_s = bodies_.robots()[i].in_contact_group ? dt_s : others_dt_s;
     if (own_dt_s > 0.0) follow_body(i, own_dt_s);
   }
+}
+
+// Sets what Box2D needs to know about friction before its step of dt_s.
+void Mover::set_friction(std::size_t index, double dt_s, bool first) {
+  Robot& r = bodies_.robots()[index];
+  if (!r.pushable) {
+    if (first) wanted_[index] = twists_[index];
+    twists_[index] = limit_by_traction(r, wanted_[index], dt_s);
+    return;
+  }
+  ObstacleBody& o = r.details->obstacle;
+  // After the first step Box2D has changed the velocity.
+  if (!first) twists_[index] = twist_of(o.v_WB, o.omega_radps, r.X_WB.yaw_rad, dt_s);
+  const double force_N = o.friction_left * o.friction_mps2 * r.details->mass_kg;
+  o.joint->SetMaxForce(static_cast<float>(force_N * kScale));
+  o.joint->SetMaxTorque(static_cast<float>(force_N * o.friction_arm_m * kScale * kScale));
 }
 
 // Updates the robot from its Box2D body; it gets the exact goal if nothing hindered it.
@@ -425,6 +592,7 @@ void Mover::follow_body(std::size_t index, double dt_s) {
   const float slack = 4e-6F * (4.0F + std::abs(p.x) + std::abs(p.y));
   if (std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
       std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
+    if (r.pushable && twists_[index] != r.target) note_velocity(r);
     move_to_goal(r, goal, twists_[index], dt_s);
     return;
   }
@@ -438,6 +606,17 @@ void Mover::follow_body(std::size_t index, double dt_s) {
   r.state->travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
   r.state->side_m += dy * std::cos(heading) - dx * std::sin(heading);
   record_travel(r, std::hypot(dx, dy), turn);
+  if (!bodies_.has_pushable()) return;
+  r.details->achieved = {(dx * std::cos(heading) + dy * std::sin(heading)) / dt_s, turn / dt_s,
+                         (dy * std::cos(heading) - dx * std::sin(heading)) / dt_s};
+  if (r.pushable) note_velocity(r);
+}
+
+// Takes over the velocity of a pushed obstacle from Box2D.
+void Mover::note_velocity(Robot& r) {
+  const b2Vec2& v = r.body->GetLinearVelocity();
+  r.details->obstacle.v_WB = {metres(v.x), metres(v.y)};
+  r.details->obstacle.omega_radps = static_cast<double>(r.body->GetAngularVelocity());
 }
 
 void Mover::plain_box2d_step(double dt_s) {

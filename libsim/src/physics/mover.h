@@ -12,7 +12,8 @@
 
 namespace sim::physics {
 
-/// Moves the robots: free robots along the arcs of their twists, the others with Box2D.
+/// Moves the robots and the moving obstacles, which are robots here: free ones along the arcs of
+/// their twists, the others with Box2D.
 class Mover {
  public:
   Mover(Bodies& bodies, Neighbours& neighbours) : bodies_(bodies), neighbours_(neighbours) {}
@@ -29,12 +30,20 @@ class Mover {
   void substep(double dt_s, bool first, bool last);
   void add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
                        double share, double dt_s);
-  void add_round_constraints(const Robot& r, const b2CircleShape& circle, double dt_s);
+  void add_round_constraints(const Robot& r, const b2CircleShape& circle,
+                             const b2Transform& circle_xf, double share, double dt_s);
+  void add_disc_constraint(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
+                           double share, double dt_s);
   [[nodiscard]] static bool clears_wall(const Robot& r, const Wall& wall, const b2Transform& xf,
                                         double dt_s);
   [[nodiscard]] Twist allowed_twist(std::size_t index, double dt_s);
   [[nodiscard]] bool clears_all(const Robot& r, const Twist& allowed, double dt_s) const;
-  void find_contact_groups();
+  void find_contact_groups(double dt_s);
+  [[nodiscard]] bool may_push(const Neighbours::NearPair& pair, double dt_s) const;
+  void set_obstacle_targets(double dt_s);
+  [[nodiscard]] Twist limit_by_traction(Robot& r, const Twist& wanted, double dt_s) const;
+  void set_friction(std::size_t index, double dt_s, bool first);
+  static void note_velocity(Robot& r);
   void move_freely(Robot& r, double dt_s);
   void contact_substep(double dt_s, double others_dt_s);
   void follow_body(std::size_t index, double dt_s);
@@ -51,6 +60,7 @@ class Mover {
   std::vector<std::size_t> contact_robots_;  // robots that touch others, or are near such robots
   std::vector<Pose> goals_;                  // poses of hindered robots if nothing stops them
   std::vector<Twist> twists_;                // twists towards `goals_`
+  std::vector<Twist> wanted_;                // twists without the limit of traction
   std::vector<TwistConstraint> constraints_;
 };
 

@@ -90,11 +90,11 @@ double Neighbours::distance_m(const Robot& a, const Robot& b, double enough_m, P
   }
   const b2Transform xf_a = transform_of(a);
   const b2Transform xf_b = transform_of(b);
-  const double along_m = metres(least_along(pair.direction, b.details->shape, xf_b) +
-                                least_along(-pair.direction, a.details->shape, xf_a));
+  const double along_m = metres(least_along(pair.direction, b.details->solid(), xf_b) +
+                                least_along(-pair.direction, a.details->solid(), xf_a));
   if (along_m > enough_m) return along_m;
   const b2DistanceOutput found =
-      distance_between(a.details->shape, xf_a, b.details->shape, xf_b, pair.cache);
+      distance_between(a.details->solid(), xf_a, b.details->solid(), xf_b, pair.cache);
   if (found.distance > 0.0F) {
     pair.direction = (1.0F / found.distance) * (found.pointB - found.pointA);
   }
@@ -187,7 +187,7 @@ void Neighbours::collect_candidates(Robot& r, const b2AABB& box, double reach_m)
   bodies_.for_robots_in(p_WB - reach, p_WB + reach, [&](const Bodies::Circle& circle) {
     const Robot& other = bodies_.robot(circle.robot);
     if (&other == &r) return;
-    r.details->candidates.push_back({&other.details->shape, circle.robot, {}, {}});
+    r.details->candidates.push_back({&other.details->solid(), circle.robot, {}, {}});
   });
 }
 
@@ -213,7 +213,7 @@ double Neighbours::distance_to_walls_m(Robot& r) {
   const b2Transform xf = transform_of(r);
   if (!(r.cumulative_max_travel_m < r.details->walls_until_m)) {
     b2AABB box;
-    r.details->shape.ComputeAABB(&box, xf, 0);
+    r.details->solid().ComputeAABB(&box, xf, 0);
     r.details->walls.clear();
     r.details->walls_until_m = r.cumulative_max_travel_m + kWallSearch_m;
     visit_fixed(bodies_.world(), expanded(box, 2.0 * kWallSearch_m),
@@ -236,7 +236,7 @@ double Neighbours::distance_to_walls_m(Robot& r) {
       }
     }
     const b2DistanceOutput found =
-        distance_between(r.details->shape, xf, *wall.shape, identity_transform(), wall.cache);
+        distance_between(r.details->solid(), xf, *wall.shape, identity_transform(), wall.cache);
     least_m = std::min(least_m, metres(found.distance));
   }
   return least_m;
@@ -256,10 +256,10 @@ bool Neighbours::is_free(std::size_t index, double dt_s) const {
 bool Neighbours::is_near_wall(const Robot& r, const b2Contact& contact) const {
   const b2Fixture* other = contact.GetFixtureA();
   if (other->GetBody() == r.body) other = contact.GetFixtureB();
-  if (info_of(other).kind == Contact::Kind::kRobot) return false;
+  if (info_of(other).body >= 0) return false;
   const b2Transform& xf = r.body->GetTransform();
   const double apart_m = metres(
-      distance_between(r.details->shape, xf, *other->GetShape(), identity_transform()).distance);
+      distance_between(r.details->solid(), xf, *other->GetShape(), identity_transform()).distance);
   return apart_m <= wall_reach_m();
 }
 

@@ -29,6 +29,14 @@ void archive_robot_state(StateArchive& archive, Robot& r) {
   }
 }
 
+void archive_velocity(StateArchive& archive, Robot& r) {
+  ObstacleBody& o = r.details->obstacle;
+  archive(o.v_WB, o.omega_radps);
+  for (const double x : {o.v_WB.x(), o.v_WB.y(), o.omega_radps}) {
+    archive.expect(std::abs(x) <= kFarthest_m, "velocities of obstacles");
+  }
+}
+
 // A permutation of all robots: each of `entries` names its robot.
 template <typename Entry>
 void archive_order(StateArchive& archive, std::vector<Entry>& entries) {
@@ -95,6 +103,7 @@ void Bodies::archive_cylinder(StateArchive& archive, b2Body& body, bool enabled,
 }
 
 void Bodies::archive_obstacle(StateArchive& archive, int index) {
+  if (body_of(index) >= 0) return;  // it is among the robots
   b2Body& body = obstacle(index);
   const Parts& parts = parts_[static_cast<std::size_t>(index)];
   bool enabled = body.IsEnabled();
@@ -127,8 +136,15 @@ void Bodies::archive_obstacle(StateArchive& archive, int index) {
 
 void Bodies::archive(StateArchive& archive) {
   for (Robot& r : robots_) archive_robot_state(archive, r);
+  for (std::size_t i = robot_count_; i < robots_.size(); ++i) archive_velocity(archive, robots_[i]);
+  for (Robot& r : robots_) {
+    if (has_pushable_) archive(r.details->achieved, r.details->excess);
+  }
   archive_order(archive, by_x_);
-  order_fresh_ = order_fresh_ && !archive.reading();
+  if (archive.reading()) {
+    order_fresh_ = false;
+    for (Circle& circle : by_x_) circle.radius = robot(circle.robot).radius_m;
+  }
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     archive_obstacle(archive, static_cast<int>(i));
   }
@@ -136,7 +152,7 @@ void Bodies::archive(StateArchive& archive) {
   std::vector<std::uint32_t> newest_first;  // robots with a Box2D body
   for (b2Body* body = world_.GetBodyList(); body->GetType() == b2_dynamicBody;
        body = body->GetNext()) {
-    newest_first.push_back(static_cast<std::uint32_t>(info_of(body->GetFixtureList()).index));
+    newest_first.push_back(static_cast<std::uint32_t>(info_of(body->GetFixtureList()).body));
   }
   archive(newest_first);
   if (archive.reading()) {
@@ -149,11 +165,12 @@ void Bodies::archive(StateArchive& archive) {
     }
   }
   archive_box2d(archive, world_, fixtures());
+  for (b2FrictionJoint* joint : joints()) archive_joint(archive, *joint);
 }
 
 void Contacts::archive(StateArchive& archive) {
   constexpr auto kLastKind = Contact::Kind::kRobot;
-  const std::size_t robots = bodies_.robots().size();
+  const std::size_t robots = bodies_.robot_count();
   archive.list(fresh_, [&](Contact& contact) {
     archive.index(contact.robot, robots);
     archive.choice(contact.kind, kLastKind);
@@ -198,16 +215,15 @@ void Neighbours::archive_robot(StateArchive& archive, Robot& r,
       archive.expect(candidate.robot < robots && fixture < static_cast<int>(fixtures.size()),
                      "candidates that there are");
       if (archive.reading() && candidate.robot >= 0) {
-        candidate.shape = &bodies_.robot(candidate.robot).details->shape;
+        candidate.shape = &bodies_.robot(candidate.robot).details->solid();
       } else if (archive.reading()) {
         const b2Fixture* solid = fixtures[static_cast<std::size_t>(fixture)];
-        archive.expect(solid != nullptr && info_of(solid).kind != Contact::Kind::kRobot &&
-                           solid->GetBody()->IsEnabled(),
+        archive.expect(solid != nullptr && info_of(solid).body < 0 && solid->GetBody()->IsEnabled(),
                        "candidates that stand");
         candidate.shape = solid->GetShape();
         candidate.box = solid->GetAABB(0);
       }
-      archive_cache(archive, candidate.cache, d.shape, *candidate.shape);
+      archive_cache(archive, candidate.cache, d.solid(), *candidate.shape);
     });
   }
   if (std::isinf(d.walls_until_m)) return;
@@ -215,10 +231,10 @@ void Neighbours::archive_robot(StateArchive& archive, Robot& r,
     archive.index(wall.fixture, fixtures.size());
     if (archive.reading()) {
       const b2Fixture* solid = fixtures[static_cast<std::size_t>(wall.fixture)];
-      archive.expect(solid != nullptr && info_of(solid).kind != Contact::Kind::kRobot, "walls");
+      archive.expect(solid != nullptr && info_of(solid).body < 0, "walls");
       wall = wall_of(*solid);
     }
-    archive_cache(archive, wall.cache, d.shape, *wall.shape);
+    archive_cache(archive, wall.cache, d.solid(), *wall.shape);
   });
 }
 
@@ -231,8 +247,8 @@ void Neighbours::archive(StateArchive& archive) {
     archive(pair.pair_at_travel_m);
     archive.unbounded(pair.apart_m);
     archive_vector(archive, pair.direction);
-    archive_cache(archive, pair.cache, bodies_.robot(pair.first).details->shape,
-                  bodies_.robot(pair.second).details->shape);
+    archive_cache(archive, pair.cache, bodies_.robot(pair.first).details->solid(),
+                  bodies_.robot(pair.second).details->solid());
   });
   meet_at_travel_m_.resize(pairs_.size());
   for (double& meet_m : meet_at_travel_m_) archive.unbounded(meet_m);

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "physics/physics_world.h"
 
+#include <cmath>
+
 #include "physics/bodies.h"
 #include "physics/contacts.h"
 #include "physics/mover.h"
@@ -36,7 +38,44 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
 }
 
 int PhysicsWorld::robot_count() const noexcept {
-  return static_cast<int>(impl_->bodies.robots().size());
+  return static_cast<int>(impl_->bodies.robot_count());
+}
+
+int PhysicsWorld::add_moving_obstacle(int obstacle, const ObstacleDescription& description) {
+  const int body = impl_->bodies.add_moving_obstacle(obstacle, description);
+  impl_->sensor_view.add_robot(body);
+  impl_->something_was_placed();
+  return body;
+}
+
+int PhysicsWorld::body_of_obstacle(int obstacle) const { return impl_->bodies.body_of(obstacle); }
+
+int PhysicsWorld::obstacle_of_body(int body) const {
+  return impl_->bodies.robot(body).details->info->index;
+}
+
+Pose PhysicsWorld::obstacle_pose(int body) const {
+  return physics::Bodies::obstacle_pose(impl_->bodies.robot(body));
+}
+
+void PhysicsWorld::drive_obstacle(int body, const Pose& X_WO, double dt_s) {
+  physics::Robot& r = impl_->bodies.robot(body);
+  physics::ObstacleBody& o = r.details->obstacle;
+  const Vec2 p_WB = o.p_BO.isZero(0.0) ? X_WO.position() : X_WO * Vec2(-o.p_BO);
+  // Rounding must not move an obstacle that stands.
+  constexpr double kRounding = 1e-13;
+  const Vec2 way = p_WB - r.X_WB.position();
+  const double turn_rad = normalize_angle(X_WO.yaw_rad - r.X_WB.yaw_rad);
+  o.v_WB = way.isZero(kRounding) ? Vec2(Vec2::Zero()) : Vec2(way / dt_s);
+  o.omega_radps = std::abs(turn_rad) <= kRounding ? 0.0 : turn_rad / dt_s;
+}
+
+Vec2 PhysicsWorld::obstacle_velocity(int body) const {
+  const BodyState& state = *impl_->bodies.robot(body).state;
+  const double c = std::cos(state.X_WB.yaw_rad);
+  const double s = std::sin(state.X_WB.yaw_rad);
+  const Twist& twist = state.twist;
+  return {c * twist.v_mps - s * twist.lateral_mps, s * twist.v_mps + c * twist.lateral_mps};
 }
 
 double PhysicsWorld::height_m(int robot) const {
@@ -97,6 +136,11 @@ void PhysicsWorld::set_height(int obstacle, double height_m) {
 
 void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now) {
   impl_->bodies.change_obstacle(obstacle, now);
+  if (impl_->bodies.body_of(obstacle) >= 0) {
+    impl_->sensor_view.robot_was_placed();
+    impl_->something_was_placed();
+    return;
+  }
   impl_->neighbours.invalidate();
   impl_->sensor_view.solids_changed();
 }
@@ -105,8 +149,8 @@ void PhysicsWorld::set_load(int robot, const std::vector<Load>& loads) {
   impl_->sensor_view.set_load(impl_->bodies.robot(robot), loads);
 }
 
-int PhysicsWorld::robot_within(const ObstacleDescription& solid) const {
-  return impl_->bodies.robot_within(solid);
+int PhysicsWorld::robot_within(const ObstacleDescription& solid, int ignored) const {
+  return impl_->bodies.robot_within(solid, ignored);
 }
 
 double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m) {

@@ -37,6 +37,22 @@ class PhysicsWorld {
   /// Adds a robot; the first has index 0.
   int add_robot(const RobotModel& model, const Pose& X_WB);
   [[nodiscard]] int robot_count() const noexcept;
+  /// Adds an obstacle that is_movable(), after all robots. It is a body like a robot: the functions
+  /// with a parameter `robot` take its index, too.
+  /// @param obstacle  its index in the arena.
+  /// @return the index of its body.
+  int add_moving_obstacle(int obstacle, const ObstacleDescription& description);
+  /// The body of an obstacle; -1: it is static.
+  [[nodiscard]] int body_of_obstacle(int obstacle) const;
+  /// The obstacle of a body that is not a robot.
+  [[nodiscard]] int obstacle_of_body(int body) const;
+  /// Pose X_WO of an obstacle that moves.
+  [[nodiscard]] Pose obstacle_pose(int body) const;
+  /// Sets the target of a driven obstacle for the next step: it reaches the pose X_WO at its end
+  /// unless something hinders it.
+  void drive_obstacle(int body, const Pose& X_WO, double dt_s);
+  /// Velocity of an obstacle's centre of area in W over the last step [m/s].
+  [[nodiscard]] Vec2 obstacle_velocity(int body) const;
   [[nodiscard]] double height_m(int robot) const;
 
   /// Sets a robot's target twist for the next step.
@@ -80,12 +96,13 @@ class PhysicsWorld {
 
   /// Extends (true) or retracts a dynamic obstacle, given by its index in the arena.
   void set_extended(int obstacle, bool extended);
-  /// The first robot whose footprint overlaps the obstacle's area; -1 if there is none.
+  /// The first robot or moving obstacle that overlaps the obstacle's area; -1 if there is none.
   [[nodiscard]] int robot_on(int obstacle) const;
   /// Sets the height up to which the obstacle stands now, >= 0 [m]. Sensors above it look over it.
   void set_height(int obstacle, double height_m);
   /// Changes position, rotation, size or height of an obstacle, given by its index. It keeps its
-  /// shape and the number of its vertices, and stays extended or retracted as it is.
+  /// shape and the number of its vertices, and stays extended or retracted as it is. One that moves
+  /// keeps its size and height too, and is at rest then.
   void change_obstacle(int obstacle, const ObstacleDescription& now);
   /// An obstacle that a robot carries.
   struct Load {
@@ -96,8 +113,9 @@ class PhysicsWorld {
   /// Sets what a robot carries. It collides with nothing, but the sensors of other robots see it
   /// like the robot itself.
   void set_load(int robot, const std::vector<Load>& loads);
-  /// The first robot whose footprint overlaps a solid; -1 if there is none.
-  [[nodiscard]] int robot_within(const ObstacleDescription& solid) const;
+  /// The first robot or moving obstacle that overlaps a solid; -1 if there is none.
+  /// @param ignored  body that does not count, or -1.
+  [[nodiscard]] int robot_within(const ObstacleDescription& solid, int ignored = -1) const;
 
   /// Distance of a robot's footprint to the nearest solid, at most limit_m [m]. The result is exact
   /// if it is below exact_below_m. Otherwise it is a lower bound that is at least exact_below_m.

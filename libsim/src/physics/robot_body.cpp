@@ -6,6 +6,14 @@ namespace sim::physics {
 LineDistance distance_to_line(const Robot& r, const Wall& wall, const b2Transform& xf) {
   Vec2 normal(wall.along.y(), -wall.along.x());
   if (normal.dot(r.X_WB.position() - wall.start) < 0.0) normal = -normal;
+  if (r.details->round) {
+    const Vec2 off = r.X_WB.position() - wall.start;
+    const double apart_m = normal.dot(off) - r.radius_m;
+    const double way_m = wall.along.dot(off);
+    return {apart_m,
+            {static_cast<float>(-normal.x()), static_cast<float>(-normal.y())},
+            apart_m > 0.0 && way_m >= 0.0 && way_m <= wall.length_m};
+  }
   const b2Vec2 n(static_cast<float>(normal.x()), static_cast<float>(normal.y()));
   const b2Vec2 local = b2MulT(xf.q, n);
   const b2PolygonShape& shape = r.details->shape;

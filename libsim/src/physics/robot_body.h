@@ -28,6 +28,9 @@ inline constexpr double kTouchingGap_m = 2.0 * b2_polygonRadius / kScale;
 /// extended by 1 cm, so Box2D knows a contact before the robot reaches it.
 inline constexpr double kMaxTravel_m = 0.0085;
 
+/// Acceleration of gravity.
+inline constexpr double kGravity_mps2 = 9.81;
+
 /// A distance that is not known yet.
 inline constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
@@ -50,14 +53,32 @@ struct Candidate {
   b2SimplexCache cache;  ///< for the nearest points of the candidate and the robot
 };
 
+/// What a body that is an obstacle has besides a robot.
+struct ObstacleBody {
+  Vec2 p_BO =
+      Vec2::Zero();  ///< origin of the obstacle's own frame; B is the centre of its area [m]
+  Vec2 v_WB = Vec2::Zero();  ///< velocity of B in W: of a driven one the target [m/s]
+  double omega_radps = 0.0;
+  double friction_mps2 = 0.0;        ///< deceleration by the floor, mu g
+  double friction_arm_m = 0.0;       ///< ratio of the floor's greatest torque to its greatest force
+  double friction_left = 1.0;        ///< share of the floor's friction that a push meets now
+  b2FrictionJoint* joint = nullptr;  ///< of a pushed one that has a Box2D body
+};
+
 /// Data of a robot that is needed less often.
 struct RobotDetails {
   b2PolygonShape shape;
+  b2CircleShape disc;  ///< of a round obstacle, about B, instead of `shape`
+  bool round = false;
   b2PolygonShape reaching_shape;  ///< the shape with a wide skin, which finds contacts in advance
   FixtureInfo* info = nullptr;
   double height_m = 0.0;
   double mass_kg = 0.0;
   double inertia_kgm2 = 0.0;
+  double traction_arm_m = 0.0;  ///< lever of the wheels' forces about B
+  Twist achieved;               ///< of a robot in its last Box2D step, see Mover::limit_by_traction
+  Twist excess;                 ///< what its drive adds to its target against the force of a push
+  ObstacleBody obstacle;
   // Of Neighbours:
   std::vector<Candidate> candidates;  ///< everything nearer than candidates_reach_m
   b2Vec2 nearest_direction{1.0F, 0.0F};
@@ -72,9 +93,13 @@ struct RobotDetails {
   std::vector<Cylinder> round_load;  ///< carried objects that are round, in B
   std::vector<int> load_obstacles;   ///< obstacle index of each of these edges
   double seen_radius_m = 0.0;        ///< radius of footprint and load about B
+
+  [[nodiscard]] const b2Shape& solid() const {
+    return round ? static_cast<const b2Shape&>(disc) : shape;
+  }
 };
 
-/// A robot, as stored in Bodies for all parts of the physics.
+/// A robot or an obstacle that moves, as stored in Bodies for all parts of the physics.
 struct alignas(64) Robot {
   // The members that are needed most often come first: one cache line, then some others.
   b2Body* body = nullptr;  ///< null while nothing hinders the robot
@@ -86,6 +111,7 @@ struct alignas(64) Robot {
   bool suspended = false;
   bool in_contact_group = false;       ///< touches another robot, or is near one that does
   std::uint8_t substeps_in_box2d = 0;  ///< number of further substeps with a Box2D body
+  bool pushable = false;               ///< an obstacle without a drive
   DriveKind drive = DriveKind::kDifferential;
 
   Pose X_WB;             ///< exact; yaw is not wrapped, and matches the body's angle

@@ -57,6 +57,23 @@ bool is_within(const Cylinder& cylinder, const Vec2& p_W) {
   return (cylinder.center - p_W).squaredNorm() <= cylinder.radius_m * cylinder.radius_m;
 }
 
+// Where the ray from A enters a circle; infinite if it does not.
+double entry_m(const Cylinder& cylinder, const Vec2& p_WA, const Vec2& along) {
+  const Vec2 p_AC = cylinder.center - p_WA;
+  const std::optional<scan::Chord> chord =
+      scan::chord_of({p_AC.x(), p_AC.y(), cylinder.radius_m}, along.x(), along.y());
+  if (chord && chord->enter_m >= 0.0) return chord->enter_m;
+  return std::numeric_limits<double>::infinity();
+}
+
+// The fraction of the line from A to C at which it enters a circle from outside; at least 1: it
+// does not.
+double entry_of(const Cylinder& cylinder, const Vec2& p_WA, const Vec2& p_WC) {
+  if (is_within(cylinder, p_WA)) return 1.0;
+  const double length_m = (p_WC - p_WA).norm();
+  return entry_m(cylinder, p_WA, (p_WC - p_WA) / length_m) / length_m;
+}
+
 }  // namespace
 
 void SensorView::solids_changed() {
@@ -65,7 +82,7 @@ void SensorView::solids_changed() {
   fixed_cylinders_.clear();
   if (!sweep_) return;
   for (const auto& info : bodies_.infos()) {
-    if (info->kind == Contact::Kind::kRobot) continue;
+    if (info->body >= 0) continue;
     if (info->kind == Contact::Kind::kObstacle && !bodies_.obstacle(info->index).IsEnabled()) {
       continue;
     }
@@ -142,7 +159,7 @@ void SensorView::rebuild_outlines() {
     const double c = std::cos(r.X_WB.yaw_rad);
     const double s = std::sin(r.X_WB.yaw_rad);
     Outline& outline = outlines_[k];
-    outline.count = static_cast<std::size_t>(r.details->shape.m_count);
+    outline.count = r.details->round ? 0 : static_cast<std::size_t>(r.details->shape.m_count);
     for (std::size_t i = 0; i < outline.count; ++i) {
       const double x = metres(r.details->shape.m_vertices[i].x);
       const double y = metres(r.details->shape.m_vertices[i].y);
@@ -153,6 +170,8 @@ void SensorView::rebuild_outlines() {
     outline.seen_radius_m = r.details->seen_radius_m;
     outline.height_m = r.details->height_m;
     outline.robot = by_hilbert_index_[k].robot;
+    outline.kind = r.details->info->kind;
+    outline.index = r.details->info->index;
     outline.first_load = load_edges_.edges.size();
     for (std::size_t i = 0; i < r.details->load.edges.size(); ++i) {
       const Edge& e = r.details->load.edges[i];
@@ -163,7 +182,7 @@ void SensorView::rebuild_outlines() {
     outline.end_load = load_edges_.edges.size();
     outline.first_cylinder = load_cylinders_.size();
     for (Cylinder cylinder : r.details->round_load) {
-      cylinder.center = r.X_WB * cylinder.center;
+      cylinder.center = cylinder.center.isZero(0.0) ? r.X_WB.position() : r.X_WB * cylinder.center;
       load_cylinders_.push_back(cylinder);
     }
     outline.end_cylinder = load_cylinders_.size();
@@ -190,6 +209,11 @@ void SensorView::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, 
         if (aside * aside > circle.radius * circle.radius * line.squaredNorm()) return;
         if (!may(circle.robot)) return;
         const Robot& r = bodies_.robot(circle.robot);
+        if (r.details->round) {
+          const double share = entry_of({p_WA + p_AB, circle.radius, 0.0, -1}, p_WA, p_WC);
+          if (share < 1.0) more = visit(static_cast<float>(share));
+          return;
+        }
         b2RayCastOutput output;
         if (!r.details->shape.RayCast(&output, input, transform_of(r), 0)) return;
         more = visit(output.fraction);
@@ -224,10 +248,7 @@ double SensorView::cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC, double 
         ignored->index == cylinder.obstacle) {
       return;
     }
-    const Vec2 p_AC = cylinder.center - p_WA;
-    const std::optional<scan::Chord> chord =
-        scan::chord_of({p_AC.x(), p_AC.y(), cylinder.radius_m}, along.x(), along.y());
-    if (chord && chord->enter_m >= 0.0) least_m = std::min(least_m, chord->enter_m);
+    least_m = std::min(least_m, entry_m(cylinder, p_WA, along));
   });
   return least_m / length_m;
 }
@@ -349,7 +370,7 @@ void SensorView::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
   for (const Outline& outline : outlines_) {
     if (outline.robot == own_robot) continue;
     for (std::size_t i = 0; i < outline.count; ++i) {
-      add(outline.edge(i), Contact::Kind::kRobot, outline.robot, outline.height_m);
+      add(outline.edge(i), outline.kind, outline.index, outline.height_m);
     }
     const Robot& r = bodies_.robot(outline.robot);
     for (std::size_t i = outline.first_load; i < outline.end_load; ++i) {
@@ -369,7 +390,7 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
       const FixtureInfo& info = info_of(fixture);
       const bool wanted = info.kind == target_kind && info.index == target_index;
       if (info.cylinder >= 0) return -1.0F;
-      if (info.kind == Contact::Kind::kRobot || wanted || info.height_m <= height_m) return -1.0F;
+      if (info.body >= 0 || wanted || info.height_m <= height_m) return -1.0F;
       blocked = true;
       return 0.0F;
     }
@@ -384,7 +405,7 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
   // Box2D does not accept a line of length 0.
   if ((p_WC - p_WA).squaredNorm() <= 0.0) return true;
   // Robots first, since their test is cheaper.
-  const int target_robot = target.kind == Contact::Kind::kRobot ? target.index : -1;
+  const int target_robot = bodies_.body_of(target);
   bool blocked = false;
   cast_at_robots(
       p_WA, p_WC,
@@ -416,7 +437,8 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
   bodies_.for_robots_in(p_W, p_W, [&](const Bodies::Circle& circle) {
     const Robot& r = bodies_.robot(circle.robot);
     if (inside || circle.robot == own_robot || r.details->height_m <= height_m) return;
-    inside = r.details->shape.TestPoint(transform_of(r), to_box2d(p_W));
+    inside = r.details->round ? is_within({{circle.x, circle.y}, circle.radius, 0.0, -1}, p_W)
+                              : r.details->shape.TestPoint(transform_of(r), to_box2d(p_W));
   });
   if (inside || !bodies_.has_walls()) return inside;
   // Walls of a map are closed outlines. A point is inside if a ray to the far right crosses an odd
@@ -440,7 +462,7 @@ double SensorView::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_m
     float fraction = 1.0F;
     float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float f) override {
       const FixtureInfo& info = info_of(fixture);
-      if (info.kind == Contact::Kind::kRobot || info.cylinder >= 0) return -1.0F;
+      if (info.body >= 0 || info.cylinder >= 0) return -1.0F;
       fraction = f;
       return f;
     }

@@ -50,7 +50,8 @@ class SensorView {
     int robot;
     double until_m;  // valid until the robot's cumulative travel has this value
   };
-  // The outlines of a robot and its load, in W.
+  // The outlines of a robot and its load, or of a moving obstacle, in W. The outline of a round one
+  // is a cylinder.
   struct Outline {
     Vec2 p_WB;
     double seen_radius_m;  // bounding radius of robot and load
@@ -59,6 +60,8 @@ class SensorView {
     std::size_t count;  // number of the robot's edges
     double height_m;
     int robot;
+    Contact::Kind kind;
+    int index;               // of the robot or obstacle
     std::size_t first_load;  // range of the load's edges in load_edges_
     std::size_t end_load;
     std::size_t first_cylinder;  // range of the load's cylinders in load_cylinders_

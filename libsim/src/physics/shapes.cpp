@@ -7,6 +7,20 @@
 #include "sim/core/assert.h"
 
 namespace sim {
+namespace {
+
+// Moves a nearest point from the centre of a circle to its outline.
+void shorten(b2DistanceOutput& output, float radius, b2Vec2& center, const b2Vec2& other) {
+  if (output.distance <= radius) {
+    center = other;
+    output.distance = 0.0F;
+    return;
+  }
+  center -= (radius / output.distance) * (center - other);
+  output.distance -= radius;
+}
+
+}  // namespace
 
 b2PolygonShape polygon_shape(const std::vector<Vec2>& vertices) {
   SIM_ASSERT(vertices.size() >= 3 && vertices.size() <= b2_maxPolygonVertices);
@@ -44,16 +58,13 @@ b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a, con
   input.useRadii = false;
   b2DistanceOutput output;
   b2Distance(&output, &cache, &input);
-  if (b.GetType() != b2Shape::e_circle) return output;
-  // So far this is the distance to the centre of the circle.
-  const float radius = core_radius(b);
-  if (output.distance <= radius) {
-    output.pointB = output.pointA;
-    output.distance = 0.0F;
-    return output;
+  // So far this is the distance to the centre of a circle.
+  if (b.GetType() == b2Shape::e_circle) {
+    shorten(output, core_radius(b), output.pointB, output.pointA);
   }
-  output.pointB -= (radius / output.distance) * (output.pointB - output.pointA);
-  output.distance -= radius;
+  if (a.GetType() == b2Shape::e_circle) {
+    shorten(output, core_radius(a), output.pointA, output.pointB);
+  }
   return output;
 }
 

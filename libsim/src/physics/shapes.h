@@ -71,7 +71,7 @@ inline constexpr float kScaleF = 10.0F;
   return least + b2Dot(n, xf.p);
 }
 
-/// Distance of two shapes without their skins, and their nearest points. Only b may be a circle.
+/// Distance of two shapes without their skins, and their nearest points.
 /// @param cache  of an earlier call for the same shapes, or with a count of 0; is updated.
 [[nodiscard]] b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a,
                                                 const b2Shape& b, const b2Transform& xf_b,

@@ -26,9 +26,9 @@ bool is_retracted(const ObstacleDescription& obstacle) {
   return obstacle.type == ObstacleType::kDynamic && obstacle.state == ObstacleState::kRetracted;
 }
 
-// Rising and sinking blocks are drawn by block_painter.cpp.
+// Rising and sinking blocks are drawn by block_painter.cpp, moving obstacles by mover_painter.cpp.
 bool is_standing(const ObstacleDescription& obstacle) {
-  return !is_retracted(obstacle) && !obstacle.present_height_m;
+  return !is_retracted(obstacle) && !obstacle.present_height_m && !is_movable(obstacle);
 }
 
 // A counter-clockwise outline with each side moved inwards. Sharp corners move by at most twice the

@@ -14,8 +14,8 @@ void draw_ground(const ArenaDescription& arena, const Layout& layout, Painter& p
 /// Draws outlines of retracted obstacles above floor and canvas.
 void draw_retracted(const ArenaDescription& arena, const Layout& layout, Overlay::Canvas& overlay);
 
-/// Draws borders, separators, blocks and walls, with their shadows. Blocks that rise or sink are
-/// left out.
+/// Draws borders, separators, blocks and walls, with their shadows. Blocks that rise or sink, and
+/// obstacles that move or can be pushed, are left out.
 void draw_solids(const ArenaDescription& arena, const Layout& layout, Overlay::Canvas& overlay);
 
 }  // namespace sim::render

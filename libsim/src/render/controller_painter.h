@@ -8,7 +8,7 @@
 #include "render/text_box.h"
 #include "sim/simulation/scene_snapshot.h"
 
-/// Painting of what the arena controller does.
+/// Painting of what the arena controller does, and of moving obstacles.
 namespace sim::render {
 
 /// The outline of an obstacle in the picture.
@@ -21,6 +21,14 @@ void draw_moving_shadows(const SceneSnapshot& scene, const Layout& layout, Paint
 /// Draws rising and sinking blocks, filled like a gauge up to their present height, and the marks
 /// of blocks that wait.
 void draw_moving_blocks(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
+
+/// Draws the paths of obstacles that follow one, faintly, on the floor.
+void draw_tracks(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
+/// Draws the shadows of obstacles that move or can be pushed. Must be called before other solids
+/// are drawn.
+void draw_mover_shadows(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
+/// Draws obstacles that move or can be pushed.
+void draw_movers(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 
 /// Draws areas and outlines of traps on the floor.
 void draw_traps(const SceneSnapshot& scene, const Layout& layout, Painter& painter);

@@ -45,6 +45,8 @@ struct ArenaKey {
     for (const auto* boxes : {&arena.obstacles, &arena.dock_separators}) {
       numbers.push_back(static_cast<double>(boxes->size()));
       for (const ObstacleDescription& box : *boxes) {
+        numbers.push_back(is_movable(box) ? 1.0 : 0.0);  // drawn anew in each picture
+        if (is_movable(box)) continue;
         add(box.center);
         add(box.size);
         numbers.push_back(box.yaw_rad);
@@ -158,12 +160,15 @@ class ArenaView {
     painter_.set_clip(floor);
     const std::vector<std::uint8_t>& cells = cells_of(scene, with_canvas);
     if (options_.scans) draw_fans(scene, cells, layout_, painter_);
+    if (options_.trails) draw_tracks(scene, layout_, painter_);
     if (options_.trails) draw_trails(scene, cells, layout_, painter_);
     if (options_.traps) draw_traps(scene, layout_, painter_);
     painter_.clear_clip();
     draw_moving_shadows(scene, layout_, painter_);
+    draw_mover_shadows(scene, layout_, painter_);
     solids_.draw_on(painter_.image(), {0, 0, layout_.width, layout_.height});
     draw_moving_blocks(scene, layout_, painter_);
+    draw_movers(scene, layout_, painter_);
     if (options_.traps) {
       painter_.set_clip(floor);
       draw_covered_traps(scene, layout_, painter_);

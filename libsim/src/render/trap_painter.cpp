@@ -63,6 +63,8 @@ class EventPainter {
           break;
         case ArenaEventKind::kWaiting:
         case ArenaEventKind::kRefused:
+        case ArenaEventKind::kBlocked:
+        case ArenaEventKind::kPushed:
           draw_object(event.what, palette::kAlert, age);
           break;
         case ArenaEventKind::kRestart:

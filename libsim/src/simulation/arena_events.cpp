@@ -12,11 +12,17 @@
 namespace sim {
 namespace {
 
-constexpr std::array<std::string_view, 19> kKindNames = {
-    "timer",   "trap",    "configuration", "rising",  "extended", "sinking", "retracted",
-    "waiting", "refused", "placed",        "message", "text",     "canvas",  "restart",
-    "score",   "enabled", "disabled",      "reset",   "end"};
-static_assert(kKindNames.size() == static_cast<std::size_t>(ArenaEventKind::kEnd) + 1);
+constexpr std::array<std::string_view, 23> kKindNames = {
+    "timer",    "trap",   "configuration", "rising", "extended", "sinking", "retracted", "waiting",
+    "refused",  "placed", "message",       "text",   "canvas",   "restart", "score",     "enabled",
+    "disabled", "reset",  "end",           "moving", "arrived",  "blocked", "pushed"};
+static_assert(kKindNames.size() == static_cast<std::size_t>(kLastArenaEventKind) + 1);
+
+// Who or what hindered an obstacle.
+std::string cause_of(const ArenaEvent& event) {
+  if (!event.who.empty()) return " by robot " + event.who;
+  return event.text.empty() ? "" : " by " + event.text;
+}
 
 }  // namespace
 
@@ -61,6 +67,14 @@ std::string description(const ArenaEvent& event) {
       return event.what + " is switched off";
     case ArenaEventKind::kReset:
       return "the world is reset";
+    case ArenaEventKind::kMoving:
+      return "obstacle " + event.what + " begins to move";
+    case ArenaEventKind::kArrived:
+      return "obstacle " + event.what + " is at the end of its path";
+    case ArenaEventKind::kBlocked:
+      return "obstacle " + event.what + " is blocked" + cause_of(event);
+    case ArenaEventKind::kPushed:
+      return "obstacle " + event.what + " is off its path" + cause_of(event);
     case ArenaEventKind::kEnd:
       break;
   }
@@ -107,7 +121,7 @@ void Simulation::Impl::archive_arena(StateArchive& archive) {
   archive.list(events.newest, [&](ArenaEvent& event) {
     archive(event.number);
     archive.time(event.time_ns);
-    archive.choice(event.kind, ArenaEventKind::kEnd);
+    archive.choice(event.kind, kLastArenaEventKind);
     archive(event.what, event.who, event.text, event.value);
   });
   archive.expect(events.newest.size() <= kKeptArenaEvents, "few events");

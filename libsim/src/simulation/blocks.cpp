@@ -88,9 +88,10 @@ std::optional<std::string> Simulation::Impl::set_block(int index, bool extend) {
     record(slow ? ArenaEventKind::kRising : ArenaEventKind::kExtended, block.name);
     return std::nullopt;
   }
-  const std::string& name = world.robots[static_cast<std::size_t>(robot)].name;
-  const std::string reason =
-      "obstacle \"" + block.name + "\" cannot be extended: a robot stands on it";
+  const std::string& name = name_of_body(robot);
+  const std::string reason = "obstacle \"" + block.name + "\" cannot be extended: " +
+                             (robot < physics->robot_count() ? "a robot" : "an obstacle") +
+                             " stands on it";
   if (block.when_blocked == WhenBlocked::kRefuse) {
     record(ArenaEventKind::kRefused, block.name, name, reason);
     return reason;

@@ -109,6 +109,7 @@ class Simulation::Impl::Controller {
   void act(const ScoreAction& action, const Cause& cause);
   void act(const SwitchAction& action, const Cause& cause);
   void act(const EndAction& action, const Cause& cause);
+  void act(const MoveAction& action, const Cause& cause);
   std::optional<std::string> change_block(const std::string& name, BlocksAction::Change change);
   std::optional<std::string> place(const std::string& name, const Pose& pose);
   bool restart(std::size_t robot);

@@ -9,6 +9,7 @@
 #include "sim/devices/battery.h"
 #include "sim/devices/fiducial.h"
 #include "simulation/controller.h"
+#include "simulation/obstacle_motions.h"
 
 namespace sim {
 namespace {
@@ -227,6 +228,14 @@ void Simulation::Impl::Controller::act(const SwitchAction& action, const Cause&)
 void Simulation::Impl::Controller::act(const EndAction& action, const Cause& cause) {
   impl_.verdict = Verdict{action.passed, action.reason, impl_.now_ns};
   impl_.record(ArenaEventKind::kEnd, cause.name, {}, action.reason, action.passed ? 1.0 : 0.0);
+}
+
+void Simulation::Impl::Controller::act(const MoveAction& action, const Cause&) {
+  const auto& obstacles = impl_.world.arena.obstacles;
+  const auto found = std::find_if(obstacles.begin(), obstacles.end(),
+                                  [&](const auto& o) { return o.name == action.obstacle; });
+  SIM_ASSERT(found != obstacles.end() && impl_.obstacle_motions);
+  impl_.obstacle_motions->move(static_cast<int>(found - obstacles.begin()), action.motion);
 }
 
 }  // namespace sim

@@ -66,6 +66,10 @@ class Adder {
   void add(const ScoreAction& a) { (*this)(a.robot, a.points); }
   void add(const SwitchAction& a) { (*this)(a.on, a.names); }
   void add(const EndAction& a) { (*this)(a.passed, a.reason); }
+  void add(const MoveAction& a) {
+    add(a.obstacle);
+    add_motion(hash_, a.motion);
+  }
   void add(const BoxRegion& r) { (*this)(r.center, r.size, r.yaw_rad); }
   void add(const CircleRegion& r) { (*this)(r.center, r.radius_m); }
   void add(const PolygonRegion& r) { (*this)(r.corners); }
@@ -86,6 +90,26 @@ class Adder {
 };
 
 }  // namespace
+
+void add_motion(StateHash& hash, const ObstacleMotion& motion) {
+  const ObstacleMotion& m = motion;
+  const SocialForce& f = m.force;
+  hash.add(static_cast<int>(m.law));
+  hash.add(static_cast<int>(m.repeat));
+  hash.add(m.faces_way ? 1 : 0);
+  hash.add(m.final_yaw_rad.has_value() ? 1 : 0);
+  for (const double value :
+       {m.speed_mps, m.turn_rate_radps, m.wait_s, m.final_yaw_rad.value_or(0.0), m.leg_m,
+        m.area_center.x(), m.area_center.y(), m.area_size.x(), m.area_size.y(), f.relaxation_s,
+        f.repulsion_m2ps2, f.repulsion_range_m, f.wall_repulsion_m2ps2, f.wall_range_m}) {
+    hash.add(value);
+  }
+  hash.add(m.points.size());
+  for (const Vec2& point : m.points) {
+    hash.add(point.x());
+    hash.add(point.y());
+  }
+}
 
 void add_controller(StateHash& hash, const ControllerDescription& controller) {
   Adder adder(hash);

@@ -6,6 +6,9 @@
 
 namespace sim {
 
+/// Adds the motion of an obstacle to a hash of the world.
+void add_motion(StateHash& hash, const ObstacleMotion& motion);
+
 /// Adds the arena controller of a world to a hash of the world.
 void add_controller(StateHash& hash, const ControllerDescription& controller);
 

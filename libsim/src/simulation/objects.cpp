@@ -9,6 +9,7 @@
 #include "sim/core/assert.h"
 #include "sim/world/limits.h"
 #include "sim/world/outline.h"
+#include "simulation/obstacle_motions.h"
 #include "simulation/simulation_impl.h"
 
 namespace sim {
@@ -36,17 +37,26 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
     return "obstacle " + name + " cannot be so: expected " + error->expected + ", found " +
            error->found;
   }
-  const int robot = physics->robot_within(now);
-  if (robot >= 0 && now.state == ObstacleState::kExtended) {
-    return "obstacle " + name + " cannot be put there: robot " +
-           world.robots[static_cast<std::size_t>(robot)].name + " stands there";
-  }
   const int index = static_cast<int>(it - obstacles.begin());
+  const int body = physics->robot_within(now, physics->body_of_obstacle(index));
+  if (body >= 0 && now.state == ObstacleState::kExtended) {
+    return "obstacle " + name + " cannot be put there: " + title_of_body(body) + " stands there";
+  }
   *it = std::move(now);
   if (it->carried_by >= 0) detach_load(index);
   physics->change_obstacle(index, *it);
+  if (obstacle_motions) obstacle_motions->placed(index);
   invalidate_clearances();
   return std::nullopt;
+}
+
+const std::string& Simulation::Impl::name_of_body(int body) const {
+  if (body < physics->robot_count()) return world.robots[static_cast<std::size_t>(body)].name;
+  return world.arena.obstacles[static_cast<std::size_t>(physics->obstacle_of_body(body))].name;
+}
+
+std::string Simulation::Impl::title_of_body(int body) const {
+  return (body < physics->robot_count() ? "robot " : "obstacle ") + name_of_body(body);
 }
 
 std::optional<std::string> Simulation::Impl::pick_up(std::size_t robot, int index) {
@@ -144,6 +154,12 @@ std::optional<std::string> Simulation::set_object_dynamics(const std::string& na
   if (const auto robot = find_robot(name)) return set_robot_dynamics(*robot, on);
   for (const SceneObject& object : scene_objects()) {
     if (object.name != name) continue;
+    const auto& obstacles = impl_->world.arena.obstacles;
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
+      if (obstacles[i].name != name || !is_movable(obstacles[i])) continue;
+      impl_->physics->set_suspended(impl_->physics->body_of_obstacle(static_cast<int>(i)), !on);
+      return std::nullopt;
+    }
     return object.kind + " \"" + name + "\" has no dynamics: it stands fast and moves for nobody" +
            (object.dynamic ? ", though it can be extended and retracted" : "");
   }
@@ -240,6 +256,11 @@ std::optional<std::string> Simulation::set_block_size(const std::string& name, c
     return "the sides and the height of a block are at least 0.001 m";
   }
   const auto& blocks = impl_->world.arena.obstacles;
+  const bool moves =
+      std::any_of(blocks.begin(), blocks.end(), [&name](const ObstacleDescription& block) {
+        return block.name == name && is_movable(block);
+      });
+  if (moves) return "block \"" + name + "\" can move: it keeps its size";
   const bool is_circle =
       std::any_of(blocks.begin(), blocks.end(), [&name](const ObstacleDescription& block) {
         return block.name == name && block.shape == ObstacleShape::kCircle;

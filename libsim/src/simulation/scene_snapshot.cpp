@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "simulation/controller.h"
+#include "simulation/obstacle_motions.h"
 #include "simulation/simulation_impl.h"
 
 namespace sim {
@@ -33,6 +34,7 @@ SceneSnapshot Simulation::snapshot() const {
   scene.time_s = to_seconds(impl_->now_ns);
   for (int i = 0; i < robot_count(); ++i) scene.robots.push_back(robot_snapshot(i));
   scene.moving_blocks = moving_blocks();
+  if (impl_->obstacle_motions) impl_->obstacle_motions->show(scene);
   scene.scores = impl_->scores;
   scene.verdict = impl_->verdict;
   if (impl_->controller) impl_->controller->show(scene);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <variant>
 
 #include "io/check_world.h"
 #include "sim/core/assert.h"
@@ -13,6 +14,7 @@
 #include "sim/devices/realism.h"
 #include "sim/world/view_mode.h"
 #include "simulation/controller.h"
+#include "simulation/obstacle_motions.h"
 #include "simulation/simulation_impl.h"
 
 namespace sim {
@@ -29,6 +31,22 @@ constexpr double kClearanceLookahead_m = 0.1;
 // Up to this margin the clearance is measured exactly, since a lower bound would require the next
 // measurement sooner.
 constexpr double kClearanceExact_m = 0.05;
+
+// The world in which obstacles that the arena controller moves have a drive.
+WorldDescription with_drives(WorldDescription world) {
+  const auto give_drives = [&world](const std::vector<ArenaAction>& actions) {
+    for (const ArenaAction& action : actions) {
+      const auto* move = std::get_if<MoveAction>(&action);
+      if (move == nullptr) continue;
+      for (ObstacleDescription& obstacle : world.arena.obstacles) {
+        if (obstacle.name == move->obstacle && !obstacle.motion) obstacle.motion.emplace();
+      }
+    }
+  };
+  for (const TimerDescription& timer : world.controller.timers) give_drives(timer.actions);
+  for (const TrapDescription& trap : world.controller.traps) give_drives(trap.actions);
+  return world;
+}
 
 }  // namespace
 
@@ -100,7 +118,7 @@ class Simulation::Impl::Directory final : public DeviceDirectory {
 };
 
 Simulation::Impl::Impl(WorldDescription description, LogHook hook, bool to_be_read)
-    : world(std::move(description)),
+    : world(with_drives(std::move(description))),
       log(std::move(hook)),
       physics(std::make_unique<PhysicsWorld>(world.arena)),
       layers(world.canvas),
@@ -111,6 +129,7 @@ Simulation::Impl::Impl(WorldDescription description, LogHook hook, bool to_be_re
     add_robot(robot);
   }
   connect_devices();
+  add_moving_obstacles();
   if (!world.controller.empty()) {
     controller = std::make_unique<Controller>(*this);
     scores.resize(robots.size());
@@ -118,7 +137,8 @@ Simulation::Impl::Impl(WorldDescription description, LogHook hook, bool to_be_re
   const auto& blocks = world.arena.obstacles;
   records_events = controller != nullptr ||
                    std::any_of(blocks.begin(), blocks.end(), [](const ObstacleDescription& block) {
-                     return block.rise_speed_mps > 0.0 || block.when_blocked == WhenBlocked::kWait;
+                     return block.rise_speed_mps > 0.0 || block.motion ||
+                            block.when_blocked == WhenBlocked::kWait;
                    });
   if (to_be_read) return;
   for (std::size_t i = 0; i < robots.size(); ++i) measure_clearance(i, kClearanceLimit_m);
@@ -174,6 +194,13 @@ void Simulation::Impl::connect_devices() {
   if (!issues.empty()) throw ConfigError(std::move(issues));
 }
 
+void Simulation::Impl::add_moving_obstacles() {
+  obstacle_motions.reset();
+  const auto& obstacles = world.arena.obstacles;
+  if (std::none_of(obstacles.begin(), obstacles.end(), is_movable)) return;
+  obstacle_motions = std::make_unique<ObstacleMotions>(*this);
+}
+
 void Simulation::Impl::say(std::size_t robot, const std::string& text) {
   if (spoken_texts.size() == kKeptSpokenTexts) spoken_texts.erase(spoken_texts.begin());
   spoken_texts.push_back({now_ns, static_cast<int>(robot), text});
@@ -197,6 +224,7 @@ void Simulation::Impl::reset() {
   all_actors_called = false;
   for (const RobotDescription& robot : world.robots) add_robot(robot);
   connect_devices();
+  add_moving_obstacles();
   for (std::size_t i = 0; i < robots.size(); ++i) {
     robots[i].statistics = before[i].statistics;
     for (std::size_t k = 0; k < robots[i].devices.size(); ++k) {
@@ -320,10 +348,12 @@ void Simulation::Impl::step() {
   const double dt_s = to_seconds(world.simulation.step_ns);
   if (controller) controller->before_step();
   act(dt_s);
+  if (obstacle_motions) obstacle_motions->before_step(dt_s);
   physics->step(dt_s);
   move_loads();
   now_ns += world.simulation.step_ns;
   ++steps;
+  if (obstacle_motions) obstacle_motions->after_step();
   record_collisions();
   if (!block_motions.empty()) move_blocks(dt_s);
   updated.clear();
@@ -431,6 +461,10 @@ bool Simulation::active(DeviceId id) const { return impl_->device(id).active(); 
 
 std::optional<std::string> Simulation::set_dynamics(bool on) {
   for (int i = 0; i < robot_count(); ++i) impl_->physics->set_suspended(i, !on);
+  for (int i = 0; i < static_cast<int>(world().arena.obstacles.size()); ++i) {
+    const int body = impl_->physics->body_of_obstacle(i);
+    if (body >= 0) impl_->physics->set_suspended(body, !on);
+  }
   return std::nullopt;
 }
 

@@ -49,6 +49,7 @@ struct Simulation::Impl {
   class Control;
   class Controller;  // see controller.h
   class Directory;
+  class ObstacleMotions;  // see obstacle_motions.h
   struct Appearance {
     Colour colour;
     int fiducial;
@@ -78,6 +79,8 @@ struct Simulation::Impl {
   void add_robot(const RobotDescription& robot);
   // Throws ConfigError with everything that devices are missing.
   void connect_devices();
+  // After all robots.
+  void add_moving_obstacles();
   void say(std::size_t robot, const std::string& text);
   void reset();
   [[nodiscard]] Device& device(DeviceId id) const {
@@ -117,6 +120,10 @@ struct Simulation::Impl {
   std::optional<std::string> change_appearance(const Simulation& simulation,
                                                const std::string& name, const char* refusal,
                                                Edit edit);
+  // Name of a robot or a moving obstacle, given by its body in the physics.
+  [[nodiscard]] const std::string& name_of_body(int body) const;
+  // The same with "robot " or "obstacle " in front.
+  [[nodiscard]] std::string title_of_body(int body) const;
   std::optional<std::string> place(std::size_t i, const Pose& X_WB);
   std::optional<std::string> place_block(const std::string& name, const Pose& pose);
   [[nodiscard]] ObstacleDescription& obstacle(int index) {
@@ -179,8 +186,9 @@ struct Simulation::Impl {
   std::vector<Actor> actors;       // sorted by robot and device
   bool all_actors_called = false;  // act() of all devices has been called once
   std::vector<Load> loads;
-  std::vector<BlockMotion> block_motions;  // sorted by obstacle
-  std::unique_ptr<Controller> controller;  // null: the world has none
+  std::vector<BlockMotion> block_motions;             // sorted by obstacle
+  std::unique_ptr<Controller> controller;             // null: the world has none
+  std::unique_ptr<ObstacleMotions> obstacle_motions;  // null: no obstacle moves
   bool records_events = false;
   ArenaEvents events;
   std::vector<double> scores;  // of the robots; empty without a controller

@@ -12,6 +12,7 @@
 #include "sim/world/limits.h"
 #include "sim/world/view_mode.h"
 #include "simulation/controller.h"
+#include "simulation/obstacle_motions.h"
 #include "simulation/simulation_impl.h"
 
 namespace sim {
@@ -130,6 +131,7 @@ void Simulation::Impl::archive(StateArchive& archive) {
   });
   layers.archive_base(archive);
   archive_arena(archive);
+  if (obstacle_motions) obstacle_motions->archive(archive);
   if (!archive.reading()) return;
   for (std::size_t i = 0; i < robots.size(); ++i) update_load_outlines(i);
 }
@@ -193,6 +195,7 @@ void Simulation::Impl::take_over_from(Impl& before) {
   scores = std::move(before.scores);
   verdict = std::move(before.verdict);
   if (controller) controller->shift_times(later_ns);
+  if (obstacle_motions) obstacle_motions->shift_times(later_ns);
   record(ArenaEventKind::kReset, "world");
   updated.clear();
   invalidate_clearances();

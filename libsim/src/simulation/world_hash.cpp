@@ -45,6 +45,12 @@ void add(StateHash& hash, const ObstacleDescription& box) {
     hash.add(box.rise_speed_mps);
     hash.add(static_cast<int>(box.when_blocked));
   }
+  if (box.mass_kg) {
+    hash.add(*box.mass_kg);
+    hash.add(box.friction);
+  }
+  // A drive that stands was added for the controller.
+  if (box.motion && box.motion->law != MotionLaw::kStand) add_motion(hash, *box.motion);
   if (box.shape == ObstacleShape::kBox) return;
   hash.add(static_cast<int>(box.shape));
   hash.add(box.outline.size());

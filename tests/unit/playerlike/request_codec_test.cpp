@@ -109,7 +109,7 @@ ArenaStatus arena_status() {
 
 std::vector<sim::ArenaEvent> all_kinds_of_events() {
   std::vector<sim::ArenaEvent> events;
-  for (int i = 0; i <= static_cast<int>(sim::ArenaEventKind::kEnd); ++i) {
+  for (int i = 0; i <= static_cast<int>(sim::kLastArenaEventKind); ++i) {
     sim::ArenaEvent& event = events.emplace_back();
     event.number = 22 + static_cast<std::uint64_t>(i);
     event.time_ns = std::int64_t{1} << 62U;

@@ -110,6 +110,35 @@ TEST_P(WorldProxies, PutsRobotsAndObstaclesWhereTold) {
   EXPECT_DOUBLE_EQ(time, 0.1);
 }
 
+TEST_P(WorldProxies, FollowAndPutAMovingObstacle) {
+  const test::ReachableHost host(playerlike::Host::create(sim::load_world_text(R"({
+      "arena": {"size": [4, 2], "obstacles": [{"name": "cart", "center": [1, 0.5],
+        "motion": {"type": "path", "speed": 0.5, "points": [[3, 0.5]]}}]},
+      "robots": [{"name": "r1", "pose": {"x": 1, "y": 1.5}}]})"),
+                                                          settings_),
+                                 GetParam());
+  PlayerClient robot(host.connect(6665));
+  SimulationProxy simulation(&robot, 0);
+  double x = 0.0;
+  double y = 0.0;
+  double a = 0.0;
+  const Position2dProxy position(&robot, 0);
+  const auto at = [&](int time_s) {
+    while (host.time().steps < 100U * static_cast<unsigned>(time_s)) robot.Read();
+    simulation.GetPose2d("cart", x, y, a);
+  };
+  at(1);
+  EXPECT_NEAR(x, 1.5, 1e-9);
+  EXPECT_NEAR(y, 0.5, 1e-9);
+  // 0.6 m above its goal, which it now approaches from there.
+  simulation.SetPose2d("cart", 3.0, 1.1, 0.0);
+  at(2);
+  EXPECT_NEAR(x, 3.0, 1e-9);
+  EXPECT_NEAR(y, 0.6, 1e-9);
+  EXPECT_THAT(warning_of([&] { simulation.SetPose2d("cart", 1.0, 1.5, 0.0); }),
+              HasSubstr("robot r1 stands there"));
+}
+
 TEST_P(WorldProxies, SayWhatIsAgainstAPose) {
   const auto robot = client(6666);
   SimulationProxy simulation(robot.get(), 0);

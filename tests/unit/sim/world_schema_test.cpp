@@ -33,7 +33,12 @@ std::map<std::string, std::set<std::string>> keys_of_reader() {
     "zz": 0,
     "arena": {
       "zz": 0,
-      "obstacles": [{"zz": 0, "center": [1, 1]}],
+      "obstacles": [
+        {"zz": 0, "center": [1, 1], "motion": {"zz": 0, "type": "path", "points": [[1, 1]]}},
+        {"center": [2, 2], "motion": {"zz": 0, "type": "random_walk", "area": {"zz": 0}}},
+        {"center": [3, 3], "motion": {"zz": 0, "type": "pedestrian", "points": [[1, 1]],
+                                      "force": {"zz": 0}}}
+      ],
       "docks": [{"zz": 0, "pose": {"zz": 0}}],
       "dock_separators": [{"zz": 0, "center": [1, 1]}],
       "map": {"zz": 0, "image": ""}
@@ -54,7 +59,8 @@ std::map<std::string, std::set<std::string>> keys_of_reader() {
         "do": [
           {"zz": 0, "place": {"zz": 0, "obstacle": "", "pose": {}}},
           {"text": {"zz": 0, "text": ""}}, {"canvas": {"zz": 0}}, {"restart": {"zz": 0}},
-          {"score": {"zz": 0}}, {"end": {"zz": 0, "verdict": "passed"}}
+          {"score": {"zz": 0}}, {"end": {"zz": 0, "verdict": "passed"}},
+          {"move": {"zz": 0, "obstacle": "", "to": [1, 1]}}
         ]
       }],
       "traps": [
@@ -80,6 +86,11 @@ TEST(WorldSchema, HasTheKeysThatTheReaderKnows) {
       {"", ""},
       {"/arena", "arena"},
       {"/arena/obstacles/0", "obstacle"},
+      {"/arena/obstacles/0/motion", "motion_path"},
+      {"/arena/obstacles/1/motion", "motion_random_walk"},
+      {"/arena/obstacles/1/motion/area", "motion_area"},
+      {"/arena/obstacles/2/motion", "motion_pedestrian"},
+      {"/arena/obstacles/2/motion/force", "social_force"},
       {"/arena/docks/0", "dock"},
       {"/arena/docks/0/pose", "pose"},
       {"/arena/dock_separators/0", "dock_separator"},
@@ -107,6 +118,7 @@ TEST(WorldSchema, HasTheKeysThatTheReaderKnows) {
       {"/controller/timers/0/do/3/restart", "action_restart"},
       {"/controller/timers/0/do/4/score", "action_score"},
       {"/controller/timers/0/do/5/end", "action_end"},
+      {"/controller/timers/0/do/6/move", "action_move"},
       {"/controller/traps/0", "trap"},
       {"/controller/traps/0/region", "region"},
       {"/controller/traps/0/region/box", "region_box"},

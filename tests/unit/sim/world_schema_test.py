@@ -29,7 +29,12 @@ FORMAL_FAULTS = ["unknown_key", "wrong_type", "out_of_range", "unknown_value", "
                  "circle_with_size", "circle_without_radius",
                  "circle_too_small", "outline_missing", "outline_of_two_points",
                  "outline_of_too_many_points", "outline_not_a_number", "outline_without_shape",
-                 "separator_with_shape", "unknown_shape"]
+                 "separator_with_shape", "unknown_shape",
+                 "arena_move_nowhere", "arena_move_stop_and_to", "arena_move_to_and_path",
+                 "arena_move_without_obstacle", "friction_without_mass", "mass_out_of_range",
+                 "motion_area_without_size", "motion_force", "motion_no_points",
+                 "motion_point_is_no_pair", "motion_repeat", "motion_speed", "motion_type",
+                 "motion_unknown_key", "motion_without_points", "motion_without_type"]
 
 
 def load(path):

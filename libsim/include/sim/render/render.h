@@ -42,8 +42,8 @@ struct RenderOptions {
                        ///< in its centre; 0: `size_px` and the arena define the size
   int height_px = 0;
   bool canvas = true;  ///< the grid-map
-  bool trails = true;
-  bool scans = true;  ///< laser fans, sonar cones, infrared rays, lines to fiducials
+  bool trails = true;  ///< of robots; and the paths of moving obstacles
+  bool scans = true;   ///< laser fans, sonar cones, infrared rays, lines to fiducials
   bool names = true;
   bool legend = true;  ///< scale bar, world name, simulated time, and the visible layers' names
   bool goals = true;

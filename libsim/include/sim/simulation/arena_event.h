@@ -32,7 +32,14 @@ enum class ArenaEventKind {
   kDisabled,       ///< timer or trap `what` is switched off
   kReset,          ///< the world is reset to its start, or restored to a saved state
   kEnd,            ///< timer or trap `what` ends the run; value: 1 passed, 0 failed; text: reason
+  kMoving,         ///< the controller moves obstacle `what`
+  kArrived,        ///< obstacle `what` is at the end of its path
+  kBlocked,        ///< obstacle `what` is stopped by robot `who`, or by the solid `text`
+  kPushed,         ///< obstacle `what` is off its path because of robot `who` or the solid `text`
 };
+
+/// The last kind.
+inline constexpr ArenaEventKind kLastArenaEventKind = ArenaEventKind::kPushed;
 
 /// The name of a kind in reports, e.g. "configuration" for kConfiguration.
 [[nodiscard]] std::string_view to_string(ArenaEventKind kind);

@@ -43,6 +43,13 @@ struct MovingBlock {
   double height_m = 0.0;                   ///< present height [m]
 };
 
+/// The path along which an obstacle moves.
+struct ObstacleTrack {
+  int obstacle = 0;          ///< index in the arena
+  std::vector<Vec2> points;  ///< where the path began, then its waypoints, in W [m]
+  bool closed = false;       ///< whether the first point follows the last one
+};
+
 /// A trap of the arena controller.
 struct TrapMark {
   std::string name;
@@ -79,6 +86,7 @@ struct SceneSnapshot {
   double time_s = 0.0;
   std::vector<SceneText> texts;            ///< of the arena controller, oldest first
   std::vector<MovingBlock> moving_blocks;  ///< by obstacle
+  std::vector<ObstacleTrack> tracks;       ///< of the obstacles that follow a path, by obstacle
   std::vector<TrapMark> traps;             ///< in the world's order
   std::vector<TimerMark> timers;           ///< in the world's order
   std::vector<double> scores;              ///< points of the robots; empty: no arena controller

@@ -134,10 +134,11 @@ class Simulation {
   void set_active(DeviceId id, bool active);
   [[nodiscard]] bool active(DeviceId id) const;
 
-  /// Suspends (false) or resumes the dynamics of every robot. A suspended robot stands still like a
-  /// wall, whatever its commands are and whatever pushes it; its sensors and the clock continue. A
-  /// resumed robot continues with its last command. Later calls of set_robot_dynamics() make
-  /// exceptions.
+  /// Suspends (false) or resumes the dynamics of every robot and of every obstacle that moves or
+  /// can be pushed. A suspended robot stands still like a wall, whatever its commands are and
+  /// whatever pushes it; its sensors and the clock continue. A resumed robot continues with its
+  /// last command. Later calls of set_robot_dynamics() make exceptions.
+  ///
   /// @return nothing on success, otherwise the reason.
   std::optional<std::string> set_dynamics(bool on);
   /// Suspends or resumes the dynamics of one robot.
@@ -160,7 +161,7 @@ class Simulation {
   [[nodiscard]] std::string no_such_object(const std::string& name) const;
   /// Moves a robot or a block at once. A robot is placed as by RobotControl::place(), but its
   /// motors keep their last command. A portable block may be placed beyond the floor; a carried
-  /// block leaves its robot.
+  /// block leaves its robot. A moving obstacle is at rest there, and goes on to its next goal.
   /// @param pose  X_WB of a robot; the pose of a block's centre.
   /// @return nothing on success, otherwise the reason: no such object, an immovable object, or the
   ///     obstacle in the way. A block that is not retracted cannot be placed where a robot stands.

@@ -11,6 +11,7 @@
 
 #include "sim/core/colour.h"
 #include "sim/core/pose.h"
+#include "sim/world/obstacle_motion.h"
 
 /// The description of a world's arena controller: configurations of blocks, timers and traps, with
 /// conditions and actions. docs/arena_controller.md explains its meaning and the format of files.
@@ -115,6 +116,12 @@ struct PlaceAction {
   Pose pose;             ///< of its centre in W
 };
 
+/// Moves or turns an obstacle at a speed, instead of what it does now.
+struct MoveAction {
+  std::string obstacle;   ///< its name; it has a drive because of this action
+  ObstacleMotion motion;  ///< a path, which begins where the obstacle is, or kStand: it stops
+};
+
 /// Tells clients something; the event is all that happens.
 struct MessageAction {
   std::string text;  ///< UTF-8
@@ -172,7 +179,7 @@ struct EndAction {
 /// An action of a timer or a trap.
 using ArenaAction =
     std::variant<ConfigurationAction, BlocksAction, PlaceAction, MessageAction, TextAction,
-                 CanvasAction, RestartAction, ScoreAction, SwitchAction, EndAction>;
+                 CanvasAction, RestartAction, ScoreAction, SwitchAction, EndAction, MoveAction>;
 
 /// Acts at certain times. Times count from when the timer is switched on.
 struct TimerDescription {

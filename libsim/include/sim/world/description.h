@@ -14,6 +14,7 @@
 #include "sim/core/pose.h"
 #include "sim/core/time.h"
 #include "sim/world/controller.h"
+#include "sim/world/obstacle_motion.h"
 
 /// The description of a world: plain structs without behaviour. io fills them from a file; a
 /// program may also fill them itself. Simulation uses them without further checks (call
@@ -59,7 +60,22 @@ struct ObstacleDescription {
   ObstacleShape shape = ObstacleShape::kBox;
   Polygon outline = {};  ///< of a polygon, in its own frame: simple, counter-clockwise, 3 to
                          ///< kMostOutlineVertices vertices; otherwise empty
+  std::optional<ObstacleMotion> motion = {};  ///< it has a drive and moves
+  std::optional<double> mass_kg = {};  ///< > 0 [kg]; without a motion robots can push it. None: it
+                                       ///< stands fast, or has kMovingObstacleMass_kg if it moves
+  double friction = kFloorFriction;    ///< coefficient of friction with the floor if robots can
+                                       ///< push it, >= 0
 };
+
+/// Whether an obstacle has a drive or can be pushed, so that the physics moves it.
+[[nodiscard]] inline bool is_movable(const ObstacleDescription& obstacle) {
+  return obstacle.motion.has_value() || obstacle.mass_kg.has_value();
+}
+
+/// Whether robots can push an obstacle, which has no drive.
+[[nodiscard]] inline bool is_pushable(const ObstacleDescription& obstacle) {
+  return obstacle.mass_kg.has_value() && !obstacle.motion.has_value();
+}
 
 /// Present height of an extended obstacle [m].
 [[nodiscard]] inline double standing_height_m(const ObstacleDescription& obstacle) {
