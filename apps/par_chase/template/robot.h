@@ -74,7 +74,7 @@ class CRobot : public imr::concurrent::CThread {
   std::unique_ptr<CCMorse::PlayerClient> client;
   std::unique_ptr<CCMorse::Position2dProxy> position;
   std::unique_ptr<PlayerCc::FiducialProxy> fiducial;  // sees the fox
-  CCMorse::WindowProxy& window;                      // the canvas
+  CCMorse::WindowProxy& window;                       // the canvas
 
   Map inflated;                // where the robot's centre cannot be
   imr::robot::SPosition pose;  // where the robot is

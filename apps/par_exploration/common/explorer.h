@@ -32,11 +32,11 @@
 // find the frontiers, find for each the best place to observe it from, choose one, plan the path,
 // and smooth it.
 //
-// The exploration ends when no frontier is left that can be seen from a reachable place. (A solution
-// for an arena that changes can delay the end, and make the robot look at places again: lookAhead(),
-// lookAgain().) Each frontier is tried only once. If a frontier remains after the robot has observed it, or if the
-// robot does not reach it in time, its cells are given up for good. This guarantees that the
-// exploration ends.
+// The exploration ends when no frontier is left that can be seen from a reachable place. (A
+// solution for an arena that changes can delay the end, and make the robot look at places again:
+// lookAhead(), lookAgain().) Each frontier is tried only once. If a frontier remains after the
+// robot has observed it, or if the robot does not reach it in time, its cells are given up for
+// good. This guarantees that the exploration ends.
 class CExplorer : public imr::concurrent::CThread {
  public:
   // How the exploration ended.
@@ -79,8 +79,8 @@ class CExplorer : public imr::concurrent::CThread {
   // Called before each plan, that is, at least twice a second. Returns whether the exploration may
   // end if there is nothing left to explore now.
   virtual bool lookAhead() { return true; }
-  // Forgets the map of an area, where something has changed, and tries all frontiers once more. Only
-  // lookAhead() may call it.
+  // Forgets the map of an area, where something has changed, and tries all frontiers once more.
+  // Only lookAhead() may call it.
   void lookAgain(const Area& area);
   // The client of the thread that calls choose() and lookAhead().
   CCMorse::PlayerClient* getClient() const { return client.get(); }

@@ -95,10 +95,10 @@ class CCollector : public imr::concurrent::CThread {
 
   // Yours:
   void forget(const Area& area);  // makes the cells of an area unknown
-  void addScan();    // adds the laser scan to the map
-  void drawMap();    // draws the map into the layer "occupancy"
-  void drawScan();   // draws the ends of the beams into the layer "scan"
-  void drawTrail();  // draws the robot's position into the layer "trail"
+  void addScan();                 // adds the laser scan to the map
+  void drawMap();                 // draws the map into the layer "occupancy"
+  void drawScan();                // draws the ends of the beams into the layer "scan"
+  void drawTrail();               // draws the robot's position into the layer "trail"
 
   CCMorse::PlayerClient& client;
   CSharedMap& shared;
@@ -158,8 +158,8 @@ class CRobot : public imr::concurrent::CThread {
   CCollector collector;
   std::unique_ptr<CCMorse::PlayerClient> client;
   std::unique_ptr<CCMorse::Position2dProxy> position;
-  std::unique_ptr<CCMorse::LaserProxy> laser;  // the same laser as the collector's
-  std::unique_ptr<CCMorse::ArenaProxy> arena;  // the arena's events and timers
+  std::unique_ptr<CCMorse::LaserProxy> laser;             // the same laser as the collector's
+  std::unique_ptr<CCMorse::ArenaProxy> arena;             // the arena's events and timers
   std::unique_ptr<PlayerCc::SimulationProxy> simulation;  // where the blocks are
 
   imr::robot::SPosition pose;  // the robot's pose in the arena
