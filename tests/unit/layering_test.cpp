@@ -152,7 +152,7 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"host", {"messages", "process", "protocol", "session", "view", "virtual_time"}},
       {"remote", {"messages", "process", "protocol", "session"}},
       {"connect", {"messages", "process", "session", "virtual_time", "host", "remote"}},
-      {"server", {"messages", "process", "protocol", "session", "host"}},
+      {"server", {"messages", "process", "protocol", "session", "host", "wire"}},
       // Headers that clients include.
       {"libplayerinterface", {}},
       {"libplayercommon", {}},
@@ -172,6 +172,8 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"drivers", {"messages", "virtual_time", "libCCMorse", "libplayerc++", "devices", "proxies"}},
       {"playerc",
        {"virtual_time", "libplayerinterface", "libplayerc", "libplayerc++", "devices", "proxies"}},
+      // Devices in the words of Player's protocol.
+      {"wire", {"messages", "protocol", "session", "libplayerinterface", "proxies"}},
       {"imr", {"virtual_time", "libplayerc++", "imr-h"}},
       // Programs.
       {"client", {"libplayerc++"}},

@@ -45,12 +45,7 @@ player_fiducial_item_t FiducialProxy::GetFiducialItem(uint32_t aIndex) const {
 
 player_pose3d_t FiducialProxy::GetSensorPose() const {
   const scoped_lock_t lock(LockData());
-  return {mLink->property("mount_x", 0.0),
-          mLink->property("mount_y", 0.0),
-          mLink->property("height", 0.0),
-          0.0,
-          0.0,
-          mLink->property("mount_yaw", 0.0)};
+  return detail::pose_of(playerlike::mounting_of(mLink->info().properties));
 }
 
 player_bbox3d_t FiducialProxy::GetSensorSize() const {

@@ -55,9 +55,9 @@ void LaserProxy::View() {
   if (mStride == 1 && mShown == mCount && mRangeRes == 0.0) return mLink->show(mLink->measured);
   const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
   auto shown = detail::part_of(scan, {mFirst, mStride, mShown});
-  for (double& range : shown->ranges_m) {
-    if (mRangeRes > 0.0) {
-      range = std::min(std::round(range / mRangeRes) * mRangeRes, scan.range_max_m);
+  if (mRangeRes > 0.0) {
+    for (double& range : shown->ranges_m) {
+      range = playerlike::limited_range_m(range, mRangeRes, 0.0, scan.range_max_m);
     }
   }
   mLink->show(shown);
@@ -179,7 +179,7 @@ void LaserProxy::RequestGeom() { const scoped_lock_t lock(LockData("LaserProxy::
 
 player_pose3d_t LaserProxy::GetPose() {
   const scoped_lock_t lock(LockData());
-  return detail::scanner_settings(mLink->info().properties).pose;
+  return detail::pose_of(detail::scanner_settings(mLink->info().properties).mounting);
 }
 
 player_pose3d_t LaserProxy::GetRobotPose() {
@@ -190,7 +190,7 @@ player_pose3d_t LaserProxy::GetRobotPose() {
 
 player_bbox3d_t LaserProxy::GetSize() {
   const scoped_lock_t lock(LockData());
-  return detail::scanner_settings(mLink->info().properties).size;
+  return detail::box_of(detail::scanner_settings(mLink->info().properties).size);
 }
 
 double LaserProxy::LeastRange(bool aLeft) const {

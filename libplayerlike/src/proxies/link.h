@@ -12,6 +12,7 @@
 #include "devices/client_core.h"
 #include "libplayerc++/clientproxy.h"
 #include "playerlike/messages/messages.h"
+#include "proxies/interfaces.h"
 
 namespace PlayerCc {
 
@@ -124,12 +125,5 @@ struct detail::CoreAccess {
   if (binding.is_world()) return "world";
   return binding.driver != nullptr ? "snd" : core.info_of(binding.reading).type;
 }
-
-/// Whether the proxies of an interface receive or send such messages.
-[[nodiscard]] bool has_message(uint32_t interface, uint32_t type, uint32_t subtype) noexcept;
-/// The name of an interface code; null if there is none.
-[[nodiscard]] const char* interface_name(int code) noexcept;
-/// The code of an interface name; nullopt if there is none.
-[[nodiscard]] std::optional<int> interface_code(const std::string& name) noexcept;
 
 }  // namespace PlayerCc

@@ -75,8 +75,7 @@ void RangerProxy::View() {
   }
   const auto limit = [this](std::vector<double>& ranges) {
     for (double& range : ranges) {
-      if (mRangeRes > 0.0) range = std::round(range / mRangeRes) * mRangeRes;
-      range = std::min(std::max(range, mMinRange), mMaxRange);
+      range = playerlike::limited_range_m(range, mRangeRes, mMinRange, mMaxRange);
     }
   };
   if (const auto* scan = mLink->newest.find<LaserReading>()) {
@@ -98,12 +97,12 @@ uint32_t RangerProxy::GetElementCount() const {
 player_pose3d_t RangerProxy::GetDevicePose() const {
   const scoped_lock_t lock(LockData());
   if (!mIsLaser) return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  return detail::scanner_settings(mLink->info().properties).pose;
+  return detail::pose_of(detail::scanner_settings(mLink->info().properties).mounting);
 }
 
 player_bbox3d_t RangerProxy::GetDeviceSize() const {
   const scoped_lock_t lock(LockData());
-  if (mIsLaser) return detail::scanner_settings(mLink->info().properties).size;
+  if (mIsLaser) return detail::box_of(detail::scanner_settings(mLink->info().properties).size);
   return {mLink->robot().width_m, mLink->robot().length_m, mLink->robot().height_m};
 }
 
@@ -118,7 +117,7 @@ player_bbox3d_t RangerProxy::GetElementSize(uint32_t aIndex) const {
   const scoped_lock_t lock(LockData(fun));
   if (!mLink->has_element(fun, kElements, aIndex, mPoses.size()) || !mIsLaser)
     return {0.0, 0.0, 0.0};
-  return detail::scanner_settings(mLink->info().properties).size;
+  return detail::box_of(detail::scanner_settings(mLink->info().properties).size);
 }
 
 uint32_t RangerProxy::GetRangeCount() const {

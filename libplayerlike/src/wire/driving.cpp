@@ -1,0 +1,165 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Devices that tell and set where a robot is, and drive it: position2d and localize.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "libplayerinterface/player_constants.h"
+#include "proxies/goal_driver.h"
+#include "sim/devices/localization.h"
+#include "wire/robot_device.h"
+
+namespace playerlike::wire {
+namespace {
+
+/// Position2dProxy's counterpart.
+class Position2d final : public RobotDevice {
+ public:
+  explicit Position2d(const DeviceContext& context)
+      : RobotDevice(context),
+        max_speed_mps_(robot().max_speed_mps),
+        max_turn_rate_radps_(robot().max_turn_rate_radps) {
+    if (binding().driver != nullptr) driver_ = share_driver(session(), binding());
+    if (!binding().motion) return;
+    const DeviceSettings& limits = device_of(*binding().motion).properties;
+    const auto tighten = [&](const char* name, double& value) {
+      const auto it = limits.find(name);
+      if (it != limits.end()) value = std::min(value, it->second);
+    };
+    tighten("max_speed", max_speed_mps_);
+    tighten("max_turn_rate", max_turn_rate_radps_);
+  }
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* measured = reading_as<sim::PoseReading>(reading);
+    if (measured == nullptr) return;
+    const sim::Twist& twist = measured->twist;
+    sink.data(PLAYER_POSITION2D_DATA_STATE,
+              player::encode(player::Position2dData{
+                  pose_2d(measured->pose),
+                  {twist.v_mps, twist.lateral_mps, twist.omega_radps},
+                  static_cast<std::uint8_t>(measured->stalled ? 1 : 0)}));
+  }
+
+  void command(std::uint8_t subtype, std::string_view payload) override {
+    switch (subtype) {
+      case PLAYER_POSITION2D_CMD_VEL: {
+        const auto asked = player::decode<player::Position2dCmdVel>(payload);
+        return drive(sim::TwistCommand{{asked.vel.px, asked.vel.pa, asked.vel.py}});
+      }
+      case PLAYER_POSITION2D_CMD_POS:
+        return go_to(player::decode<player::Position2dCmdPos>(payload));
+      case PLAYER_POSITION2D_CMD_CAR: {
+        const auto asked = player::decode<player::Position2dCmdCar>(payload);
+        return drive(sim::CarCommand{asked.velocity, asked.angle});
+      }
+      case PLAYER_POSITION2D_CMD_VEL_HEAD: {
+        const auto asked = player::decode<player::Position2dCmdVelHead>(payload);
+        require_finite("the heading", asked.angle);
+        return drive(sim::HeadingCommand{asked.velocity, 0.0, sim::normalize_angle(asked.angle),
+                                         binding().reading.device});
+      }
+      default:
+        return;
+    }
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
+    switch (subtype) {
+      case PLAYER_POSITION2D_REQ_GET_GEOM: {
+        const sim::Vec2& center_m = robot().center_m;
+        return player::encode(player::Position2dGeom{
+            {center_m.x(), center_m.y(), 0.0, 0.0, 0.0, 0.0}, box_3d(robot())});
+      }
+      case PLAYER_POSITION2D_REQ_MOTOR_POWER:
+        switch_motors(player::decode<player::Position2dPowerConfig>(payload).state != 0);
+        return empty_payload();
+      case PLAYER_POSITION2D_REQ_SET_ODOM:
+        set_odometry(player::decode<player::Position2dSetOdomReq>(payload).pose);
+        return empty_payload();
+      case PLAYER_POSITION2D_REQ_RESET_ODOM:
+        set_odometry({});
+        return empty_payload();
+      default:
+        // The motors have one control loop, and its gains cannot be set.
+        return std::nullopt;
+    }
+  }
+
+ private:
+  [[nodiscard]] const DeviceInfo& device_of(DeviceId device) const {
+    return robot().devices.at(static_cast<std::size_t>(device.device));
+  }
+
+  void send_to_motors(const sim::Command& command) const {
+    if (!binding().motion) {
+      throw SessionError(SessionError::Code::kNotAvailable,
+                         "robot " + robot().name +
+                             " has no motors (a device of type \"motion\") in this world");
+    }
+    session().send(*binding().motion, command);
+  }
+
+  // Sends a command that moves the robot; cancels the driver's goal.
+  void drive(const sim::Command& command) const {
+    require_finite(command);
+    if (driver_ != nullptr) driver_->cancel();
+    send_to_motors(command);
+  }
+
+  void go_to(const player::Position2dCmdPos& asked) const {
+    const sim::Pose goal{asked.pos.px, asked.pos.py, asked.pos.pa};
+    for (const double number : {goal.x_m, goal.y_m, goal.yaw_rad}) {
+      require_finite("a goal's coordinate", number);
+    }
+    for (const double number : {asked.vel.px, asked.vel.py, asked.vel.pa}) {
+      require_finite("a speed", number);
+    }
+    const double yaw_rad = sim::normalize_angle(goal.yaw_rad);
+    if (driver_ == nullptr) {
+      return drive(sim::PositionCommand{{goal.x_m, goal.y_m, yaw_rad},
+                                        std::hypot(asked.vel.px, asked.vel.py),
+                                        std::abs(asked.vel.pa),
+                                        binding().reading.device});
+    }
+    const auto limited = [](double wish, double limit) {
+      return wish == 0.0 ? limit : std::min(std::abs(wish), limit);
+    };
+    driver_->go_to({goal.position(), yaw_rad, limited(asked.vel.px, max_speed_mps_),
+                    limited(asked.vel.pa, max_turn_rate_radps_)});
+  }
+
+  void switch_motors(bool on) const {
+    if (!on && driver_ != nullptr) {
+      driver_->cancel();
+      // Otherwise the driver's last speeds would apply again if the motors are re-enabled before
+      // the next step.
+      send_to_motors(sim::TwistCommand{});
+    }
+    send_to_motors(sim::MotorEnableCommand{on});
+  }
+
+  void set_odometry(const player::Pose2d& pose) const {
+    require_finite("a coordinate of the odometry", pose.px + pose.py);
+    require_finite("the heading", pose.pa);
+    send(sim::SetPoseCommand{{pose.px, pose.py, sim::normalize_angle(pose.pa)}});
+  }
+
+  double max_speed_mps_;
+  double max_turn_rate_radps_;
+  std::shared_ptr<GoalDriver> driver_;  // null except at the index of a driver
+};
+
+}  // namespace
+
+MadeDevice make_driving_device(const DeviceContext& context) {
+  switch (context.interface) {
+    case PLAYER_POSITION2D_CODE:
+      return std::make_unique<Position2d>(context);
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace playerlike::wire

@@ -1,0 +1,133 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "wire/player_device.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libplayerinterface/player_constants.h"
+#include "proxies/interfaces.h"
+#include "session/checks.h"
+#include "wire/robot_device.h"
+
+namespace playerlike::wire {
+
+void PlayerDevice::on_reading(DeviceId device, const sim::Reading& reading, DataSink& sink) {
+  static_cast<void>(device);
+  static_cast<void>(reading);
+  static_cast<void>(sink);
+}
+
+void PlayerDevice::on_round(DataSink& sink) { static_cast<void>(sink); }
+
+void PlayerDevice::command(std::uint8_t subtype, std::string_view payload) {
+  static_cast<void>(subtype);
+  static_cast<void>(payload);
+}
+
+std::optional<std::string> PlayerDevice::request(std::uint8_t subtype, std::string_view payload) {
+  static_cast<void>(subtype);
+  static_cast<void>(payload);
+  return std::nullopt;
+}
+
+// --- CommonDevice
+
+bool CommonDevice::has_capability(std::string_view payload) const {
+  const auto asked = player::decode<player::CapabilitiesReq>(payload);
+  if (asked.type == PLAYER_MSGTYPE_REQ &&
+      (asked.subtype == PLAYER_CAPABILITIES_REQ || asked.subtype == PLAYER_GET_BOOLPROP_REQ ||
+       asked.subtype == PLAYER_GET_INTPROP_REQ || asked.subtype == PLAYER_GET_DBLPROP_REQ)) {
+    return true;
+  }
+  // A robot without motors still has position2d devices.
+  const bool needs_motors = context_.interface == PLAYER_POSITION2D_CODE &&
+                            (asked.type == PLAYER_MSGTYPE_CMD ||
+                             (asked.type == PLAYER_MSGTYPE_REQ &&
+                              asked.subtype == PLAYER_POSITION2D_REQ_MOTOR_POWER));
+  return PlayerCc::has_message(static_cast<std::uint32_t>(context_.interface), asked.type,
+                               asked.subtype) &&
+         (!needs_motors || context_.binding.motion.has_value());
+}
+
+namespace {
+
+// Answers a request for a numeric property with `accepts(value)`, in the request's own form.
+template <typename Property, typename Accepts>
+std::optional<std::string> property_answer(const DeviceSettings* settings, std::string_view payload,
+                                           Accepts accepts) {
+  auto asked = player::decode<Property>(payload);
+  if (settings == nullptr) return std::nullopt;
+  const auto found = settings->find(player::text_of(asked.key));
+  if (found == settings->end() || !accepts(found->second)) return std::nullopt;
+  asked.value = static_cast<decltype(asked.value)>(found->second);
+  return player::encode(asked);
+}
+
+}  // namespace
+
+std::optional<std::string> CommonDevice::request(std::uint8_t subtype, std::string_view payload) {
+  switch (subtype) {
+    case PLAYER_CAPABILITIES_REQ:
+      return has_capability(payload) ? std::optional(empty_payload()) : std::nullopt;
+    case PLAYER_GET_DBLPROP_REQ:
+      return property_answer<player::DblpropReq>(settings(), payload, [](double) { return true; });
+    case PLAYER_GET_INTPROP_REQ:
+      return property_answer<player::IntpropReq>(settings(), payload, [](double value) {
+        return value == std::floor(value) &&
+               std::abs(value) <= std::numeric_limits<std::int32_t>::max();
+      });
+    case PLAYER_GET_BOOLPROP_REQ:
+      return property_answer<player::BoolpropReq>(
+          settings(), payload, [](double value) { return value == 0.0 || value == 1.0; });
+    default:
+      return answer(subtype, payload);
+  }
+}
+
+std::optional<std::string> CommonDevice::answer(std::uint8_t subtype, std::string_view payload) {
+  static_cast<void>(subtype);
+  static_cast<void>(payload);
+  return std::nullopt;
+}
+
+sim::SimTime CommonDevice::now_ns() const { return session().request(TimeRequest{}).sim_time_ns; }
+
+// --- RobotDevice
+
+RobotDevice::RobotDevice(const DeviceContext& context)
+    : CommonDevice(context),
+      robot_(context.session.robots().at(static_cast<std::size_t>(context.binding.robot))),
+      info_(require_device(context.session.robots(), context.binding.reading)) {}
+
+std::string RobotDevice::driver() const { return binding().driver != nullptr ? "snd" : info_.type; }
+
+std::uint32_t RobotDevice::count_setting(const std::string& name, std::uint32_t most) const {
+  return std::min(whole_number(setting(name)), most);
+}
+
+std::uint32_t whole_number(double value) {
+  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+  if (!(value > 0.0)) return 0;  // or NaN
+  return static_cast<std::uint32_t>(std::llround(std::min(value, kMost)));
+}
+
+void require_finite(const char* what, double value) {
+  if (std::isfinite(value)) return;
+  throw SessionError(SessionError::Code::kBadArgument,
+                     std::string(what) + " must be a finite number");
+}
+
+std::unique_ptr<PlayerDevice> make_player_device(Session& session, int port,
+                                                 std::string_view interface, int index) {
+  const std::optional<int> code = PlayerCc::interface_code(std::string(interface));
+  if (!code) return nullptr;
+  const DeviceContext context{session, *code,
+                              find_interface(session.robots(), port, interface, index)};
+  for (const auto make : {make_driving_device, make_ranging_device}) {
+    if (MadeDevice made = make(context)) return made;
+  }
+  return nullptr;
+}
+
+}  // namespace playerlike::wire

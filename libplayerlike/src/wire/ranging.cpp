@@ -1,0 +1,156 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Devices that measure ranges: laser.
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "libplayerinterface/player_constants.h"
+#include "sim/devices/laser.h"
+#include "wire/robot_device.h"
+
+namespace playerlike::wire {
+namespace {
+
+/// The beams of a laser that a client has chosen.
+struct ShownBeams {
+  explicit ShownBeams(const ScannerSettings& scanner)
+      : count(scanner.count),
+        least_rad(scanner.least_rad),
+        native_rad(scanner.native_rad),
+        window{0, 1, scanner.count} {}
+
+  /// Takes the geometry of a scan. If its number of beams differs from the announced one, all of
+  /// them are shown.
+  void update(const sim::LaserReading& scan) {
+    least_rad = scan.angle_min_rad;
+    native_rad = scan.resolution_rad;
+    if (scan.ranges_m.size() == count) return;
+    count = scan.ranges_m.size();
+    window = {0, 1, count};
+  }
+  /// @throws SessionError kBadArgument if no beam lies between the angles.
+  void choose(double min_rad, double max_rad, double spacing_rad) {
+    window = window_of(min_rad, max_rad, spacing_rad, count, least_rad, native_rad);
+  }
+
+  [[nodiscard]] double min_rad() const {
+    return least_rad + static_cast<double>(window.first) * native_rad;
+  }
+  [[nodiscard]] double max_rad() const {
+    return min_rad() + static_cast<double>(window.shown > 0 ? window.shown - 1 : 0) * spacing_rad();
+  }
+  [[nodiscard]] double spacing_rad() const {
+    return native_rad * static_cast<double>(window.stride);
+  }
+
+  std::size_t count;
+  double least_rad;
+  double native_rad;
+  BeamWindow window;
+};
+
+/// LaserProxy's counterpart.
+class LaserDevice final : public RobotDevice {
+ public:
+  explicit LaserDevice(const DeviceContext& context)
+      : RobotDevice(context),
+        scanner_(scanner_settings(info().properties)),
+        beams_(scanner_),
+        range_max_m_(scanner_.range_max_m) {}
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* scan = reading_as<sim::LaserReading>(reading);
+    if (scan == nullptr) return;
+    beams_.update(*scan);
+    range_max_m_ = scan->range_max_m;
+    scan_.min_angle = static_cast<float>(beams_.min_rad());
+    scan_.max_angle = static_cast<float>(beams_.max_rad());
+    scan_.resolution = static_cast<float>(beams_.spacing_rad());
+    scan_.max_range = static_cast<float>(range_max_m_);
+    scan_.id = static_cast<std::uint32_t>(scan->sequence);
+    const BeamWindow& window = beams_.window;
+    scan_.ranges.resize(window.shown);
+    scan_.intensity.resize(window.shown);  // there are none, but clients expect one per range
+    for (std::size_t i = 0; i < window.shown; ++i) {
+      const double range_m = scan->ranges_m[window.first + i * window.stride];
+      scan_.ranges[i] = static_cast<float>(
+          range_res_m_ > 0.0 ? limited_range_m(range_m, range_res_m_, 0.0, range_max_m_) : range_m);
+    }
+    std::string payload;
+    constexpr std::size_t kOtherFields = 64;
+    payload.reserve(kOtherFields + 5 * window.shown);
+    player::append(payload, scan_);
+    sink.data(PLAYER_LASER_DATA_SCAN, std::move(payload));
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
+    switch (subtype) {
+      case PLAYER_LASER_REQ_GET_GEOM:
+        return player::encode(
+            player::LaserGeom{pose_3d(scanner_.mounting), box_3d(scanner_.size)});
+      case PLAYER_LASER_REQ_SET_CONFIG:
+        configure(player::decode<player::LaserConfig>(payload));
+        return player::encode(config());
+      case PLAYER_LASER_REQ_GET_CONFIG:
+        return player::encode(config());
+      case PLAYER_LASER_REQ_POWER:
+        static_cast<void>(player::decode<player::LaserPowerConfig>(payload));
+        return empty_payload();  // a simulated laser is always on
+      case PLAYER_LASER_REQ_GET_ID:
+        return player::encode(player::LaserGetIdConfig{0});
+      default:
+        return std::nullopt;
+    }
+  }
+
+ private:
+  [[nodiscard]] player::LaserConfig config() const {
+    player::LaserConfig now;
+    now.min_angle = static_cast<float>(beams_.min_rad());
+    now.max_angle = static_cast<float>(beams_.max_rad());
+    now.resolution = static_cast<float>(beams_.spacing_rad());
+    now.max_range = static_cast<float>(range_max_m_);
+    now.range_res = static_cast<float>(range_res_m_ > 0.0 ? range_res_m_ : kRangeResolution_m);
+    now.scanning_frequency = static_cast<float>(scanner_.frequency_hz);
+    return now;
+  }
+
+  // The greatest range and the frequency cannot be set; clients leave the former undefined.
+  void configure(const player::LaserConfig& wish) {
+    double spacing_rad = static_cast<double>(wish.resolution);
+    double range_res_m = static_cast<double>(wish.range_res);
+    require_finite("the least angle", static_cast<double>(wish.min_angle));
+    require_finite("the greatest angle", static_cast<double>(wish.max_angle));
+    require_finite("the angular resolution", spacing_rad);
+    require_finite("the resolution of ranges", range_res_m);
+    // LaserProxy::Configure() of Player's client library sends its arguments as they are: whole
+    // numbers of 0.01 degrees and of millimetres.
+    if (spacing_rad > std::numbers::pi) spacing_rad *= 0.01 * std::numbers::pi / 180.0;
+    if (range_res_m >= 1.0) range_res_m *= 0.001;
+    // Angles are single-precision numbers: the tolerance keeps the beam at the limit.
+    const double rounding_rad = 1e-3 * beams_.native_rad;
+    beams_.choose(static_cast<double>(wish.min_angle) - rounding_rad,
+                  static_cast<double>(wish.max_angle) + rounding_rad, spacing_rad);
+    range_res_m_ = std::max(range_res_m, 0.0);
+  }
+
+  const ScannerSettings scanner_;
+  ShownBeams beams_;
+  double range_max_m_;
+  double range_res_m_ = 0.0;  // 0: ranges are not rounded
+  player::LaserData scan_;    // keeps its memory
+};
+
+}  // namespace
+
+MadeDevice make_ranging_device(const DeviceContext& context) {
+  switch (context.interface) {
+    case PLAYER_LASER_CODE:
+      return std::make_unique<LaserDevice>(context);
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace playerlike::wire

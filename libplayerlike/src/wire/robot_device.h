@@ -1,0 +1,128 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#include "playerlike/session/session.h"
+#include "protocol/player_structs.h"
+#include "protocol/player_xdr.h"
+#include "session/range_settings.h"
+#include "wire/player_device.h"
+
+/// Shared parts of the devices of Player's protocol.
+namespace playerlike::wire {
+
+/// What every device knows: its session, and the address behind it.
+struct DeviceContext {
+  Session& session;
+  int interface = 0;  ///< Player's code
+  InterfaceBinding binding;
+};
+
+/// A device with the requests that all interfaces share: capabilities and properties.
+class CommonDevice : public PlayerDevice {
+ public:
+  explicit CommonDevice(DeviceContext context) : context_(std::move(context)) {}
+
+  [[nodiscard]] std::optional<std::string> request(std::uint8_t subtype,
+                                                   std::string_view payload) final;
+  [[nodiscard]] std::string driver() const override { return "world"; }
+
+ protected:
+  /// Answers a request of the interface; see PlayerDevice::request().
+  [[nodiscard]] virtual std::optional<std::string> answer(std::uint8_t subtype,
+                                                          std::string_view payload);
+  /// The device's numeric settings; null without a device.
+  [[nodiscard]] virtual const DeviceSettings* settings() const { return nullptr; }
+
+  [[nodiscard]] Session& session() const { return context_.session; }
+  [[nodiscard]] const InterfaceBinding& binding() const { return context_.binding; }
+  /// Current simulated time.
+  [[nodiscard]] sim::SimTime now_ns() const;
+
+ private:
+  [[nodiscard]] bool has_capability(std::string_view payload) const;
+
+  const DeviceContext context_;
+};
+
+/// A device of a robot.
+class RobotDevice : public CommonDevice {
+ public:
+  /// @throws SessionError kNoSuchDevice if the binding names no device of the session.
+  explicit RobotDevice(const DeviceContext& context);
+
+  [[nodiscard]] std::vector<DeviceId> sources() const override { return {binding().reading}; }
+  [[nodiscard]] std::string driver() const override;
+
+ protected:
+  [[nodiscard]] const DeviceSettings* settings() const override { return &info_.properties; }
+  [[nodiscard]] const RobotInfo& robot() const { return robot_; }
+  [[nodiscard]] const DeviceInfo& info() const { return info_; }
+  [[nodiscard]] double setting(const std::string& name) const {
+    return setting_of(info_.properties, name);
+  }
+  /// A setting that is a whole number in [0, most]; other values are clamped.
+  [[nodiscard]] std::uint32_t count_setting(const std::string& name, std::uint32_t most) const;
+  /// Sends a command to the device that readings come from.
+  void send(const sim::Command& command) const { session().send(binding().reading, command); }
+
+ private:
+  const RobotInfo& robot_;
+  const DeviceInfo& info_;
+};
+
+/// The reading as its own type; null if it is of another type.
+template <typename Reading>
+[[nodiscard]] const Reading* reading_as(const sim::Reading& reading) {
+  return typeid(reading) == typeid(Reading) ? static_cast<const Reading*>(&reading) : nullptr;
+}
+
+/// @name Values in Player's form
+/// @{
+[[nodiscard]] inline player::Pose2d pose_2d(const sim::Pose& pose) {
+  return {pose.x_m, pose.y_m, pose.yaw_rad};
+}
+[[nodiscard]] inline player::Pose3d pose_3d(const Mounting& mounting) {
+  return {mounting.x_m, mounting.y_m, mounting.z_m, 0.0, 0.0, mounting.yaw_rad};
+}
+[[nodiscard]] inline player::Pose3d pose_3d(const sim::Pose& pose) {
+  return {pose.x_m, pose.y_m, 0.0, 0.0, 0.0, pose.yaw_rad};
+}
+[[nodiscard]] inline player::Bbox3d box_3d(const BoxSize& size) {
+  return {size.width_m, size.length_m, size.height_m};
+}
+[[nodiscard]] inline player::Bbox3d box_3d(const RobotInfo& robot) {
+  return {robot.width_m, robot.length_m, robot.height_m};
+}
+/// A number that is not negative. @param value  clamped to the range of the type.
+[[nodiscard]] std::uint32_t whole_number(double value);
+/// @}
+
+/// Payload of messages without fields.
+[[nodiscard]] inline std::string empty_payload() { return {}; }
+
+/// Throws SessionError kBadArgument if a number is NaN or infinite. @param what  "a joint's speed".
+void require_finite(const char* what, double value);
+
+/// @name Makers of devices, by family
+/// @return null if the family does not have the interface.
+/// @{
+using MadeDevice = std::unique_ptr<PlayerDevice>;
+[[nodiscard]] MadeDevice make_ranging_device(const DeviceContext& context);
+[[nodiscard]] MadeDevice make_driving_device(const DeviceContext& context);
+[[nodiscard]] MadeDevice make_sensing_device(const DeviceContext& context);
+[[nodiscard]] MadeDevice make_acting_device(const DeviceContext& context);
+[[nodiscard]] MadeDevice make_drawing_device(const DeviceContext& context);
+[[nodiscard]] MadeDevice make_world_device(const DeviceContext& context);
+/// @}
+
+}  // namespace playerlike::wire
