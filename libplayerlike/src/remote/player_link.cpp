@@ -129,13 +129,14 @@ struct PlayerLink::Impl {
         case PLAYER_MSGTYPE_DATA:
           receiver.on_data(message.header, message.payload);
           break;
-        case PLAYER_MSGTYPE_SYNCH: {
+        case PLAYER_MSGTYPE_SYNCH:
           round_bytes = 0;
+          {
+            const std::lock_guard lock(mutex);
+            round_requested = false;  // before threads see the round: they may request the next one
+          }
           receiver.on_round();
-          const std::lock_guard lock(mutex);
-          round_requested = false;
           break;
-        }
         case PLAYER_MSGTYPE_RESP_ACK:
         case PLAYER_MSGTYPE_RESP_NACK:
           take_reply(message);
