@@ -55,7 +55,7 @@ class Position2d final : public RobotDevice {
       }
       case PLAYER_POSITION2D_CMD_VEL_HEAD: {
         const auto asked = player::decode<player::Position2dCmdVelHead>(payload);
-        require_finite("the heading", asked.angle);
+        require_number("the heading", asked.angle);
         return drive(sim::HeadingCommand{asked.velocity, 0.0, sim::normalize_angle(asked.angle),
                                          binding().reading.device});
       }
@@ -103,7 +103,7 @@ class Position2d final : public RobotDevice {
 
   // Sends a command that moves the robot; cancels the driver's goal.
   void drive(const sim::Command& command) const {
-    require_finite(command);
+    playerlike::require_finite(command);
     if (driver_ != nullptr) driver_->cancel();
     send_to_motors(command);
   }
@@ -111,10 +111,10 @@ class Position2d final : public RobotDevice {
   void go_to(const player::Position2dCmdPos& asked) const {
     const sim::Pose goal{asked.pos.px, asked.pos.py, asked.pos.pa};
     for (const double number : {goal.x_m, goal.y_m, goal.yaw_rad}) {
-      require_finite("a goal's coordinate", number);
+      require_number("a goal's coordinate", number);
     }
     for (const double number : {asked.vel.px, asked.vel.py, asked.vel.pa}) {
-      require_finite("a speed", number);
+      require_number("a speed", number);
     }
     const double yaw_rad = sim::normalize_angle(goal.yaw_rad);
     if (driver_ == nullptr) {
@@ -141,8 +141,8 @@ class Position2d final : public RobotDevice {
   }
 
   void set_odometry(const player::Pose2d& pose) const {
-    require_finite("a coordinate of the odometry", pose.px + pose.py);
-    require_finite("the heading", pose.pa);
+    require_number("a coordinate of the odometry", pose.px + pose.py);
+    require_number("the heading", pose.pa);
     send(sim::SetPoseCommand{{pose.px, pose.py, sim::normalize_angle(pose.pa)}});
   }
 

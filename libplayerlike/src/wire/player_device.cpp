@@ -112,7 +112,7 @@ std::uint32_t whole_number(double value) {
   return static_cast<std::uint32_t>(std::llround(std::min(value, kMost)));
 }
 
-void require_finite(const char* what, double value) {
+void require_number(const char* what, double value) {
   if (std::isfinite(value)) return;
   throw SessionError(SessionError::Code::kBadArgument,
                      std::string(what) + " must be a finite number");

@@ -120,10 +120,10 @@ class LaserDevice final : public RobotDevice {
   void configure(const player::LaserConfig& wish) {
     double spacing_rad = static_cast<double>(wish.resolution);
     double range_res_m = static_cast<double>(wish.range_res);
-    require_finite("the least angle", static_cast<double>(wish.min_angle));
-    require_finite("the greatest angle", static_cast<double>(wish.max_angle));
-    require_finite("the angular resolution", spacing_rad);
-    require_finite("the resolution of ranges", range_res_m);
+    require_number("the least angle", static_cast<double>(wish.min_angle));
+    require_number("the greatest angle", static_cast<double>(wish.max_angle));
+    require_number("the angular resolution", spacing_rad);
+    require_number("the resolution of ranges", range_res_m);
     // LaserProxy::Configure() of Player's client library sends its arguments as they are: whole
     // numbers of 0.01 degrees and of millimetres.
     if (spacing_rad > std::numbers::pi) spacing_rad *= 0.01 * std::numbers::pi / 180.0;

@@ -111,7 +111,7 @@ template <typename Reading>
 [[nodiscard]] inline std::string empty_payload() { return {}; }
 
 /// Throws SessionError kBadArgument if a number is NaN or infinite. @param what  "a joint's speed".
-void require_finite(const char* what, double value);
+void require_number(const char* what, double value);
 
 /// @name Makers of devices, by family
 /// @return null if the family does not have the interface.
