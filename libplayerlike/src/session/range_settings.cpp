@@ -66,11 +66,11 @@ BeamWindow window_of(double min_rad, double max_rad, double resolution_rad, std:
   const double begin = std::max(0.0, std::ceil((min_rad - least_rad) / native_rad - kSameBeam));
   const double end = std::min(last, std::floor((max_rad - least_rad) / native_rad + kSameBeam));
   if (!(begin <= end)) {
-    throw SessionError(
-        SessionError::Code::kBadArgument,
-        "no beam lies between " + std::to_string(min_rad) + " and " + std::to_string(max_rad) +
-            " rad; this laser's lie from " + std::to_string(least_rad) + " to " +
-            std::to_string(least_rad + last * native_rad) + " rad");
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "no beam lies between " + std::to_string(min_rad) + " and " +
+                           std::to_string(max_rad) + " rad; this laser's lie from " +
+                           std::to_string(least_rad) + " to " +
+                           std::to_string(least_rad + last * native_rad) + " rad");
   }
   // A server may report a spacing of zero: then the window has all beams.
   const double ratio = std::round(resolution_rad / native_rad);

@@ -6,6 +6,7 @@
 
 #include "libplayerinterface/player_constants.h"
 #include "proxies/goal_driver.h"
+#include "session/player_values.h"
 #include "sim/devices/localization.h"
 #include "wire/robot_device.h"
 
@@ -35,10 +36,10 @@ class Position2d final : public RobotDevice {
     if (measured == nullptr) return;
     const sim::Twist& twist = measured->twist;
     sink.data(PLAYER_POSITION2D_DATA_STATE,
-              player::encode(player::Position2dData{
-                  pose_2d(measured->pose),
-                  {twist.v_mps, twist.lateral_mps, twist.omega_radps},
-                  static_cast<std::uint8_t>(measured->stalled ? 1 : 0)}));
+              player::encode(
+                  player::Position2dData{pose_2d(measured->pose),
+                                         {twist.v_mps, twist.lateral_mps, twist.omega_radps},
+                                         static_cast<std::uint8_t>(measured->stalled ? 1 : 0)}));
   }
 
   void command(std::uint8_t subtype, std::string_view payload) override {
@@ -94,9 +95,9 @@ class Position2d final : public RobotDevice {
 
   void send_to_motors(const sim::Command& command) const {
     if (!binding().motion) {
-      throw SessionError(SessionError::Code::kNotAvailable,
-                         "robot " + robot().name +
-                             " has no motors (a device of type \"motion\") in this world");
+      throw SessionError(
+          SessionError::Code::kNotAvailable,
+          "robot " + robot().name + " has no motors (a device of type \"motion\") in this world");
     }
     session().send(*binding().motion, command);
   }
@@ -151,12 +152,51 @@ class Position2d final : public RobotDevice {
   std::shared_ptr<GoalDriver> driver_;  // null except at the index of a driver
 };
 
+/// LocalizeProxy's counterpart.
+class Localize final : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* measured = reading_as<sim::PoseReading>(reading);
+    if (measured == nullptr) return;
+    pose_ = pose_2d(measured->pose);
+    player::LocalizeData data;
+    data.hypoths.push_back(hypothesis_of<player::LocalizeHypoth>(*measured, *settings()));
+    sink.data(PLAYER_LOCALIZE_DATA_HYPOTHS, player::encode(data));
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
+    switch (subtype) {
+      case PLAYER_LOCALIZE_REQ_SET_POSE: {
+        // A simulated localisation needs no first pose: it is checked only.
+        const auto asked = player::decode<player::LocalizeSetPose>(payload);
+        for (const double number : {asked.mean.px, asked.mean.py, asked.mean.pa}) {
+          require_number("a coordinate of the pose", number);
+        }
+        return empty_payload();
+      }
+      case PLAYER_LOCALIZE_REQ_GET_PARTICLES:
+        if (!pose_) return std::nullopt;
+        return player::encode(player::LocalizeGetParticles{*pose_, 0.0, {{*pose_, 1.0}}});
+      default:
+        return std::nullopt;
+    }
+  }
+
+ private:
+  std::optional<player::Pose2d> pose_;  // none before the first reading
+};
+
 }  // namespace
 
 MadeDevice make_driving_device(const DeviceContext& context) {
   switch (context.interface) {
     case PLAYER_POSITION2D_CODE:
       return std::make_unique<Position2d>(context);
+    case PLAYER_LOCALIZE_CODE:
+      return std::make_unique<Localize>(context);
     default:
       return nullptr;
   }
