@@ -78,10 +78,10 @@ serve() {
 # row NAME VERDICT TEXT
 row() { printf '%-24s %-8s %s\n' "$1" "$2" "$3"; }
 
-# print INTERFACE:INDEX: shows a second of a device's data.
+# print INTERFACE: shows three readings of a device.
 print() {
-  local log=$out/playerprint_${1/:/_}.txt
-  timeout 5 "$prefix/bin/playerprint" -h 127.0.0.1 -p "$port" "$1" >"$log" 2>&1 || true
+  local log=$out/playerprint_$1.txt
+  timeout 20 "$prefix/bin/playerprint" -h 127.0.0.1 -p "$port" -c 3 "$1" >"$log" 2>&1 || true
   if grep -q '^#' "$log"; then
     row "playerprint $1" ok "$(grep -c '' "$log") lines"
   else
@@ -92,7 +92,7 @@ print() {
 serve cave.json lockstep
 for interface in position2d laser ranger sonar gps fiducial power bumper ir imu gripper ptz \
   blobfinder aio dio wifi localize camera; do
-  print "$interface:0"
+  print "$interface"
 done
 
 for interface in position2d laser ranger sonar power dio aio ptz gripper camera speech; do
