@@ -7,12 +7,13 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "circle_range.h"
+#include "outlines.h"
+#include "random_numbers.h"
 #include "sim/scan/cone.h"
 #include "sim/scan/scan_kernel.h"
 #include "sim/world/outline.h"
@@ -21,23 +22,10 @@ namespace sim {
 namespace {
 
 using test::circle_range_m;
+using test::kNotch;
+using test::Random;
 
 constexpr double kPi = std::numbers::pi;
-
-// A notch of 1 x 1 m that opens upwards: concave.
-const Polygon kNotch{{0, 0},     {1.4, 0},   {1.4, 1.2}, {1.2, 1.2},
-                     {1.2, 0.2}, {0.2, 0.2}, {0.2, 1.2}, {0, 1.2}};
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double a, double b) {
-    return a + (b - a) * static_cast<double>(engine_()) / 4294967296.0;
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 TEST(Outline, NearestPointOfASegmentIsBesideItOrAnEnd) {
   const Vec2 a(1, 1);
