@@ -13,19 +13,14 @@ namespace {
 using nlohmann::json;
 
 /// Number of bytes that hold a frame's length.
-constexpr std::size_t kHead = 4;
+constexpr std::size_t kLengthBytes = 4;
 
-std::size_t frame_length(const char* head) {
-  std::size_t length = 0;
-  for (std::size_t i = 0; i < kHead; ++i) {
-    length = length << 8U | static_cast<unsigned char>(head[i]);
+std::size_t read_big_endian(const char* from) {
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < kLengthBytes; ++i) {
+    number = number << 8U | static_cast<unsigned char>(from[i]);
   }
-  return length;
-}
-
-void write_frame_length(std::size_t length, char* head) {
-  SIM_ASSERT(length <= 0xffffffffU);
-  for (std::size_t i = kHead; i-- > 0; length >>= 8U) head[i] = static_cast<char>(length & 0xffU);
+  return number;
 }
 
 [[noreturn]] void refuse_length(std::size_t limit) {
@@ -34,6 +29,13 @@ void write_frame_length(std::size_t length, char* head) {
 }
 
 }  // namespace
+
+void write_big_endian(std::size_t number, char* to) {
+  SIM_ASSERT(number <= 0xffffffffU);
+  for (std::size_t i = kLengthBytes; i-- > 0; number >>= 8U) {
+    to[i] = static_cast<char>(number & 0xffU);
+  }
+}
 
 std::string_view to_string(Encoding encoding) noexcept {
   return encoding == Encoding::kJson ? "json" : "cbor";
@@ -69,7 +71,15 @@ void MessageSplitter::add(std::string_view bytes) {
 }
 
 std::optional<std::string_view> MessageSplitter::next() {
-  return encoding_ == Encoding::kJson ? next_line() : next_frame();
+  switch (framing_) {
+    case Framing::kLines:
+      return next_line();
+    case Framing::kFrames:
+      return next_frame(kLengthBytes, false);
+    case Framing::kPlayer:
+      break;
+  }
+  return next_frame(kPlayerHeader, true);
 }
 
 std::optional<std::string_view> MessageSplitter::next_line() {
@@ -91,14 +101,14 @@ std::optional<std::string_view> MessageSplitter::next_line() {
   return line;
 }
 
-std::optional<std::string_view> MessageSplitter::next_frame() {
-  if (end_ - begin_ < kHead) return std::nullopt;
-  const std::size_t length = frame_length(buffer_.data() + begin_);
+std::optional<std::string_view> MessageSplitter::next_frame(std::size_t head, bool kept) {
+  if (end_ - begin_ < head) return std::nullopt;
+  const std::size_t length = read_big_endian(buffer_.data() + begin_ + head - kLengthBytes);
   if (length > limit_) refuse_length(limit_);
-  if (end_ - begin_ - kHead < length) return std::nullopt;
-  const std::string_view frame(buffer_.data() + begin_ + kHead, length);
-  begin_ += kHead + length;
-  return frame;
+  if (end_ - begin_ - head < length) return std::nullopt;
+  const std::string_view whole(buffer_.data() + begin_, head + length);
+  begin_ += head + length;
+  return kept ? whole : whole.substr(head);
 }
 
 bool MessageSplitter::partial() const noexcept { return begin_ != end_; }
@@ -109,9 +119,9 @@ std::string encode(const json& message, Encoding encoding) {
     append_json(message, bytes);
     bytes += '\n';
   } else {
-    bytes.resize(kHead);
+    bytes.resize(kLengthBytes);
     append_cbor(message, bytes);
-    write_frame_length(bytes.size() - kHead, bytes.data());
+    write_big_endian(bytes.size() - kLengthBytes, bytes.data());
   }
   return bytes;
 }

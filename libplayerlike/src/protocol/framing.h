@@ -31,6 +31,23 @@ enum class Encoding {
 [[nodiscard]] std::string_view to_string(Encoding encoding) noexcept;
 [[nodiscard]] std::optional<Encoding> parse_encoding(std::string_view text) noexcept;
 
+/// How messages follow one another in a stream of bytes.
+enum class Framing {
+  kLines,   ///< a line each, ended by \n (a preceding \r is ignored)
+  kFrames,  ///< four bytes with the length of the rest (big-endian), then the message
+  kPlayer,  ///< Player's: a header of kPlayerHeader bytes, whose last four are the length of the
+            ///< rest (big-endian). The header is part of the message.
+};
+[[nodiscard]] constexpr Framing framing_of(Encoding encoding) noexcept {
+  return encoding == Encoding::kJson ? Framing::kLines : Framing::kFrames;
+}
+
+/// Length of the header of Player's messages [bytes].
+inline constexpr std::size_t kPlayerHeader = 40;
+
+/// Writes four bytes, most significant first. @pre number < 2^32.
+void write_big_endian(std::size_t number, char* to);
+
 /// A message that cannot be understood.
 class ProtocolError : public std::runtime_error {
  public:
@@ -46,8 +63,10 @@ class ProtocolError : public std::runtime_error {
 /// Splits a byte stream into messages; the chunks may be cut anywhere.
 class MessageSplitter {
  public:
-  /// @param limit  maximum bytes of a message, without its length or line end.
-  MessageSplitter(Encoding encoding, std::size_t limit) : encoding_(encoding), limit_(limit) {}
+  /// @param limit  maximum bytes of a message, without its length, line end or header.
+  MessageSplitter(Framing framing, std::size_t limit) : framing_(framing), limit_(limit) {}
+  MessageSplitter(Encoding encoding, std::size_t limit)
+      : MessageSplitter(framing_of(encoding), limit) {}
 
   /// A buffer of `size` bytes for the next input, valid until the next call.
   [[nodiscard]] std::span<char> room(std::size_t size);
@@ -63,15 +82,18 @@ class MessageSplitter {
 
   /// Whether an incomplete message is buffered.
   [[nodiscard]] bool partial() const noexcept;
-  /// Sets the encoding of the following messages. Bytes already added are kept.
-  void set_encoding(Encoding encoding) noexcept { encoding_ = encoding; }
+  /// Sets the framing of the following messages. Bytes already added are kept.
+  void set_framing(Framing framing) noexcept { framing_ = framing; }
+  void set_encoding(Encoding encoding) noexcept { set_framing(framing_of(encoding)); }
   void set_limit(std::size_t limit) noexcept { limit_ = limit; }
 
  private:
   [[nodiscard]] std::optional<std::string_view> next_line();
-  [[nodiscard]] std::optional<std::string_view> next_frame();
+  /// @param head  bytes of a frame's head, whose last four are the length of the rest.
+  /// @param kept  whether the head is part of the message.
+  [[nodiscard]] std::optional<std::string_view> next_frame(std::size_t head, bool kept);
 
-  Encoding encoding_;
+  Framing framing_;
   std::size_t limit_;
   std::string buffer_;
   std::size_t begin_ = 0;    ///< start of the bytes that next() has not returned yet
