@@ -3,11 +3,14 @@
 // end, and the robots have done what the programs meant and stood against nothing for long.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +28,7 @@ using test_support::ProcessResult;
 using test_support::read_report;
 using test_support::run_process;
 using test_support::TemporaryFolder;
+using test_support::without_wall_time;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -146,30 +150,10 @@ std::vector<Case> cases() {
   };
 }
 
-class CompatPrograms : public testing::TestWithParam<Case> {};
-
-TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
-  const Case& c = GetParam();
-  const TemporaryFolder folder;
-  const std::string out = folder / "out";
-  std::vector<std::string> call = {"run",        PLAYPEN_SOURCE_DIR "/worlds/" + c.world,
-                                   "--out",      out,
-                                   "--duration", c.duration_s,
-                                   "--",         PROGRAMS + c.program};
-  call.insert(call.end(), c.arguments.begin(), c.arguments.end());
-  test_support::ProcessOptions options;
-  options.folder = folder.path();
-  const ProcessResult result = playpen(call, options);
-  ASSERT_FALSE(result.timed_out) << result.out << result.err;
+/// Expects that a program has done what it was written for.
+void expect_outcome(const Case& c, const ProcessResult& result, const json& report) {
   EXPECT_EQ(result.status, 0) << result.out << result.err;
-  if (c.program == "two_clients_one_port") {
-    for (const char* host : {"\"192.0.2.17\"", "\"robot-lab\""}) {
-      EXPECT_THAT(result.err, HasSubstr(host));
-    }
-  }
   for (const std::string& part : c.says) EXPECT_THAT(result.out, HasSubstr(part)) << result.err;
-
-  const json report = read_report(out);
   const json& robots = report.at("robots");
   EXPECT_GE(robots[0].at("path_length"), c.least_path_m) << result.out << result.err;
   EXPECT_LE(robots[0].at("path_length"), c.most_path_m) << result.out << result.err;
@@ -184,6 +168,105 @@ TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
   }
   EXPECT_LE(collisions, c.most_collisions) << result.out << result.err;
   EXPECT_EQ(moving, c.moving_robots) << result.out << result.err;
+}
+
+class CompatPrograms : public testing::TestWithParam<Case> {
+ protected:
+  /// `playpen run OPTIONS WORLD -- PROGRAM`.
+  [[nodiscard]] ProcessResult run(const std::vector<std::string>& options = {}) {
+    std::vector<std::string> call = {"run", world(),      "--out",
+                                     out(), "--duration", GetParam().duration_s};
+    call.insert(call.end(), options.begin(), options.end());
+    call.emplace_back("--");
+    const std::vector<std::string> words = program();
+    call.insert(call.end(), words.begin(), words.end());
+    return playpen(call, in_folder());
+  }
+  /// `playpen serve WORLD OPTIONS` in lockstep, and the program.
+  /// @param address  of the server, by what it prints, for PLAYPEN_WORLD.
+  template <typename Address>
+  [[nodiscard]] ProcessResult serve(const std::vector<std::string>& options, Address address) {
+    std::vector<std::string> call = {
+        PLAYPEN_COMMAND,       "serve",  world(),    "--out",  out(), "--duration",
+        GetParam().duration_s, "--time", "lockstep", "--port", "0",   "--quiet"};
+    call.insert(call.end(), options.begin(), options.end());
+    test_support::Process server(call);
+    test_support::ProcessOptions remote = in_folder();
+    remote.environment["PLAYPEN_WORLD"] = address(server);
+    if (remote.environment["PLAYPEN_WORLD"].empty()) return {};
+    const ProcessResult result = run_process(program(), remote);
+    // A program may end before the run does.
+    server.send_signal(SIGTERM);
+    const ProcessResult end = server.finish();
+    EXPECT_EQ(end.status, 0) << end.err;
+    return result;
+  }
+  [[nodiscard]] std::string out() const { return folder_ / "out"; }
+
+ private:
+  [[nodiscard]] static std::string world() {
+    return PLAYPEN_SOURCE_DIR "/worlds/" + GetParam().world;
+  }
+  [[nodiscard]] static std::vector<std::string> program() {
+    std::vector<std::string> words = {PROGRAMS + GetParam().program};
+    words.insert(words.end(), GetParam().arguments.begin(), GetParam().arguments.end());
+    return words;
+  }
+  [[nodiscard]] test_support::ProcessOptions in_folder() const {
+    test_support::ProcessOptions options;
+    options.folder = folder_.path();
+    return options;
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
+  const Case& c = GetParam();
+  const ProcessResult result = run();
+  ASSERT_FALSE(result.timed_out) << result.out << result.err;
+  if (c.program == "two_clients_one_port") {
+    for (const char* host : {"\"192.0.2.17\"", "\"robot-lab\""}) {
+      EXPECT_THAT(result.err, HasSubstr(host));
+    }
+  }
+  expect_outcome(c, result, read_report(out()));
+}
+
+/// Programs that sleep, read the wall clock or have threads, so that their runs over a network
+/// differ in detail.
+const std::set<std::string> kOwnTime = {};
+
+/// The same program in this process's simulation and over Player's protocol.
+TEST_P(CompatPrograms, DoTheSameOverPlayersProtocol) {
+  const Case& c = GetParam();
+  // Its ArenaProxy is Playpen's own.
+  if (c.program == "arena_gate") GTEST_SKIP() << "Player has no interface for arenas";
+  ProcessResult here = run({"--real-sleep"});
+  ASSERT_EQ(here.status, 0) << here.out << here.err;
+  const auto repeatable = [this] {
+    json report = without_wall_time(read_report(out()));
+    report.erase("ended");
+    return report;
+  };
+  const json expected = repeatable();
+
+  // Ports that follow one another, as programs for several robots expect; others may have some.
+  ProcessResult there;
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    const int first = 20'000 + (getpid() * 101 + attempt * 1009) % 30'000;
+    there = serve({"--player-port", std::to_string(first)}, [&](test_support::Process& server) {
+      return server.read_until("listening on ") && server.read_until("\n")
+                 ? "player://127.0.0.1:" + std::to_string(first)
+                 : std::string();
+    });
+    if (there.status || there.signal || there.timed_out) break;
+  }
+  ASSERT_FALSE(there.timed_out) << there.out << there.err;
+  expect_outcome(c, there, read_report(out()));
+  if (kOwnTime.contains(c.program)) return;
+  EXPECT_EQ(there.out, here.out) << there.err;
+  EXPECT_EQ(repeatable().dump(1), expected.dump(1)) << there.err;
 }
 
 // Runs a program in a world for which it was not written.
