@@ -469,7 +469,6 @@ void PlayerConnection::finish_round(Outcome outcome) {
     return peer_.close("");
   }
   if (outcome != Outcome::kData) return;
-  requested_ = false;
   EachReading readings([this](DeviceId source, const sim::Reading& reading) {
     data_time_s_ = sim::to_seconds(reading.time_ns);
     for (OpenDevice& device : open_) {
@@ -480,7 +479,11 @@ void PlayerConnection::finish_round(Outcome outcome) {
       guarded(device, [&] { device.device->on_reading(source, reading, *this); });
     }
   });
-  session_.take(readings);
+  // A round that began before the first device was opened may end without readings.
+  const bool has_sources = std::any_of(
+      open_.begin(), open_.end(), [](const OpenDevice& device) { return !device.sources.empty(); });
+  if (session_.take(readings) == 0 && pull_ && has_sources) return begin_to_wait();
+  requested_ = false;
   data_time_s_ = now_s();
   for (OpenDevice& device : open_) {
     current_ = &device;
