@@ -205,6 +205,22 @@ TEST_F(PlayerServer, ListsTheDevicesOfARobot) {
   }
 }
 
+TEST_F(PlayerServer, EachDeviceOfTheListOpensAndCloses) {
+  start(test::patient_host(sim::load_world(PLAYPEN_SOURCE_DIR "/worlds/cave.json")));
+  PlayerWireClient client(server->player_ports().begin()->second);
+  client.set_mode(PLAYER_DATAMODE_PULL);
+  const auto devices =
+      client.request(PLAYER_PLAYER_REQ_DEVLIST).as<player::DeviceDevlist>().devices;
+  EXPECT_THAT(devices, SizeIs(testing::Gt(5U)));
+  for (const player::Devaddr& address : devices) {
+    for (const int mode : {PLAYER_OPEN_MODE, PLAYER_CLOSE_MODE}) {
+      const PlayerMessage answer = client.access(address.interf, address.index, mode);
+      EXPECT_EQ(answer.header.type, PLAYER_MSGTYPE_RESP_ACK) << address.interf;
+      EXPECT_EQ(answer.as<player::DeviceReq>().access, mode) << address.interf;
+    }
+  }
+}
+
 TEST_F(PlayerServer, NamesDrivers) {
   start();
   PlayerWireClient client(port());
