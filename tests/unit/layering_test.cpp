@@ -152,7 +152,9 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"host", {"messages", "process", "protocol", "session", "view", "virtual_time"}},
       {"remote", {"messages", "process", "protocol", "session"}},
       {"connect", {"messages", "process", "session", "virtual_time", "host", "remote"}},
-      {"server", {"messages", "process", "protocol", "session", "host", "wire"}},
+      {"server",
+       {"messages", "process", "protocol", "session", "host", "wire", "proxies",
+        "libplayerinterface"}},
       // Headers that clients include.
       {"libplayerinterface", {}},
       {"libplayercommon", {}},

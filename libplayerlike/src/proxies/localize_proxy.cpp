@@ -76,6 +76,9 @@ void LocalizeProxy::SetPose(double pose[3], double cov[6]) {
   playerlike::require_finite(
       fun, {{"the pose's x", pose[0]}, {"the pose's y", pose[1]}, {"the pose's yaw", pose[2]}});
   const scoped_lock_t lock(LockData(fun));
+  // Simulated localisation knows the pose.
+  if (mLink->property("accepts_pose", 0.0) == 0.0) return;
+  mLink->send(fun, sim::SetPoseCommand{{pose[0], pose[1], sim::normalize_angle(pose[2])}});
 }
 
 }  // namespace PlayerCc

@@ -45,8 +45,9 @@ ScannerSettings scanner_settings(const DeviceSettings& settings) {
   ScannerSettings scanner;
   scanner.count = count_of(settings, "beams");
   scanner.native_rad = setting_of(settings, "resolution");
-  // The simulated laser is symmetric about forward.
-  if (scanner.count > 0) {
+  if (const auto least = settings.find("angle_min"); least != settings.end()) {
+    scanner.least_rad = least->second;
+  } else if (scanner.count > 0) {  // the simulated laser is symmetric about forward
     scanner.least_rad = -0.5 * static_cast<double>(scanner.count - 1) * scanner.native_rad;
   }
   scanner.range_max_m = setting_of(settings, "range_max");
