@@ -165,13 +165,6 @@ void read_report(const fs::path& file, RunData& run) {
 
 // --- Clearance
 
-double distance_m(const Vec2& point, const Vec2& a, const Vec2& b) {
-  const Vec2 along = b - a;
-  const double square = along.squaredNorm();
-  const double share = square > 0.0 ? std::clamp((point - a).dot(along) / square, 0.0, 1.0) : 0.0;
-  return (point - (a + share * along)).norm();
-}
-
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Distance between two line segments; 0 if they cross.
@@ -179,8 +172,8 @@ double distance_m(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const bool cross_ab = cross(b - a, c - a) * cross(b - a, d - a) < 0.0;
   const bool cross_cd = cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
   if (cross_ab && cross_cd) return 0.0;
-  return std::min(
-      {distance_m(a, c, d), distance_m(b, c, d), distance_m(c, a, b), distance_m(d, a, b)});
+  return std::min({sim::distance_to_segment_m(a, c, d), sim::distance_to_segment_m(b, c, d),
+                   sim::distance_to_segment_m(c, a, b), sim::distance_to_segment_m(d, a, b)});
 }
 
 // A closed outline and its bounding circle.
@@ -201,7 +194,7 @@ double distance_m(const Outline& body, const Outline& other, double least_m) {
   for (std::size_t k = 0; k < other.points.size(); ++k) {
     const Vec2& c = other.points[k];
     const Vec2& d = other.points[(k + 1) % other.points.size()];
-    if (distance_m(body.center, c, d) - body.radius_m >= least_m) continue;
+    if (sim::distance_to_segment_m(body.center, c, d) - body.radius_m >= least_m) continue;
     for (std::size_t i = 0; i < body.points.size(); ++i) {
       const Vec2& a = body.points[i];
       const Vec2& b = body.points[(i + 1) % body.points.size()];

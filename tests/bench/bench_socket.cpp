@@ -50,7 +50,7 @@ class ServerProcess {
     close(ports[1]);
     close(life[0]);
     life_ = life[1];
-    const bool told = read(ports[0], &port_, sizeof port_) == sizeof port_;
+    const bool told = read(ports[0], told_.data(), sizeof told_) == sizeof told_;
     close(ports[0]);
     if (!told) throw std::runtime_error("the server does not start");
   }
@@ -61,8 +61,12 @@ class ServerProcess {
   ServerProcess(const ServerProcess&) = delete;
   ServerProcess& operator=(const ServerProcess&) = delete;
 
-  [[nodiscard]] int port() const { return port_; }
-  [[nodiscard]] std::string host() const { return "tcp://127.0.0.1:" + std::to_string(port_); }
+  [[nodiscard]] int port() const { return told_[0]; }
+  [[nodiscard]] std::string host() const { return "tcp://127.0.0.1:" + std::to_string(port()); }
+  /// The first robot for clients of Player's protocol.
+  [[nodiscard]] std::string player_host() const {
+    return "player://127.0.0.1:" + std::to_string(told_[1]);
+  }
 
  private:
   [[noreturn]] static void serve(const char* world, double time_factor, int ports, int life) {
@@ -76,10 +80,11 @@ class ServerProcess {
     playerlike::ServerSettings settings;
     settings.port = 0;
     settings.stream_port = 0;
+    settings.player_port = 0;
     {
-      playerlike::Server server(host, settings);
-      const int port = server.port();
-      if (write(ports, &port, sizeof port) != sizeof port) std::_Exit(1);
+      const playerlike::Server server(host, settings);
+      const std::array<int, 2> told{server.port(), server.player_ports().begin()->second};
+      if (write(ports, told.data(), sizeof told) != sizeof told) std::_Exit(1);
       char byte = 0;
       while (read(life, &byte, 1) > 0) {
       }
@@ -132,6 +137,15 @@ class Connection {
   int socket_;
 };
 
+/// Read() rounds per second of Player's protocol with pose and laser.
+double player_read_rounds(const std::string& host) {
+  PlayerCc::PlayerClient client(host, 6665);
+  PlayerCc::Position2dProxy pose(&client, 0);
+  PlayerCc::LaserProxy laser(&client, 0);
+  for (int i = 0; i < 200; ++i) client.Read();
+  return 1.0 / seconds_per_call([&] { client.Read(); }, 1000, 9);
+}
+
 /// Read() rounds per second with pose, odometry and laser.
 double read_rounds(const std::string& host, const char* encoding) {
   setenv("PLAYPEN_ENCODING", encoding, 1);
@@ -148,9 +162,11 @@ void read_figures() {
   const ServerProcess server(kOne);
   const double cbor = read_rounds(server.host(), "cbor");
   const double json = read_rounds(server.host(), "json");
+  const double player = player_read_rounds(server.player_host());
   figure("read_rounds_per_s_in_process", in_process);
   figure("read_rounds_per_s_cbor", cbor);
   figure("read_rounds_per_s_json", json);
+  figure("player_wire_reads_per_second", player);
 }
 
 /// Whole canvases per second: each one is sent, and the last one is read back.

@@ -1,9 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <chrono>
-#include <limits>
 #include <string>
 
 #include "figures.h"
@@ -51,37 +48,15 @@ inline void add_controller(WorldDescription& world) {
   }
 }
 
-// The cost of a step of 13 robots without and with such a controller. The two take turns, so that a
-// slow moment of the machine affects both.
+// The cost of a step of 13 robots without and with such a controller.
 inline void controller_figures() {
   const WorldDescription plain_world = endless(kThirteen);
   WorldDescription world = plain_world;
   add_controller(world);
-  using Seconds = std::chrono::duration<double>;
-  Seconds best_plain{std::numeric_limits<double>::infinity()};
-  Seconds best_controlled = best_plain;
-  for (int round = 0; round < 9; ++round) {
-    Simulation plain(plain_world);
-    Simulation controlled(world);
-    Seconds plain_time{};
-    Seconds controlled_time{};
-    constexpr int kRounds = 1000;
-    const auto timed = [](Simulation& simulation) {
-      wander(simulation);
-      const auto begin = std::chrono::steady_clock::now();
-      for (int i = 0; i < 10; ++i) simulation.step();
-      return std::chrono::steady_clock::now() - begin;
-    };
-    for (int k = 0; k < kRounds; ++k) {
-      plain_time += timed(plain);
-      controlled_time += timed(controlled);
-    }
-    best_plain = std::min(best_plain, plain_time / (10.0 * kRounds));
-    best_controlled = std::min(best_controlled, controlled_time / (10.0 * kRounds));
-  }
-  figure("controller_step_us", best_controlled.count() * 1e6);
-  figure("controller_us", (best_controlled - best_plain).count() * 1e6);
-  figure("controller_overhead_ratio", best_controlled / best_plain);
+  const auto [plain_s, controlled_s] = step_times_s(plain_world, world, 1000);
+  figure("controller_step_us", controlled_s * 1e6);
+  figure("controller_us", (controlled_s - plain_s) * 1e6);
+  figure("controller_overhead_ratio", controlled_s / plain_s);
 }
 
 }  // namespace sim::bench

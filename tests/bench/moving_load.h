@@ -1,9 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <chrono>
-#include <limits>
 #include <string>
 
 #include "figures.h"
@@ -39,36 +36,13 @@ inline WorldDescription world_of_obstacles(bool moving) {
   return world;
 }
 
-// The cost of a step with 50 obstacles that stand, and with 50 that move. The two take turns, so
-// that a slow moment of the machine affects both.
+// The cost of a step with 50 obstacles that stand, and with 50 that move.
 inline void moving_figures() {
-  const WorldDescription fixed_world = world_of_obstacles(false);
-  const WorldDescription moving_world = world_of_obstacles(true);
-  using Seconds = std::chrono::duration<double>;
-  Seconds best_fixed{std::numeric_limits<double>::infinity()};
-  Seconds best_moving = best_fixed;
-  for (int round = 0; round < 9; ++round) {
-    Simulation fixed(fixed_world);
-    Simulation moving(moving_world);
-    Seconds fixed_time{};
-    Seconds moving_time{};
-    constexpr int kRounds = 300;
-    const auto timed = [](Simulation& simulation) {
-      wander(simulation);
-      const auto begin = std::chrono::steady_clock::now();
-      for (int i = 0; i < 10; ++i) simulation.step();
-      return std::chrono::steady_clock::now() - begin;
-    };
-    for (int k = 0; k < kRounds; ++k) {
-      fixed_time += timed(fixed);
-      moving_time += timed(moving);
-    }
-    best_fixed = std::min(best_fixed, fixed_time / (10.0 * kRounds));
-    best_moving = std::min(best_moving, moving_time / (10.0 * kRounds));
-  }
-  figure("obstacles_fixed_step_us", best_fixed.count() * 1e6);
-  figure("obstacles_moving_step_us", best_moving.count() * 1e6);
-  figure("obstacles_moving_ratio", best_moving / best_fixed);
+  const auto [fixed_s, moving_s] =
+      step_times_s(world_of_obstacles(false), world_of_obstacles(true), 300);
+  figure("obstacles_fixed_step_us", fixed_s * 1e6);
+  figure("obstacles_moving_step_us", moving_s * 1e6);
+  figure("obstacles_moving_ratio", moving_s / fixed_s);
 }
 
 }  // namespace sim::bench

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <ctime>
+#include <utility>
 
 #include "figures.h"
 #include "sim/devices/laser.h"
@@ -48,6 +50,35 @@ inline void wander(Simulation& simulation) {
     best_s = std::min(best_s, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   }
   return simulated_s / best_s;
+}
+
+// Seconds that a step of each of two worlds takes while robots wander: the best of nine rounds. The
+// worlds take turns, so that a slow moment of the machine affects both.
+// @param tens  steps per round, in tens.
+[[nodiscard]] inline std::pair<double, double> step_times_s(const WorldDescription& first,
+                                                            const WorldDescription& second,
+                                                            int tens) {
+  using Seconds = std::chrono::duration<double>;
+  const auto timed = [](Simulation& simulation) {
+    wander(simulation);
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 0; i < 10; ++i) simulation.step();
+    return std::chrono::steady_clock::now() - begin;
+  };
+  std::pair best_s(1e30, 1e30);
+  for (int round = 0; round < 9; ++round) {
+    Simulation a(first);
+    Simulation b(second);
+    Seconds a_time{};
+    Seconds b_time{};
+    for (int k = 0; k < tens; ++k) {
+      a_time += timed(a);
+      b_time += timed(b);
+    }
+    best_s.first = std::min(best_s.first, a_time.count() / (10.0 * tens));
+    best_s.second = std::min(best_s.second, b_time.count() / (10.0 * tens));
+  }
+  return best_s;
 }
 
 inline void print_realtime_factors() {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "playpen_process.h"
+#include "run_files.h"
 #include "temporary_folder.h"
 
 namespace {
@@ -23,6 +24,7 @@ using test_support::playpen;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
 using test_support::read_bytes;
+using test_support::read_report;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;
 
@@ -42,10 +44,11 @@ class ArenaTasks : public testing::Test {
   [[nodiscard]] json runs() const {
     return json::parse(read_bytes(fs::path(out_) / "grade.json")).at("runs");
   }
-  /// The events of a run, from its report.
-  [[nodiscard]] json events(const std::string& run) const {
-    return json::parse(read_bytes(fs::path(out_) / run / "report.json")).at("events");
+  [[nodiscard]] json report(const std::string& run) const {
+    return read_report(fs::path(out_) / run);
   }
+  /// The events of a run, from its report.
+  [[nodiscard]] json events(const std::string& run) const { return report(run).at("events"); }
   /// The names of what a run's events of a kind are about.
   [[nodiscard]] std::set<std::string> named(const std::string& run, const std::string& kind) const {
     std::set<std::string> names;
@@ -94,8 +97,7 @@ TEST_F(ArenaTasks, TheSolutionLooksAgainWhereTheArenaHasChanged) {
   std::set<json> ends;
   for (const json& run : runs()) {
     EXPECT_EQ(run.at("end").at("kind"), "by-itself");
-    const fs::path report = fs::path(out_) / run.at("folder").get<std::string>() / "report.json";
-    ends.insert(json::parse(read_bytes(report)).at("blocks"));
+    ends.insert(report(run.at("folder").get<std::string>()).at("blocks"));
   }
   EXPECT_GT(ends.size(), 1U) << "the arena is the same in the end, whatever the seed";
 }

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "playpen_process.h"
+#include "run_files.h"
 #include "sim/io/map_file.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/occupancy_map.h"
@@ -21,9 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test_support::expect_equal_files;
+using test_support::Files;
+using test_support::files_of_run;
 using test_support::playpen;
 using test_support::ProcessResult;
-using test_support::read_bytes;
+using test_support::read_report;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;
 using testing::Not;
@@ -113,25 +116,10 @@ class Exploration : public testing::Test {
     call.insert(call.end(), program.begin(), program.end());
     return playpen(call);
   }
-  [[nodiscard]] json report() const {
-    return json::parse(read_bytes(fs::path(out_) / "report.json"));
-  }
+  [[nodiscard]] json report() const { return read_report(out_); }
   [[nodiscard]] json robot() const { return report().at("robots").at(0); }
   [[nodiscard]] Quality quality(const std::string& world) const {
     return judge(sim::io::read_map(out_ + "/layers/occupancy.yaml"), world);
-  }
-  /// Every file of the run by its name, without the values that depend on wall time.
-  [[nodiscard]] std::map<std::string, std::string> files() const {
-    std::map<std::string, std::string> result;
-    for (const auto& entry : fs::recursive_directory_iterator(out_)) {
-      if (!entry.is_regular_file()) continue;
-      result[fs::relative(entry.path(), out_).string()] = read_bytes(entry.path());
-    }
-    json whole = report();
-    EXPECT_EQ(whole["run"].erase("wall_time"), 1U);
-    EXPECT_EQ(whole["run"].erase("real_time_factor"), 1U);
-    result["report.json"] = whole.dump();
-    return result;
   }
   void expect_explored(const ProcessResult& result, const std::string& world) const {
     ASSERT_EQ(result.status, 0) << result.err;
@@ -158,7 +146,7 @@ class ExplorationOf : public Exploration, public testing::WithParamInterface<Cas
 TEST_P(ExplorationOf, IsCompleteAndTwiceTheSameToTheBit) {
   const auto [program, world] = GetParam();
   expect_explored(run(world_file(world), {}, {program}, "first"), world);
-  const auto first = files();
+  const Files first = files_of_run(out_);
   for (const char* name :
        {"scene.png", "canvas.png", "trajectory.csv", "layers/occupancy.pgm", "layers/inflated.png",
         "layers/frontiers.png", "layers/path.png", "layers/trail.png", "layers/scan.png"}) {
@@ -166,13 +154,7 @@ TEST_P(ExplorationOf, IsCompleteAndTwiceTheSameToTheBit) {
   }
 
   ASSERT_EQ(run(world_file(world), {}, {program}, "second").status, 0);
-  const auto second = files();
-  ASSERT_EQ(first.size(), second.size());
-  for (const auto& [name, bytes] : first) {
-    // Not EXPECT_EQ, because pictures do not print well.
-    EXPECT_TRUE(second.count(name) == 1 && second.at(name) == bytes)
-        << name << " differs between two equal runs";
-  }
+  expect_equal_files(files_of_run(out_), first, "the second of two equal runs");
 }
 
 INSTANTIATE_TEST_SUITE_P(EachSolutionInEachWorld, ExplorationOf,

@@ -18,6 +18,7 @@
 #include "par_common/distance.h"
 #include "par_common/planners.h"
 #include "playpen_process.h"
+#include "run_files.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/occupancy_map.h"
 #include "temporary_folder.h"
@@ -36,7 +37,7 @@ using nlohmann::json;
 using test_support::playpen;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
-using test_support::read_bytes;
+using test_support::read_report;
 using test_support::TemporaryFolder;
 
 using Square = std::pair<int, int>;
@@ -89,7 +90,7 @@ class FirstPrograms : public testing::Test {
                  std::to_string(seed), "--quiet", "--out", out_, "--", program},
                 patient);
     ASSERT_EQ(result.status, 0) << result.err;
-    robot_ = json::parse(read_bytes(fs::path(out_) / "report.json")).at("robots").at(0);
+    robot_ = read_report(out_).at("robots").at(0);
     const std::string name = robot_.at("name").get<std::string>();
     visited_.clear();
     last_move_s_ = 0.0;

@@ -21,6 +21,7 @@
 
 #include "patience.h"
 #include "playpen_process.h"
+#include "run_files.h"
 #include "run_process.h"
 #include "temporary_folder.h"
 // Included last: X11's headers define macros with common names.
@@ -34,7 +35,7 @@ using test_support::playpen;
 using test_support::Process;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
-using test_support::read_bytes;
+using test_support::read_report;
 using test_support::Screenshot;
 using test_support::TemporaryFolder;
 using testing::AllOf;
@@ -243,7 +244,7 @@ class LiveWindow : public testing::Test {
     EXPECT_THAT(result.err, Not(HasSubstr("goes on without")));
     // The process has ended, but the X server may not have noticed yet.
     wait_until("the window has gone", [&] { return !display.find("Playpen: window"); });
-    return json::parse(read_bytes(folder / "out/report.json"));
+    return read_report(folder / "out");
   }
 
   static std::unique_ptr<XServer> server;

@@ -5,10 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,48 +12,39 @@
 
 #include "machine_load.h"
 #include "playpen_process.h"
+#include "run_files.h"
 #include "run_process.h"
 #include "temporary_folder.h"
 
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
+using test_support::address_of;
+using test_support::expect_equal_files;
+using test_support::Files;
+using test_support::files_of_run;
+using test_support::MachineLoad;
+using test_support::patient;
 using test_support::Process;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
-using test_support::read_bytes;
+using test_support::repeats;
 using test_support::TemporaryFolder;
-using testing::HasSubstr;
 using testing::IsSupersetOf;
 
 using Words = std::vector<std::string>;
-using Files = std::map<std::string, std::string>;
 
 constexpr const char* kWorld = PLAYPEN_SOURCE_DIR "/worlds/examples/living_arena.json";
 
-int repeats() {
-  const char* text = std::getenv("PLAYPEN_REPEATS");
-  return text == nullptr ? 1 : std::max(1, std::atoi(text));
-}
-
-/// Every file of a folder by its name. The report is without wall times, without the reason of its
-/// end, because a server outlives its clients, and without the promise to be repeatable, which
-/// `playpen serve` does not make for two programs.
+/// Every file of a run. The report is without wall times, without the reason of its end, because a
+/// server outlives its clients, and without the promise to be repeatable, which `playpen serve`
+/// does not make for two programs.
 Files files_of(const std::string& folder) {
-  Files result;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    result[fs::relative(entry.path(), folder).string()] = read_bytes(entry.path());
-  }
-  json report = json::parse(result.at("report.json"));
-  EXPECT_EQ(report["run"].erase("wall_time"), 1U);
-  EXPECT_EQ(report["run"].erase("real_time_factor"), 1U);
-  EXPECT_EQ(report["run"].erase("repeatable"), 1U);
-  report["run"].erase("repeatable_why");
-  EXPECT_EQ(report.erase("ended"), 1U);
-  result["report.json"] = report.dump(1);
-  return result;
+  return files_of_run(folder, [](json& report) {
+    EXPECT_EQ(report["run"].erase("repeatable"), 1U);
+    report["run"].erase("repeatable_why");
+    EXPECT_EQ(report.erase("ended"), 1U);
+  });
 }
 
 class LivingArena : public testing::Test {
@@ -88,12 +75,8 @@ class LivingArena : public testing::Test {
                      std::to_string(programs.size())};
     add_options(command, folder);
     Process server(command, patient());
-    EXPECT_TRUE(server.read_until("\n")) << server.finish().err;
-    const std::string said = server.output();
-    EXPECT_THAT(said, HasSubstr("listening on 127.0.0.1:"));
-    const std::string port = said.substr(said.rfind(':') + 1);
     ProcessOptions remote = patient();
-    remote.environment["PLAYPEN_WORLD"] = "tcp://127.0.0.1:" + port.substr(0, port.find('\n'));
+    remote.environment["PLAYPEN_WORLD"] = address_of(server);
     std::vector<std::unique_ptr<Process>> running;
     for (const Words& program : programs) {
       running.push_back(std::make_unique<Process>(program, remote));
@@ -108,17 +91,6 @@ class LivingArena : public testing::Test {
     return files_of(folder / "out");
   }
 
-  /// Compares with the results of the first run.
-  static void expect_equal(const Files& found, const Files& expected, const std::string& which) {
-    EXPECT_EQ(found.at("report.json"), expected.at("report.json")) << which;
-    for (const auto& [name, bytes] : expected) {
-      // Not EXPECT_EQ, because pictures do not print well.
-      EXPECT_TRUE(found.count(name) == 1 && found.at(name) == bytes)
-          << which << ": " << name << " differs";
-    }
-    EXPECT_EQ(found.size(), expected.size()) << which;
-  }
-
   static constexpr const char* kPrinted = "11 5 the runner is at the goal\n";
 
  private:
@@ -129,13 +101,6 @@ class LivingArena : public testing::Test {
                "--record-fps", "2", "--film-size", "320x240"}) {
       command.push_back(word);
     }
-  }
-  /// On a very busy machine, a client may be silent for longer than the usual limit, which is in
-  /// wall-clock time.
-  static ProcessOptions patient() {
-    ProcessOptions options;
-    options.environment = {{"PLAYPEN_SILENCE_LIMIT", "900"}};
-    return options;
   }
 };
 
@@ -158,14 +123,14 @@ TEST_F(LivingArena, GivesTheSameReportsAndFilmsEverywhereAndUnderLoad) {
       << report.at("events").dump(1);
   EXPECT_GT(expected.size(), 80U) << "pictures of the film";
 
-  expect_equal(run(), expected, "again");
-  expect_equal(serve({{PROGRAM}}), expected, "over TCP");
-  expect_equal(serve({{PROGRAM, "runner"}, {PROGRAM, "chaser"}}), expected, "two programs");
-  const test_support::MachineLoad load;
-  for (int i = 0; i < repeats(); ++i) {
-    expect_equal(run(), expected, "under load");
-    expect_equal(serve({{PROGRAM, "chaser"}, {PROGRAM, "runner"}}), expected,
-                 "over TCP under load");
+  expect_equal_files(run(), expected, "again");
+  expect_equal_files(serve({{PROGRAM}}), expected, "over TCP");
+  expect_equal_files(serve({{PROGRAM, "runner"}, {PROGRAM, "chaser"}}), expected, "two programs");
+  const MachineLoad load;
+  for (int i = 0; i < repeats(1, 1); ++i) {
+    expect_equal_files(run(), expected, "under load");
+    expect_equal_files(serve({{PROGRAM, "chaser"}, {PROGRAM, "runner"}}), expected,
+                       "over TCP under load");
   }
 }
 

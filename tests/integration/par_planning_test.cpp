@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "playpen_process.h"
+#include "run_files.h"
 #include "run_process.h"
 #include "temporary_folder.h"
 
@@ -20,6 +21,7 @@ using nlohmann::json;
 using test_support::playpen;
 using test_support::ProcessResult;
 using test_support::read_bytes;
+using test_support::read_report;
 using test_support::TemporaryFolder;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -39,9 +41,7 @@ class ParPlanning : public testing::Test {
     call.insert(call.end(), program.begin(), program.end());
     return playpen(call);
   }
-  [[nodiscard]] json robot() const {
-    return json::parse(read_bytes(fs::path(out_) / "report.json")).at("robots").at(0);
-  }
+  [[nodiscard]] json robot() const { return read_report(out_).at("robots").at(0); }
   [[nodiscard]] std::string output(const std::string& name) const {
     return read_bytes(fs::path(out_) / name);
   }

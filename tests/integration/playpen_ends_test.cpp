@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "playpen_process.h"
+#include "run_files.h"
 #include "run_process.h"
 #include "temporary_folder.h"
 
@@ -36,6 +37,7 @@ using test_support::Process;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
 using test_support::read_bytes;
+using test_support::read_report;
 using test_support::room_world;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;
@@ -53,7 +55,7 @@ class PlaypenEnds : public testing::Test {
     return call;
   }
   [[nodiscard]] fs::path result(const std::string& name) const { return fs::path(out_) / name; }
-  [[nodiscard]] json report() const { return json::parse(read_bytes(result("report.json"))); }
+  [[nodiscard]] json report() const { return read_report(out_); }
   [[nodiscard]] bool has(const std::string& name) const {
     return fs::is_regular_file(result(name)) && fs::file_size(result(name)) > 0;
   }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "playpen_process.h"
+#include "run_files.h"
 #include "run_process.h"
 #include "temporary_folder.h"
 
@@ -25,6 +26,7 @@ using test_support::playpen;
 using test_support::Process;
 using test_support::ProcessResult;
 using test_support::read_bytes;
+using test_support::read_report;
 using test_support::room_world;
 using test_support::TemporaryFolder;
 using testing::AllOf;
@@ -95,7 +97,7 @@ TEST_F(PlaypenGrade, TheIntroductionsSolutionsPassWithRealDevices) {
   for (const char* program : {WALL_PROGRAM, AVOID_PROGRAM}) {
     const ProcessResult run = grade({"--seeds", "2", "--realism", "real"}, {program});
     EXPECT_EQ(run.status, 0) << run.out << run.err;
-    const json report = json::parse(read_bytes(fs::path(out_) / "par_intro_seed2" / "report.json"));
+    const json report = read_report(fs::path(out_) / "par_intro_seed2");
     EXPECT_EQ(report.at("run").at("realism"), "real");
   }
 }

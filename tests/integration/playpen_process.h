@@ -1,6 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -28,6 +31,16 @@ namespace test_support {
                                            const ProcessOptions& options = {}) {
   arguments.insert(arguments.begin(), PLAYPEN_COMMAND);
   return test_support::run_process(arguments, options);
+}
+
+/// Where a `playpen serve --port 0` listens, in the form for PLAYPEN_WORLD. Waits for its first
+/// line.
+[[nodiscard]] inline std::string address_of(Process& server) {
+  EXPECT_TRUE(server.read_until("\n")) << server.finish().err;
+  const std::string& said = server.output();
+  EXPECT_THAT(said, testing::HasSubstr("listening on 127.0.0.1:"));
+  const std::string port = said.substr(said.rfind(':') + 1);
+  return "tcp://127.0.0.1:" + port.substr(0, port.find('\n'));
 }
 
 }  // namespace test_support

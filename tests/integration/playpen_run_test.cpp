@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "playpen_process.h"
+#include "run_files.h"
 #include "run_process.h"
 #include "temporary_folder.h"
 
@@ -25,6 +26,7 @@ using test_support::Process;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
 using test_support::read_bytes;
+using test_support::read_report;
 using test_support::room_world;
 using test_support::TemporaryFolder;
 using testing::AllOf;
@@ -58,9 +60,7 @@ class PlaypenRun : public testing::Test {
                                   const ProcessOptions& process = {}) const {
     return playpen(arguments(options, program), process);
   }
-  [[nodiscard]] json report() const {
-    return json::parse(read_bytes(fs::path(out_) / "report.json"));
-  }
+  [[nodiscard]] json report() const { return read_report(out_); }
   [[nodiscard]] std::string output(const std::string& name) const {
     return read_bytes(fs::path(out_) / name);
   }

@@ -15,6 +15,7 @@
 
 #include "playpen_process.h"
 #include "raw_client.h"
+#include "run_files.h"
 #include "run_process.h"
 #include "temporary_folder.h"
 
@@ -27,7 +28,7 @@ using test_support::Process;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
 using test_support::RawClient;
-using test_support::read_bytes;
+using test_support::read_report;
 using test_support::room_world;
 using test_support::TemporaryFolder;
 using testing::AllOf;
@@ -57,7 +58,7 @@ class PlaypenServe : public testing::Test {
   }
   [[nodiscard]] RawClient connect() const { return RawClient("127.0.0.1", port_); }
   [[nodiscard]] fs::path result(const std::string& name) const { return fs::path(out_) / name; }
-  [[nodiscard]] json report() const { return json::parse(read_bytes(result("report.json"))); }
+  [[nodiscard]] json report() const { return read_report(out_); }
 
   TemporaryFolder folder_;
   std::string world_ = folder_.write("room.json", room_world());

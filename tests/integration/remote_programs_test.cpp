@@ -5,60 +5,41 @@
 
 #include <algorithm>
 #include <csignal>
-#include <filesystem>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "playpen_process.h"
+#include "run_files.h"
 #include "run_process.h"
 #include "temporary_folder.h"
 
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
+using test_support::address_of;
+using test_support::expect_equal_files;
+using test_support::Files;
+using test_support::files_of_run;
 using test_support::playpen;
 using test_support::Process;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
-using test_support::read_bytes;
 using test_support::TemporaryFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 
 using Words = std::vector<std::string>;
-using Files = std::map<std::string, std::string>;
 
 std::string task_world(const std::string& name) {
   return std::string(PLAYPEN_SOURCE_DIR "/worlds/tasks/") + name + ".json";
 }
 
-/// Every file of a run by its name. The report is without wall times and without the reason of its
-/// end, because a server outlives its clients.
+/// Every file of a run. The report is without wall times and without the reason of its end, because
+/// a server outlives its clients.
 Files files_of(const std::string& folder) {
-  Files result;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    result[fs::relative(entry.path(), folder).string()] = read_bytes(entry.path());
-  }
-  json report = json::parse(result.at("report.json"));
-  EXPECT_EQ(report["run"].erase("wall_time"), 1U);
-  EXPECT_EQ(report["run"].erase("real_time_factor"), 1U);
-  EXPECT_EQ(report.erase("ended"), 1U);
-  result["report.json"] = report.dump(1);
-  return result;
-}
-
-void expect_equal(const Files& remote, const Files& expected) {
-  EXPECT_EQ(remote.at("report.json"), expected.at("report.json"));
-  for (const auto& [name, bytes] : expected) {
-    // Not EXPECT_EQ, because pictures do not print well.
-    EXPECT_TRUE(remote.count(name) == 1 && remote.at(name) == bytes) << name << " differs";
-  }
-  EXPECT_EQ(remote.size(), expected.size());
+  return files_of_run(folder, [](json& report) { EXPECT_EQ(report.erase("ended"), 1U); });
 }
 
 class RemotePrograms : public testing::Test {
@@ -83,12 +64,8 @@ class RemotePrograms : public testing::Test {
     options.insert(options.begin(), {PLAYPEN_COMMAND, "serve", world, "--time", "lockstep",
                                      "--port", "0", "--quiet", "--out", out});
     Process server(options);
-    EXPECT_TRUE(server.read_until("\n")) << server.finish().err;
-    const std::string said = server.output();
-    EXPECT_THAT(said, HasSubstr("listening on 127.0.0.1:"));
     ProcessOptions remote;
-    const std::string port = said.substr(said.rfind(':') + 1);
-    remote.environment["PLAYPEN_WORLD"] = "tcp://127.0.0.1:" + port.substr(0, port.find('\n'));
+    remote.environment["PLAYPEN_WORLD"] = address_of(server);
     remote.environment["PLAYPEN_ENCODING"] = encoding;
     remote.folder = folder_.path();
     std::vector<std::unique_ptr<Process>> running;
@@ -119,7 +96,7 @@ class RemotePrograms : public testing::Test {
     const ProcessResult there = serve(world, options, {program}, encoding).front();
     EXPECT_EQ(there.status, 0) << there.err;
     EXPECT_EQ(there.out, here.out);
-    expect_equal(files(), expected);
+    expect_equal_files(files(), expected);
   }
 
   TemporaryFolder folder_;
@@ -178,7 +155,7 @@ TEST_F(RemotePrograms, TwoProcessesWithARobotEachDoTheSameEveryTime) {
     if (i == 0) {
       first = files();
     } else {
-      expect_equal(files(), first);
+      expect_equal_files(files(), first);
     }
   }
 }

@@ -5,8 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -18,6 +16,7 @@
 
 #include "machine_load.h"
 #include "playpen_process.h"
+#include "run_files.h"
 #include "run_process.h"
 #include "temporary_folder.h"
 
@@ -25,28 +24,21 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test_support::MachineLoad;
+using test_support::patient;
 using test_support::playpen;
 using test_support::Process;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
 using test_support::read_bytes;
+using test_support::read_report;
+using test_support::repeats;
 using test_support::TemporaryFolder;
+using test_support::without_wall_time;
 using testing::HasSubstr;
 
 const char* const kPreloaded = PRELOADED_LIBRARY;
 constexpr const char* kDuration_s = "4";
-// On a very busy machine, a thread may wait for its turn longer than the usual limit, which is in
-// wall-clock time.
-ProcessOptions patient() {
-  ProcessOptions options;
-  options.environment = {{"PLAYPEN_SILENCE_LIMIT", "900"}};
-  return options;
-}
-
-int repeats() {
-  const char* text = std::getenv("PLAYPEN_REPEATS");
-  return text == nullptr ? 4 : std::max(2, std::atoi(text));
-}
 
 using Command = std::vector<std::string>;
 
@@ -82,10 +74,8 @@ class Repeats : public testing::Test {
   }
   /// The results of a run: the report, without wall-clock times, and the trajectory.
   [[nodiscard]] std::string results() const {
-    json report = json::parse(read_bytes(fs::path(out_) / "report.json"));
-    report.at("run").erase("wall_time");
-    report.at("run").erase("real_time_factor");
-    return report.dump() + read_bytes(fs::path(out_) / "trajectory.csv");
+    return without_wall_time(read_report(out_)).dump() +
+           read_bytes(fs::path(out_) / "trajectory.csv");
   }
 
   TemporaryFolder folder_;
@@ -108,7 +98,8 @@ TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
   ASSERT_GE(all.size(), 29U);
   int runs = 0;
   int different = 0;
-  const test_support::MachineLoad load;
+  const int most = repeats(4, 2);
+  const MachineLoad load;
   for (const Command& program : all) {
     const std::string& name = program.back();
     std::optional<std::string> printed;
@@ -121,7 +112,7 @@ TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
       EXPECT_EQ(result.out, *printed) << name;
     };
     // Every fifth run writes results; the others run two at a time.
-    for (int i = 0; i < repeats(); ++i) {
+    for (int i = 0; i < most; ++i) {
       if (i % 5 == 0) {
         compare(Process(whole_run(program), patient()).finish());
         const std::string results_now = results();
@@ -132,7 +123,7 @@ TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
         continue;
       }
       Process other(program, environment());
-      if (++i < repeats() && i % 5 != 0) {
+      if (++i < most && i % 5 != 0) {
         Process beside(program, environment());
         compare(beside.finish());
       } else {

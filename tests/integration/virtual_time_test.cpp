@@ -10,14 +10,16 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "machine_load.h"
 #include "playpen_process.h"
+#include "run_files.h"
 #include "run_process.h"
 #include "temporary_folder.h"
 
@@ -25,13 +27,16 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test_support::MachineLoad;
 using test_support::playpen;
 using test_support::Process;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
 using test_support::read_bytes;
+using test_support::read_report;
 using test_support::room_world;
 using test_support::TemporaryFolder;
+using test_support::without_wall_time;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::EndsWith;
@@ -58,12 +63,7 @@ class VirtualTime : public testing::Test {
     return result.out;
   }
   /// The report, without wall-clock values.
-  [[nodiscard]] json report() const {
-    json whole = json::parse(read_bytes(fs::path(out_) / "report.json"));
-    whole["run"].erase("wall_time");
-    whole["run"].erase("real_time_factor");
-    return whole;
-  }
+  [[nodiscard]] json report() const { return without_wall_time(read_report(out_)); }
   [[nodiscard]] json robot() const { return report().at("robots").at(0); }
   [[nodiscard]] double sim_time() const { return report().at("run").at("sim_time").get<double>(); }
 
@@ -110,14 +110,9 @@ TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
     const json first_report = report();
     const std::string trajectory = read_bytes(fs::path(out_) / "trajectory.csv");
 
-    std::vector<std::unique_ptr<Process>> load;
-    for (int i = 0; i < 4; ++i) {
-      load.push_back(std::make_unique<Process>(
-          std::vector<std::string>{"sh", "-c", "echo on; while :; do :; done"}));
-    }
-    for (const auto& process : load) ASSERT_TRUE(process->read_until("on\n"));
+    std::optional<MachineLoad> load(4U);
     const ProcessResult second = run(name, {"--duration", "60", "--quiet"});
-    load.clear();
+    load.reset();
     ASSERT_EQ(second.status, 0) << second.err;
     EXPECT_EQ(first_report, report()) << name;
     EXPECT_TRUE(trajectory == read_bytes(fs::path(out_) / "trajectory.csv")) << name;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <thread>
@@ -11,13 +12,15 @@
 
 #include "run_process.h"
 
+/// Tests of runs on a busy machine.
 namespace test_support {
 
-/// Four busy processes per core. They end with this object, and with the test.
+/// Busy processes. They end with this object, and with the test.
 class MachineLoad {
  public:
-  MachineLoad() {
-    const unsigned count = 4 * std::max(1U, std::thread::hardware_concurrency());
+  /// Four processes per core.
+  MachineLoad() : MachineLoad(4 * std::max(1U, std::thread::hardware_concurrency())) {}
+  explicit MachineLoad(unsigned count) {
     for (unsigned i = 0; i < count; ++i) {
       processes_.push_back(std::make_unique<Process>(
           std::vector<std::string>{"sh", "-c", "echo on; while :; do :; done"}));
@@ -28,5 +31,20 @@ class MachineLoad {
  private:
   std::vector<std::unique_ptr<Process>> processes_;
 };
+
+/// How often a test repeats its runs under load. PLAYPEN_REPEATS in the environment replaces the
+/// usual number; less than `least` counts as `least`.
+[[nodiscard]] inline int repeats(int usual, int least) {
+  const char* text = std::getenv("PLAYPEN_REPEATS");
+  return text == nullptr ? usual : std::max(least, std::atoi(text));
+}
+
+/// Options of processes under load: on a very busy machine, a thread or a client may be silent for
+/// longer than the usual limit, which is in wall-clock time.
+[[nodiscard]] inline ProcessOptions patient() {
+  ProcessOptions options;
+  options.environment = {{"PLAYPEN_SILENCE_LIMIT", "900"}};
+  return options;
+}
 
 }  // namespace test_support

@@ -147,7 +147,7 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"view", {}},
       {"process", {"messages"}},
       {"protocol", {"messages"}},
-      {"session", {"messages"}},
+      {"session", {"messages", "libplayerinterface"}},
       {"virtual_time", {"process"}},
       {"host", {"messages", "process", "protocol", "session", "view", "virtual_time"}},
       {"remote", {"messages", "process", "protocol", "session"}},
@@ -175,7 +175,8 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"playerc",
        {"virtual_time", "libplayerinterface", "libplayerc", "libplayerc++", "devices", "proxies"}},
       // Devices in the words of Player's protocol.
-      {"wire", {"messages", "protocol", "session", "libplayerinterface", "proxies"}},
+      {"wire",
+       {"messages", "protocol", "session", "libplayerinterface", "libplayerc++", "proxies"}},
       {"imr", {"virtual_time", "libplayerc++", "imr-h"}},
       // Programs.
       {"client", {"libplayerc++"}},
@@ -267,6 +268,10 @@ std::vector<std::string> violations(const Source& source) {
     }
     if (include == "png.h" && path != "libsim/src/canvas/png_codec.cpp") {
       refuse("libpng belongs in libsim/src/canvas/png_codec.cpp");
+    }
+    if (include == "zlib.h" && !starts_with_any(path, {"libplayerlike/src/wire/",
+                                                       "libplayerlike/src/remote/", "tests/"})) {
+      refuse("zlib belongs in libplayerlike/src/wire and libplayerlike/src/remote");
     }
     if ((include == "opencv2/highgui.hpp" || include.starts_with("X11/")) && !in_window) {
       refuse("windows belong in apps/playpen/view");

@@ -136,8 +136,22 @@ void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visi
   }
 }
 
+/// The addresses of a port of a Player server; null for other ports.
+const std::vector<PlayerAddress>* server_addresses(const std::vector<RobotInfo>& robots, int port) {
+  const RobotInfo* const robot = robot_at(robots, port);
+  return robot != nullptr && robot->addresses ? &*robot->addresses : nullptr;
+}
+
 std::optional<InterfaceBinding> look_up(const std::vector<RobotInfo>& robots, int port,
                                         std::string_view interface, int index) {
+  if (const auto* addresses = server_addresses(robots, port)) {
+    for (const PlayerAddress& address : *addresses) {
+      if (address.interface != interface || address.index != index) continue;
+      return InterfaceBinding{address.reading, address.motion, address.reading.robot, nullptr,
+                              &address};
+    }
+    return std::nullopt;
+  }
   const std::vector<std::size_t> shown = sharing(robots, port);
   int place = 0;  // of the robot among the robots of the port
   for (const std::size_t r : shown) {
@@ -372,6 +386,16 @@ SessionError no_such_device(const std::vector<RobotInfo>& robots, int port,
                             std::string_view interface, int index) {
   std::ostringstream known;
   known.imbue(std::locale::classic());
+  const std::string what = "there is no device " + std::string(interface) + ':' +
+                           std::to_string(index) + " on port " + std::to_string(port);
+  if (const auto* addresses = server_addresses(robots, port)) {
+    for (const PlayerAddress& address : *addresses) {
+      known << (known.tellp() > 0 ? ", " : "") << address.interface << ':' << address.index;
+    }
+    return {SessionError::Code::kNoSuchDevice,
+            what + "; the Player server has there: " +
+                (known.tellp() > 0 ? known.str() : std::string("nothing"))};
+  }
   bool has_others = is_of_world(interface);  // whether the interface exists under another index
   for_each_address(robots, port,
                    [&](std::string_view name, int i, int robot, const DeviceInfo& device,
@@ -387,8 +411,7 @@ SessionError no_such_device(const std::vector<RobotInfo>& robots, int port,
     }
   }
   return {SessionError::Code::kNoSuchDevice,
-          "there is no device " + std::string(interface) + ':' + std::to_string(index) +
-              " on port " + std::to_string(port) + "; this world has there: " +
+          what + "; this world has there: " +
               (known.tellp() > 0 ? known.str() : std::string("nothing")) +
               (has_others ? "" : where_else(interface))};
 }
@@ -397,9 +420,11 @@ SessionError no_such_device(const std::vector<RobotInfo>& robots, int port,
 
 InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                 std::string_view interface, int index) {
-  if (is_of_world(interface) && index == 0 && is_open(robots, port)) return {};
+  const bool of_server = server_addresses(robots, port) != nullptr;
+  if (!of_server && is_of_world(interface) && index == 0 && is_open(robots, port)) return {};
   std::optional<InterfaceBinding> found = look_up(robots, port, interface, index);
   if (!found) throw no_such_device(robots, port, interface, index);
+  if (of_server) return *found;
   for (const DeviceInfo& device : robots[static_cast<std::size_t>(found->robot)].devices) {
     if (device.type == "motion") {
       found->motion = device.id;
@@ -411,6 +436,17 @@ InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
 
 std::vector<InterfaceAddress> list_interfaces(const std::vector<RobotInfo>& robots, int port) {
   std::vector<InterfaceAddress> addresses;
+  if (const auto* of_server = server_addresses(robots, port)) {
+    const RobotInfo& robot = *robot_at(robots, port);
+    for (const PlayerAddress& address : *of_server) {
+      const bool is_world = address.reading.robot < 0;
+      addresses.push_back(
+          {address.interface, address.index, is_world ? "" : robot.name,
+           is_world ? "world"
+                    : robot.devices[static_cast<std::size_t>(address.reading.device)].name});
+    }
+    return addresses;
+  }
   for_each_address(
       robots, port,
       [&](std::string_view name, int i, int robot, const DeviceInfo& device,

@@ -5,19 +5,14 @@
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
-#include <asio/buffer.hpp>
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <condition_variable>
-#include <future>
 #include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "protocol/codec.h"
-#include "sim/core/number_text.h"
 
 namespace playerlike {
 namespace {
@@ -35,109 +30,6 @@ constexpr std::size_t kAnswerLimit = std::size_t{512} << 20U;
 constexpr std::size_t kRoom = std::size_t{256} << 10U;
 // The id of requests whose answers are ignored.
 constexpr std::uint64_t kNobody = 0;
-
-std::string seconds_text(Clock::duration duration) {
-  return sim::rounded_text(std::chrono::duration<double>(duration).count(), 6) + " s";
-}
-
-/// Waits until the socket is readable (or writable). @return false at the deadline.
-bool wait_for(int socket, short events, Clock::time_point deadline) {
-  for (;;) {
-    const auto left = std::chrono::ceil<milliseconds>(deadline - Clock::now());
-    pollfd polled{socket, events, 0};
-    const int ready =
-        poll(&polled, 1, static_cast<int>(std::clamp<milliseconds::rep>(left.count(), 0, 60'000)));
-    if (ready > 0) return true;
-    if (Clock::now() >= deadline) return false;
-  }
-}
-
-/// A deadline for the whole attempt to connect.
-class Deadline {
- public:
-  Deadline(Clock::duration timeout, const std::function<bool()>& give_up)
-      : end_(Clock::now() + timeout), give_up_(give_up) {}
-  [[nodiscard]] Clock::time_point end() const noexcept { return end_; }
-  /// Waits until `ready(until)` is true. @param share  the wait may use 1/share of the time left.
-  template <typename Ready>
-  [[nodiscard]] bool wait(Ready ready, std::size_t share = 1) const {
-    const auto now = Clock::now();
-    const auto end = now + (end_ - now) / static_cast<Clock::rep>(share);
-    for (;;) {
-      if (give_up_ && give_up_()) return false;
-      if (ready(std::min(end, Clock::now() + milliseconds(50)))) return true;
-      if (Clock::now() >= end) return false;
-    }
-  }
-
- private:
-  Clock::time_point end_;
-  const std::function<bool()>& give_up_;
-};
-
-[[noreturn]] void fail_to_connect(const ServerAddress& address, const std::string& why) {
-  throw SessionError(SessionError::Code::kDisconnected,
-                     "cannot connect to " + address.text() + ": " + why);
-}
-
-/// Resolves a host name.
-std::vector<asio::ip::address> look_up(const ServerAddress& server, Clock::duration timeout,
-                                       const Deadline& deadline) {
-  asio::error_code error;
-  if (const auto numeric = asio::ip::make_address(server.host, error); !error) return {numeric};
-  using Found = std::pair<asio::error_code, std::vector<asio::ip::address>>;
-  // A resolver call cannot be cancelled. If it takes too long, its thread is abandoned.
-  const auto promise = std::make_shared<std::promise<Found>>();
-  std::future<Found> future = promise->get_future();
-  std::thread([promise, host = server.host] {
-    asio::io_context context;
-    tcp::resolver resolver(context);
-    Found found;
-    for (const auto& entry : resolver.resolve(host, "", found.first)) {
-      found.second.push_back(entry.endpoint().address());
-    }
-    promise->set_value(std::move(found));
-  }).detach();
-  const bool done = deadline.wait([&](Clock::time_point until) {
-    return future.wait_until(until) == std::future_status::ready;
-  });
-  if (!done) {
-    fail_to_connect(server, "looking up its address took longer than " + seconds_text(timeout));
-  }
-  const Found found = future.get();
-  if (found.first || found.second.empty()) {
-    fail_to_connect(server, "there is no such host (" + found.first.message() + ')');
-  }
-  return found.second;
-}
-
-/// Connects a socket. @return the error text, nullopt if it is connected.
-std::optional<std::string> connect(tcp::socket& socket, const tcp::endpoint& endpoint,
-                                   const Deadline& deadline, std::size_t share) {
-  asio::error_code error;
-  socket.open(endpoint.protocol(), error);
-  if (!error) socket.non_blocking(true, error);
-  if (!error) {
-    socket.connect(endpoint, error);
-    if (error == asio::error::in_progress || error == asio::error::would_block) {
-      const int handle = socket.native_handle();
-      const bool done = deadline.wait(
-          [&](Clock::time_point until) { return wait_for(handle, POLLOUT, until); }, share);
-      if (!done) return "no answer in time";
-      int problem = 0;
-      socklen_t size = sizeof problem;
-      getsockopt(handle, SOL_SOCKET, SO_ERROR, &problem, &size);
-      error = asio::error_code(problem, asio::system_category());
-    }
-  }
-  if (!error) socket.set_option(tcp::no_delay(true), error);
-  if (!error) socket.set_option(asio::socket_base::keep_alive(true), error);
-  if (!error) return std::nullopt;
-  if (error == asio::error::connection_refused) {
-    return "connection refused: is `playpen serve` running there?";
-  }
-  return error.message();
-}
 
 /// A message's text member; `otherwise` if it is missing or not a text.
 std::string text_or(const json& message, const char* key, const std::string& otherwise) {
@@ -216,30 +108,9 @@ struct Connection::Impl {
     throw ConnectionLost(reason);
   }
 
-  std::string problem_text(const asio::error_code& error) const {
-    if (error == asio::error::eof) {
-      return "the server at " + address.text() + " has closed the connection";
-    }
-    return "the connection to " + address.text() + " is lost: " + error.message();
-  }
-
   void send(std::string_view bytes) {
     std::unique_lock lock(send_mutex);
-    const auto deadline = Clock::now() + request_timeout();
-    std::string problem;
-    while (!bytes.empty() && problem.empty()) {
-      asio::error_code error;
-      const std::size_t count = socket.write_some(asio::buffer(bytes), error);
-      bytes.remove_prefix(count);
-      if (error == asio::error::would_block || error == asio::error::try_again) {
-        if (!wait_for(socket.native_handle(), POLLOUT, deadline)) {
-          problem = "the server at " + address.text() + " has taken nothing for " +
-                    seconds_text(request_timeout());
-        }
-      } else if (error && error != asio::error::interrupted) {
-        problem = problem_text(error);
-      }
-    }
+    const std::string problem = write_all(socket, address, bytes, request_timeout());
     lock.unlock();
     if (problem.empty()) return;
     lose(problem);
@@ -255,15 +126,9 @@ struct Connection::Impl {
       }
     };
     take();  // messages that arrived together with the answer to hello
-    if (!messages.empty() || !wait_for(socket.native_handle(), POLLIN, deadline)) return messages;
-    const std::span<char> room = splitter.room(kRoom);
-    asio::error_code error;
-    const std::size_t count = socket.read_some(asio::buffer(room.data(), room.size()), error);
-    if (error == asio::error::would_block || error == asio::error::try_again ||
-        error == asio::error::interrupted) {
-      return messages;
-    }
-    if (error) throw ConnectionLost(problem_text(error));
+    if (!messages.empty() || !wait_for_socket(socket.native_handle(), POLLIN, deadline)) return messages;
+    const std::size_t count = read_some(socket, address, splitter.room(kRoom));
+    if (count == 0) return messages;
     splitter.added(count);
     {
       const std::lock_guard lock(mutex);
@@ -316,19 +181,21 @@ struct Connection::Impl {
   }
 
   /// Sends hello on the new connection and checks the answer. @throws SessionError.
-  void say_hello(const json& hello, const Deadline& deadline) {
+  void say_hello(const json& hello, const ConnectDeadline& deadline) {
     const auto no_playpen = [&](const std::string& what) {
       fail_to_connect(address, "there is no Playpen server: " + what);
     };
     send("1 playpen hello [" + hello.dump(-1, ' ', false, json::error_handler_t::replace) + "]\n");
     std::string line;
     const bool done = deadline.wait([&](Clock::time_point until) {
-      if (!wait_for(socket.native_handle(), POLLIN, until)) return false;
-      const std::span<char> room = splitter.room(kRoom);
-      asio::error_code error;
-      const std::size_t count = socket.read_some(asio::buffer(room.data(), room.size()), error);
-      if (error == asio::error::would_block || error == asio::error::interrupted) return false;
-      if (error) fail_to_connect(address, problem_text(error));
+      if (!wait_for_socket(socket.native_handle(), POLLIN, until)) return false;
+      std::size_t count = 0;
+      try {
+        count = read_some(socket, address, splitter.room(kRoom));
+      } catch (const ConnectionLost& e) {
+        fail_to_connect(address, e.what());
+      }
+      if (count == 0) return false;
       splitter.added(count);
       const auto message = splitter.next();
       if (message) line = *message;
@@ -367,25 +234,12 @@ Connection::~Connection() = default;
 std::shared_ptr<Connection> Connection::open(const ServerAddress& address, const json& hello,
                                              Clock::duration timeout,
                                              const std::function<bool()>& give_up) {
-  const Deadline deadline(timeout, give_up);
-  const auto hosts = look_up(address, timeout, deadline);
+  const ConnectDeadline deadline(timeout, give_up);
   auto impl = std::make_unique<Impl>(address);
   impl->timeout = timeout.count();
-  std::string reasons;
-  for (std::size_t i = 0; i < hosts.size(); ++i) {
-    const tcp::endpoint endpoint(hosts[i], static_cast<asio::ip::port_type>(address.tcp_port));
-    // Each remaining address gets an equal share of the time left.
-    const auto problem = connect(impl->socket, endpoint, deadline, hosts.size() - i);
-    if (!problem) {
-      impl->say_hello(hello, deadline);
-      return std::shared_ptr<Connection>(new Connection(std::move(impl)));
-    }
-    asio::error_code ignored;
-    impl->socket.close(ignored);
-    if (reasons.find(*problem) != std::string::npos) continue;
-    reasons += (reasons.empty() ? "" : "; ") + *problem;
-  }
-  fail_to_connect(address, reasons);
+  connect_tcp(impl->socket, address, timeout, deadline, "is `playpen serve` running there?");
+  impl->say_hello(hello, deadline);
+  return std::shared_ptr<Connection>(new Connection(std::move(impl)));
 }
 
 const json& Connection::welcome() const noexcept { return impl_->welcome; }
@@ -504,9 +358,7 @@ bool Connection::lost() const noexcept {
     const std::lock_guard lock(impl_->mutex);
     if (impl_->lost) return true;
   }
-  char byte = 0;
-  const ssize_t count = recv(impl_->socket.native_handle(), &byte, 1, MSG_PEEK | MSG_DONTWAIT);
-  return count == 0;
+  return is_at_end(impl_->socket.native_handle());
 }
 
 void Connection::close(const std::string& reason) noexcept { impl_->lose(reason); }

@@ -15,15 +15,9 @@
 #include "playerlike/messages/messages.h"
 #include "protocol/framing.h"
 #include "remote/server_address.h"
+#include "remote/tcp_connect.h"
 
 namespace playerlike {
-
-/// A lost connection; the message says why it was lost.
-class ConnectionLost : public SessionError {
- public:
-  explicit ConnectionLost(const std::string& message)
-      : SessionError(Code::kDisconnected, message) {}
-};
 
 /// The client's end of a connection in Playpen's protocol (docs/protocol.md).
 ///
@@ -33,7 +27,7 @@ class ConnectionLost : public SessionError {
 /// connection for all threads.
 class Connection {
  public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = SocketClock;
 
   /// Resolves the host, tries all its addresses in turn, and sends hello.
   ///

@@ -24,15 +24,11 @@ namespace {
 using nlohmann::json;
 using protocol::Encoding;
 using std::chrono::milliseconds;
-using Seconds = std::chrono::duration<double>;
 
 // The program is ended after so many reads beyond the end of the run, as in an embedded simulation.
 constexpr int kReadsAfterEnd = 1000;
 constexpr double kLongest_s = 1e9;  // 30 years
-Connection::Clock::duration wall(double seconds) {
-  return std::chrono::duration_cast<Connection::Clock::duration>(
-      Seconds(std::clamp(seconds, 0.0, kLongest_s)));
-}
+Connection::Clock::duration wall(double seconds) { return wall_duration(seconds); }
 
 // Tells the server that a thread has ended, so that nobody waits for it.
 void say_goodbye(void* sender) {

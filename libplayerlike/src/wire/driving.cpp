@@ -4,8 +4,10 @@
 #include <cmath>
 #include <memory>
 
+#include "libplayerc++/playererror.h"
 #include "libplayerinterface/player_constants.h"
 #include "proxies/goal_driver.h"
+#include "session/player_values.h"
 #include "sim/devices/localization.h"
 #include "wire/robot_device.h"
 
@@ -19,7 +21,7 @@ class Position2d final : public RobotDevice {
       : RobotDevice(context),
         max_speed_mps_(robot().max_speed_mps),
         max_turn_rate_radps_(robot().max_turn_rate_radps) {
-    if (binding().driver != nullptr) driver_ = share_driver(session(), binding());
+    if (binding().driver != nullptr) driver_ = shared_driver();
     if (!binding().motion) return;
     const DeviceSettings& limits = device_of(*binding().motion).properties;
     const auto tighten = [&](const char* name, double& value) {
@@ -34,11 +36,13 @@ class Position2d final : public RobotDevice {
     const auto* measured = reading_as<sim::PoseReading>(reading);
     if (measured == nullptr) return;
     const sim::Twist& twist = measured->twist;
-    sink.data(PLAYER_POSITION2D_DATA_STATE,
-              player::encode(player::Position2dData{
-                  pose_2d(measured->pose),
-                  {twist.v_mps, twist.lateral_mps, twist.omega_radps},
-                  static_cast<std::uint8_t>(measured->stalled ? 1 : 0)}));
+    constexpr std::size_t kLength = 6 * sizeof(double) + 4;
+    sink.data(
+        PLAYER_POSITION2D_DATA_STATE,
+        encode_long(player::Position2dData{pose_2d(measured->pose),
+                                           {twist.v_mps, twist.lateral_mps, twist.omega_radps},
+                                           static_cast<std::uint8_t>(measured->stalled ? 1 : 0)},
+                    kLength));
   }
 
   void command(std::uint8_t subtype, std::string_view payload) override {
@@ -92,11 +96,19 @@ class Position2d final : public RobotDevice {
     return robot().devices.at(static_cast<std::size_t>(device.device));
   }
 
+  [[nodiscard]] std::shared_ptr<GoalDriver> shared_driver() const {
+    try {
+      return share_driver(session(), binding());
+    } catch (const PlayerCc::PlayerError& e) {
+      throw SessionError(SessionError::Code::kNotAvailable, e.GetErrorStr());
+    }
+  }
+
   void send_to_motors(const sim::Command& command) const {
     if (!binding().motion) {
-      throw SessionError(SessionError::Code::kNotAvailable,
-                         "robot " + robot().name +
-                             " has no motors (a device of type \"motion\") in this world");
+      throw SessionError(
+          SessionError::Code::kNotAvailable,
+          "robot " + robot().name + " has no motors (a device of type \"motion\") in this world");
     }
     session().send(*binding().motion, command);
   }
@@ -151,12 +163,51 @@ class Position2d final : public RobotDevice {
   std::shared_ptr<GoalDriver> driver_;  // null except at the index of a driver
 };
 
+/// LocalizeProxy's counterpart.
+class Localize final : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* measured = reading_as<sim::PoseReading>(reading);
+    if (measured == nullptr) return;
+    pose_ = pose_2d(measured->pose);
+    player::LocalizeData data;
+    data.hypoths.push_back(hypothesis_of<player::LocalizeHypoth>(*measured, *settings()));
+    sink.data(PLAYER_LOCALIZE_DATA_HYPOTHS, player::encode(data));
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
+    switch (subtype) {
+      case PLAYER_LOCALIZE_REQ_SET_POSE: {
+        // A simulated localisation needs no first pose: it is checked only.
+        const auto asked = player::decode<player::LocalizeSetPose>(payload);
+        for (const double number : {asked.mean.px, asked.mean.py, asked.mean.pa}) {
+          require_number("a coordinate of the pose", number);
+        }
+        return empty_payload();
+      }
+      case PLAYER_LOCALIZE_REQ_GET_PARTICLES:
+        if (!pose_) return std::nullopt;
+        return player::encode(player::LocalizeGetParticles{*pose_, 0.0, {{*pose_, 1.0}}});
+      default:
+        return std::nullopt;
+    }
+  }
+
+ private:
+  std::optional<player::Pose2d> pose_;  // none before the first reading
+};
+
 }  // namespace
 
 MadeDevice make_driving_device(const DeviceContext& context) {
   switch (context.interface) {
     case PLAYER_POSITION2D_CODE:
       return std::make_unique<Position2d>(context);
+    case PLAYER_LOCALIZE_CODE:
+      return std::make_unique<Localize>(context);
     default:
       return nullptr;
   }

@@ -24,6 +24,7 @@ namespace playerlike::wire {
 struct DeviceContext {
   Session& session;
   int interface = 0;  ///< Player's code
+  int index = 0;
   InterfaceBinding binding;
 };
 
@@ -106,6 +107,20 @@ template <typename Reading>
 /// A number that is not negative. @param value  clamped to the range of the type.
 [[nodiscard]] std::uint32_t whole_number(double value);
 /// @}
+
+/// A text of a message without its final zero byte.
+/// @param what  "the name of the object".
+/// @throws SessionError kBadArgument if it has control characters, since it may be shown.
+[[nodiscard]] std::string printable_text(const char* what, std::string_view bytes);
+
+/// Encodes a payload of about this length without allocating memory twice [bytes].
+template <typename Payload>
+[[nodiscard]] std::string encode_long(const Payload& payload, std::size_t length) {
+  std::string bytes;
+  bytes.reserve(length);
+  player::append(bytes, payload);
+  return bytes;
+}
 
 /// Payload of messages without fields.
 [[nodiscard]] inline std::string empty_payload() { return {}; }

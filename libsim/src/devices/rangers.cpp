@@ -12,6 +12,7 @@
 #include "sim/core/degrees.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/robot_snapshot.h"
+#include "sim/world/outline.h"
 
 namespace sim {
 namespace {
@@ -20,13 +21,14 @@ namespace {
 // origin sees the edge within range_m.
 std::optional<double> distance2_if_seen(const scan::Edge& edge, double reach_m, double range_m) {
   const Vec2 a(static_cast<double>(edge.x0_m), static_cast<double>(edge.y0_m));
-  const Vec2 along = Vec2(static_cast<double>(edge.x1_m), static_cast<double>(edge.y1_m)) - a;
-  const double length2 = along.squaredNorm();
+  const Vec2 b(static_cast<double>(edge.x1_m), static_cast<double>(edge.y1_m));
+  const Vec2 along = b - a;
   const double behind = a.x() * along.y() - a.y() * along.x();
-  if (behind > 0.0 && behind * behind > reach_m * reach_m * length2) return std::nullopt;
-  const double t = std::clamp(-a.dot(along) / length2, 0.0, 1.0);
+  if (behind > 0.0 && behind * behind > reach_m * reach_m * along.squaredNorm()) {
+    return std::nullopt;
+  }
   const double farthest_m = reach_m + range_m;
-  const double distance2 = (a + t * along).squaredNorm();
+  const double distance2 = nearest_on_segment(Vec2::Zero(), a, b).squaredNorm();
   if (distance2 > farthest_m * farthest_m) return std::nullopt;
   return distance2;
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/world/outline.h"
+
 namespace sim::io {
 namespace {
 
@@ -55,13 +57,6 @@ class FramedGrid {
   std::vector<std::uint8_t> cells_;
 };
 
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 way = b - a;
-  const double length2 = way.squaredNorm();
-  const double t = length2 > 0.0 ? std::clamp((p - a).dot(way) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - t * way).norm();
-}
-
 /// Marks the vertices between two kept ones that must be kept as well. `last` may be
 /// vertices.size(), which stands for the first vertex.
 void keep_between(const std::vector<Vec2>& vertices, std::size_t first, std::size_t last,
@@ -75,7 +70,7 @@ void keep_between(const std::vector<Vec2>& vertices, std::size_t first, std::siz
     std::size_t farthest = from;
     for (std::size_t i = from + 1; i < to; ++i) {
       const double off_m =
-          distance_to_segment(vertices[i], vertices[from], vertices[to % vertices.size()]);
+          distance_to_segment_m(vertices[i], vertices[from], vertices[to % vertices.size()]);
       if (off_m > farthest_m) {
         farthest_m = off_m;
         farthest = i;

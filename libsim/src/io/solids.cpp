@@ -62,16 +62,10 @@ bool crosses_polygon(const Polygon& outline, const Vec2& from, const Vec2& to) {
   return enter < leave;
 }
 
-/// The point of a segment that is nearest to p.
-Vec2 nearest_on(const Vec2& a, const Vec2& b, const Vec2& p) {
-  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return a + t * (b - a);
-}
-
 /// Whether a part of the segment lies inside the solid shrunk by kTouching_m.
 bool crosses(const Solid& solid, const Vec2& from, const Vec2& to) {
   if (!solid.round) return crosses_polygon(solid.outline, from, to);
-  return (nearest_on(from, to, solid.middle) - solid.middle).norm() < solid.radius_m - kTouching_m;
+  return distance_to_segment_m(solid.middle, from, to) < solid.radius_m - kTouching_m;
 }
 
 /// Whether the point lies in the solid of the walls: inside an odd number of loops.
@@ -154,7 +148,7 @@ std::optional<Vec2> wall_within(const std::vector<WallLoop>& walls, const Solid&
           std::min(a.y(), b.y()) > solid.middle.y() + solid.radius_m) {
         continue;
       }
-      if (crosses(solid, a, b)) return nearest_on(a, b, solid.middle);
+      if (crosses(solid, a, b)) return nearest_on_segment(solid.middle, a, b);
     }
   }
   if (in_solid(walls, solid.middle)) return solid.middle;

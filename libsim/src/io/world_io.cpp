@@ -22,6 +22,7 @@
 #include "sim/world/limits.h"
 #include "sim/world/realism.h"
 #include "sim/world/view_mode.h"
+#include "world/find_named.h"
 
 namespace sim::io {
 namespace {
@@ -161,11 +162,9 @@ class WorldReader {
     }
     const std::string name = element.scalar_text().value_or("");
     std::vector<ObstacleDescription>& obstacles = world_.arena.obstacles;
-    const auto obstacle =
-        std::find_if(obstacles.begin(), obstacles.end(),
-                     [&name](const ObstacleDescription& o) { return o.name == name; });
-    if (obstacle != obstacles.end() && obstacle->type == ObstacleType::kDynamic) return &*obstacle;
-    if (obstacle != obstacles.end()) {
+    if (const std::optional<int> index = find_named(obstacles, name)) {
+      ObstacleDescription& obstacle = obstacles[static_cast<std::size_t>(*index)];
+      if (obstacle.type == ObstacleType::kDynamic) return &obstacle;
       element.issue("world/static-obstacle", "a dynamic obstacle",
                     in_quotes(name) + ", which is static", "static obstacles are always there");
       return nullptr;

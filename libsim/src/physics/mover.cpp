@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/world/outline.h"
+
 namespace sim::physics {
 namespace {
 
@@ -294,8 +296,7 @@ void Mover::add_round_constraints(const Robot& r, const b2CircleShape& circle,
   bool inside = true;  // the centre is within the robot's outline
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 side = corners[(i + 1) % count] - corners[i];
-    const double t = std::clamp((p_BC - corners[i]).dot(side) / side.squaredNorm(), 0.0, 1.0);
-    const Vec2 point = corners[i] + t * side;
+    const Vec2 point = nearest_on_segment(p_BC, corners[i], corners[(i + 1) % count]);
     inside = inside && side.x() * (p_BC - corners[i]).y() > side.y() * (p_BC - corners[i]).x();
     if ((p_BC - point).squaredNorm() < (p_BC - nearest).squaredNorm()) nearest = point;
   }

@@ -10,18 +10,17 @@ namespace sim {
 
 std::optional<std::string> Simulation::Impl::find_free_block(const std::string& name,
                                                              int& index) const {
-  const auto& obstacles = world.arena.obstacles;
-  const auto it = std::find_if(obstacles.begin(), obstacles.end(),
-                               [&](const ObstacleDescription& o) { return o.name == name; });
-  if (it == obstacles.end()) return "there is no obstacle named \"" + name + "\"";
-  if (it->type == ObstacleType::kStatic) {
+  const std::optional<int> found = find_obstacle(name);
+  if (!found) return "there is no obstacle named \"" + name + "\"";
+  const ObstacleDescription& block = world.arena.obstacles[static_cast<std::size_t>(*found)];
+  if (block.type == ObstacleType::kStatic) {
     return "obstacle \"" + name + "\" is static: it can be neither extended nor retracted";
   }
-  if (it->carried_by >= 0) {
+  if (block.carried_by >= 0) {
     return "obstacle \"" + name + "\" is carried by robot " +
-           world.robots[static_cast<std::size_t>(it->carried_by)].name;
+           world.robots[static_cast<std::size_t>(block.carried_by)].name;
   }
-  index = static_cast<int>(it - obstacles.begin());
+  index = *found;
   return std::nullopt;
 }
 

@@ -56,12 +56,9 @@ bool Simulation::Impl::Controller::holds(const CountCondition& condition, int) c
 }
 
 bool Simulation::Impl::Controller::holds(const BlockCondition& condition, int) const {
-  const auto& obstacles = impl_.world.arena.obstacles;
-  const auto block = std::find_if(obstacles.begin(), obstacles.end(),
-                                  [&](const auto& o) { return o.name == condition.block; });
-  SIM_ASSERT(block != obstacles.end());
-  BlockPhase phase = impl_.phase_of(static_cast<int>(block - obstacles.begin()));
-  return phase == condition.phase;
+  const std::optional<int> block = impl_.find_obstacle(condition.block);
+  SIM_ASSERT(block.has_value());
+  return impl_.phase_of(*block) == condition.phase;
 }
 
 std::optional<double> Simulation::Impl::Controller::quantity(RobotQuantity quantity,
@@ -231,11 +228,9 @@ void Simulation::Impl::Controller::act(const EndAction& action, const Cause& cau
 }
 
 void Simulation::Impl::Controller::act(const MoveAction& action, const Cause&) {
-  const auto& obstacles = impl_.world.arena.obstacles;
-  const auto found = std::find_if(obstacles.begin(), obstacles.end(),
-                                  [&](const auto& o) { return o.name == action.obstacle; });
-  SIM_ASSERT(found != obstacles.end() && impl_.obstacle_motions);
-  impl_.obstacle_motions->move(static_cast<int>(found - obstacles.begin()), action.motion);
+  const std::optional<int> obstacle = impl_.find_obstacle(action.obstacle);
+  SIM_ASSERT(obstacle.has_value() && impl_.obstacle_motions);
+  impl_.obstacle_motions->move(*obstacle, action.motion);
 }
 
 }  // namespace sim

@@ -23,11 +23,11 @@ constexpr std::size_t kMostNames = 40;
 // Edits a block, unless the result is invalid; returns the reason then.
 template <typename Edit>
 std::optional<std::string> Simulation::Impl::change_block(const std::string& name, Edit edit) {
-  auto& obstacles = world.arena.obstacles;
-  const auto it = std::find_if(obstacles.begin(), obstacles.end(),
-                               [&](const ObstacleDescription& o) { return o.name == name; });
-  SIM_ASSERT(it != obstacles.end());
-  ObstacleDescription now = *it;
+  const std::optional<int> found = find_obstacle(name);
+  SIM_ASSERT(found.has_value());
+  const int index = *found;
+  ObstacleDescription& block = obstacle(index);
+  ObstacleDescription now = block;
   edit(now);
   if (now.present_height_m) now.present_height_m = std::min(*now.present_height_m, now.height_m);
   // A portable block may be placed beyond the floor, as programs for Stage do.
@@ -37,14 +37,13 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
     return "obstacle " + name + " cannot be so: expected " + error->expected + ", found " +
            error->found;
   }
-  const int index = static_cast<int>(it - obstacles.begin());
   const int body = physics->robot_within(now, physics->body_of_obstacle(index));
   if (body >= 0 && now.state == ObstacleState::kExtended) {
     return "obstacle " + name + " cannot be put there: " + title_of_body(body) + " stands there";
   }
-  *it = std::move(now);
-  if (it->carried_by >= 0) detach_load(index);
-  physics->change_obstacle(index, *it);
+  block = std::move(now);
+  if (block.carried_by >= 0) detach_load(index);
+  physics->change_obstacle(index, block);
   if (obstacle_motions) obstacle_motions->placed(index);
   invalidate_clearances();
   return std::nullopt;
@@ -152,18 +151,15 @@ std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_
 
 std::optional<std::string> Simulation::set_object_dynamics(const std::string& name, bool on) {
   if (const auto robot = find_robot(name)) return set_robot_dynamics(*robot, on);
-  for (const SceneObject& object : scene_objects()) {
-    if (object.name != name) continue;
-    const auto& obstacles = impl_->world.arena.obstacles;
-    for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      if (obstacles[i].name != name || !is_movable(obstacles[i])) continue;
-      impl_->physics->set_suspended(impl_->physics->body_of_obstacle(static_cast<int>(i)), !on);
-      return std::nullopt;
-    }
-    return object.kind + " \"" + name + "\" has no dynamics: it stands fast and moves for nobody" +
-           (object.dynamic ? ", though it can be extended and retracted" : "");
+  const std::optional<int> obstacle = impl_->find_obstacle(name);
+  if (obstacle && is_movable(impl_->obstacle(*obstacle))) {
+    impl_->physics->set_suspended(impl_->physics->body_of_obstacle(*obstacle), !on);
+    return std::nullopt;
   }
-  return no_such_object(name);
+  const std::optional<SceneObject> object = find_object(name);
+  if (!object) return no_such_object(name);
+  return object->kind + " \"" + name + "\" has no dynamics: it stands fast and moves for nobody" +
+         (object->dynamic ? ", though it can be extended and retracted" : "");
 }
 
 std::vector<SceneObject> Simulation::scene_objects() const {
@@ -255,17 +251,11 @@ std::optional<std::string> Simulation::set_block_size(const std::string& name, c
   if (!(size_m.minCoeff() >= kLeastLength_m && height_m >= kLeastLength_m)) {
     return "the sides and the height of a block are at least 0.001 m";
   }
-  const auto& blocks = impl_->world.arena.obstacles;
-  const bool moves =
-      std::any_of(blocks.begin(), blocks.end(), [&name](const ObstacleDescription& block) {
-        return block.name == name && is_movable(block);
-      });
-  if (moves) return "block \"" + name + "\" can move: it keeps its size";
-  const bool is_circle =
-      std::any_of(blocks.begin(), blocks.end(), [&name](const ObstacleDescription& block) {
-        return block.name == name && block.shape == ObstacleShape::kCircle;
-      });
-  if (is_circle && size_m.x() != size_m.y()) {
+  const std::optional<int> index = impl_->find_obstacle(name);
+  SIM_ASSERT(index.has_value());
+  const ObstacleDescription& now = impl_->obstacle(*index);
+  if (is_movable(now)) return "block \"" + name + "\" can move: it keeps its size";
+  if (now.shape == ObstacleShape::kCircle && size_m.x() != size_m.y()) {
     return "block \"" + name + "\" is a circle: both sides must be its diameter";
   }
   return impl_->change_block(name, [&](ObstacleDescription& block) {
@@ -282,9 +272,8 @@ std::optional<std::string> Simulation::Impl::change_appearance(const Simulation&
     edit(world.robots[static_cast<std::size_t>(*robot)]);
     return std::nullopt;
   }
-  for (ObstacleDescription& block : world.arena.obstacles) {
-    if (block.name != name) continue;
-    edit(block);
+  if (const auto index = find_obstacle(name)) {
+    edit(obstacle(*index));
     return std::nullopt;
   }
   const std::optional<SceneObject> object = simulation.find_object(name);

@@ -47,16 +47,9 @@ double turned(double yaw_rad, double wanted_rad, double most_rad) {
   return normalize_angle(yaw_rad + std::clamp(turn, -most_rad, most_rad));
 }
 
-Vec2 nearest_on(const Vec2& a, const Vec2& b, const Vec2& p) {
-  const Vec2 side = b - a;
-  const double length2 = side.squaredNorm();
-  if (length2 <= 0.0) return a;
-  return a + std::clamp((p - a).dot(side) / length2, 0.0, 1.0) * side;
-}
-
 // The point of a face that is nearest to p.
 Vec2 nearest_on(const PhysicsWorld::Face& face, const Vec2& p) {
-  if (face.radius_m <= 0.0) return nearest_on(face.p_WA, face.p_WC, p);
+  if (face.radius_m <= 0.0) return nearest_on_segment(p, face.p_WA, face.p_WC);
   const Vec2 off = p - face.p_WA;
   const double distance_m = off.norm();
   if (distance_m <= 0.0) return p;
@@ -322,7 +315,7 @@ void Simulation::Impl::ObstacleMotions::note_hindrance(Moving& m, const Vec2& p_
     choose_leg(m);
   }
   if (m.motion.law != MotionLaw::kPath || m.off_path || !m.has_goal) return;
-  if ((nearest_on(m.from, m.goal, p_WO) - p_WO).norm() <= kOffPath_m) return;
+  if (distance_to_segment_m(p_WO, m.from, m.goal) <= kOffPath_m) return;
   m.off_path = true;
   auto [robot, other] = partner_of(m);
   impl_.record(ArenaEventKind::kPushed, description(m).name, std::move(robot), std::move(other));

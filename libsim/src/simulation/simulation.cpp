@@ -38,9 +38,10 @@ WorldDescription with_drives(WorldDescription world) {
     for (const ArenaAction& action : actions) {
       const auto* move = std::get_if<MoveAction>(&action);
       if (move == nullptr) continue;
-      for (ObstacleDescription& obstacle : world.arena.obstacles) {
-        if (obstacle.name == move->obstacle && !obstacle.motion) obstacle.motion.emplace();
-      }
+      const auto index = find_named(world.arena.obstacles, move->obstacle);
+      if (!index) continue;
+      ObstacleDescription& obstacle = world.arena.obstacles[static_cast<std::size_t>(*index)];
+      if (!obstacle.motion) obstacle.motion.emplace();
     }
   };
   for (const TimerDescription& timer : world.controller.timers) give_drives(timer.actions);
@@ -430,10 +431,7 @@ std::optional<int> Simulation::find_device(int robot, const std::string& name) c
 }
 
 std::optional<int> Simulation::find_robot(const std::string& name) const {
-  for (std::size_t i = 0; i < impl_->world.robots.size(); ++i) {
-    if (impl_->world.robots[i].name == name) return static_cast<int>(i);
-  }
-  return std::nullopt;
+  return find_named(impl_->world.robots, name);
 }
 
 const std::vector<Simulation::DeviceId>& Simulation::updated() const noexcept {

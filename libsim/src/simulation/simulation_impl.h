@@ -13,6 +13,7 @@
 #include "sim/devices/motion.h"
 #include "sim/devices/pen.h"
 #include "sim/simulation/simulation.h"
+#include "world/find_named.h"
 
 namespace sim {
 
@@ -126,6 +127,10 @@ struct Simulation::Impl {
   [[nodiscard]] std::string title_of_body(int body) const;
   std::optional<std::string> place(std::size_t i, const Pose& X_WB);
   std::optional<std::string> place_block(const std::string& name, const Pose& pose);
+  // Index of the obstacle of that name.
+  [[nodiscard]] std::optional<int> find_obstacle(const std::string& name) const {
+    return find_named(world.arena.obstacles, name);
+  }
   [[nodiscard]] ObstacleDescription& obstacle(int index) {
     return world.arena.obstacles.at(static_cast<std::size_t>(index));
   }

@@ -4,22 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <tuple>
 #include <utility>
+
+#include "sim/world/outline.h"
+#include "world/find_named.h"
 
 namespace sim {
 namespace {
 
 // Subtracted from each bound, because positions and distances are rounded.
 constexpr double kRounding_m = 1e-9;
-
-double distance_to_segment_m(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 side = b - a;
-  const double length2 = side.squaredNorm();
-  const double t = length2 > 0.0 ? std::clamp((p - a).dot(side) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - t * side).norm();
-}
 
 // Whether a point is inside a region, and a lower bound of its distance from the border.
 struct Look {
@@ -34,18 +29,13 @@ Look look(const TrapWatch::Region& region, const Vec2& p) {
   }
   const Vec2 beyond = (region.low - p).cwiseMax(p - region.high).cwiseMax(Vec2::Zero());
   if (beyond.x() > 0.0 || beyond.y() > 0.0) return {false, beyond.norm()};
-  bool inside = false;
   double margin_m = std::numeric_limits<double>::infinity();
   const std::size_t n = region.corners.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec2& a = region.corners[i];
-    const Vec2& b = region.corners[(i + 1) % n];
-    margin_m = std::min(margin_m, distance_to_segment_m(p, a, b));
-    // Even-odd rule: the sides that a ray along x crosses.
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    if (p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
+    margin_m = std::min(margin_m,
+                        distance_to_segment_m(p, region.corners[i], region.corners[(i + 1) % n]));
   }
-  return {inside, margin_m};
+  return {is_inside(region.corners, p), margin_m};
 }
 
 // The region without the target that it may follow.
@@ -66,13 +56,6 @@ TrapWatch::Region region_of(const TrapRegion& description) {
     region.high = region.high.cwiseMax(corner);
   }
   return region;
-}
-
-template <typename List>
-int index_of(const List& list, const std::string& name) {
-  const auto it = std::find_if(list.begin(), list.end(),
-                               [&](const auto& element) { return element.name == name; });
-  return it == list.end() ? -1 : static_cast<int>(it - list.begin());
 }
 
 }  // namespace
@@ -100,8 +83,9 @@ TrapWatch::TrapWatch(const WorldDescription& world) : robots_(world.robots.size(
 }
 
 void TrapWatch::add_target(Region& region, const NearRegion& near, const WorldDescription& world) {
-  const int robot = index_of(world.robots, near.object);
-  const int obstacle = robot >= 0 ? -1 : index_of(world.arena.obstacles, near.object);
+  const int robot = find_named(world.robots, near.object).value_or(-1);
+  const int obstacle =
+      robot >= 0 ? -1 : find_named(world.arena.obstacles, near.object).value_or(-1);
   const auto known = std::find_if(targets_.begin(), targets_.end(), [&](const Target& target) {
     return target.robot == robot && target.obstacle == obstacle;
   });

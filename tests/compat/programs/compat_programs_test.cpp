@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "playpen_process.h"
+#include "run_files.h"
 #include "run_process.h"
 #include "temporary_folder.h"
 
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using test_support::playpen;
 using test_support::ProcessResult;
-using test_support::read_bytes;
+using test_support::read_report;
 using test_support::run_process;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;
@@ -168,7 +169,7 @@ TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
   }
   for (const std::string& part : c.says) EXPECT_THAT(result.out, HasSubstr(part)) << result.err;
 
-  const json report = json::parse(read_bytes(fs::path(out) / "report.json"));
+  const json report = read_report(out);
   const json& robots = report.at("robots");
   EXPECT_GE(robots[0].at("path_length"), c.least_path_m) << result.out << result.err;
   EXPECT_LE(robots[0].at("path_length"), c.most_path_m) << result.out << result.err;
@@ -194,7 +195,7 @@ TEST(StalledProgram, IsPointedToThePageOfWorlds) {
   EXPECT_THAT(result.out, testing::ContainsRegex("\npioneer1 was stalled for [5-9][0-9] % of the "
                                                  "time that it drove: docs/which_world.md"));
   EXPECT_THAT(result.out, Not(HasSubstr("pioneer2 was")));
-  const json report = json::parse(read_bytes(folder / "out/report.json"));
+  const json report = read_report(folder / "out");
   const json& robot = report.at("robots")[0];
   EXPECT_NEAR(robot.at("driven_time"), 28.9, 0.2);
   EXPECT_GT(robot.at("stalled_time"), 0.5 * robot.at("driven_time").get<double>());

@@ -19,6 +19,7 @@
 #include "player_errors.h"
 #include "playerlike/host/run_settings.h"
 #include "reachable_host.h"
+#include "token_server.h"
 
 namespace {
 
@@ -394,25 +395,13 @@ TEST_P(ClosedArena, IsHiddenInAPrivateWorld) {
 }
 
 TEST(ArenaOfAServer, ChangesOnlyForThoseWhoMayCommandAllRobots) {
-  const auto host = playerlike::Host::create(sim::load_world_text(kWorld));
-  playerlike::ServerSettings settings;
-  settings.port = 0;
-  settings.access.server_token = "open-sesame-1234";
-  settings.access.robot_tokens["r2"] = "second-robot-1234";
-  const playerlike::Server server(host, settings);
-  const std::string name = "tcp://127.0.0.1:" + std::to_string(server.port());
-  const auto with_token = [&](const char* token) {
-    setenv("PLAYPEN_TOKEN", token, 1);
-    auto client = std::make_unique<PlayerClient>(playerlike::open_session(name, 6665));
-    unsetenv("PLAYPEN_TOKEN");
-    return client;
-  };
-  const auto some = with_token("open-sesame-1234");
+  const test::TokenServer server(kWorld);
+  const auto some = server.client(test::TokenServer::kServerToken);
   ArenaProxy arena(some.get());
   expect_no_change(arena, "all robots");
   EXPECT_EQ(arena.GetBlockState("gate"), "extended");
   EXPECT_THAT(arena.GetEvents(), IsEmpty());
-  const auto all = with_token("open-sesame-1234,second-robot-1234");
+  const auto all = server.client(test::TokenServer::kBothTokens);
   ArenaProxy(all.get()).SetConfiguration("open");
   EXPECT_EQ(arena.GetConfiguration(), "open");
   EXPECT_EQ(arena.GetEvents().front().what, "open");

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "sim/world/outline.h"
+
 namespace playerlike {
 namespace {
 
@@ -55,9 +57,7 @@ SndScan scan_at(const Pose& X_WB, const std::vector<Segment>& walls) {
 }
 
 double distance_to(const Segment& wall, const Vec2& p) {
-  const Vec2 e = wall.second - wall.first;
-  const double s = std::clamp((p - wall.first).dot(e) / e.squaredNorm(), 0.0, 1.0);
-  return (wall.first + s * e - p).norm();
+  return sim::distance_to_segment_m(p, wall.first, wall.second);
 }
 
 // Drives an ideal robot until the state is no longer kMoving.

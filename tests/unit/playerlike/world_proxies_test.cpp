@@ -21,6 +21,7 @@
 #include "playerlike/host/run_settings.h"
 #include "reachable_host.h"
 #include "temporary_folder.h"
+#include "token_server.h"
 
 namespace {
 
@@ -161,7 +162,7 @@ TEST_P(WorldProxies, SayWhatIsAgainstAPose) {
   EXPECT_EQ(code([&] { simulation.GetPose2d(static_cast<char*>(nullptr), x, x, x); }),
             PlayerError::kBadArgument);
   for (int i = 0; i < 100; ++i) {
-    const std::string name = "z" + std::to_string(i);
+    const std::string name = std::string("z").append(std::to_string(i));
     const std::string told = warning(name.c_str(), 1.0, 1.0);
     if (i > 20) {
       EXPECT_EQ(told, "") << "it is not told for ever";
@@ -377,23 +378,11 @@ TEST_P(WorldProxies, OnlyLookWhereTheWorldIsLocked) {
 // With tokens, only a client that may command a robot may move it, and only a client that may
 // command all robots may move what belongs to no robot.
 TEST(WorldProxiesOfAServer, ChangeOnlyWhatTheirTokensAllow) {
-  const auto host = playerlike::Host::create(sim::load_world_text(kWorld));
-  playerlike::ServerSettings settings;
-  settings.port = 0;
-  settings.access.server_token = "open-sesame";
-  settings.access.robot_tokens["r2"] = "second-robot";
-  const playerlike::Server server(host, settings);
-  const std::string name = "tcp://127.0.0.1:" + std::to_string(server.port());
-  const auto with_token = [&](const char* token) {
-    setenv("PLAYPEN_TOKEN", token, 1);
-    auto client = std::make_unique<PlayerClient>(playerlike::open_session(name, 6665));
-    unsetenv("PLAYPEN_TOKEN");
-    return client;
-  };
+  const test::TokenServer server(kWorld);
   const auto refused = [](auto action) {
     EXPECT_THAT(warning_of(action), AnyOf(HasSubstr("token"), HasSubstr("all robots")));
   };
-  const auto some = with_token("open-sesame");
+  const auto some = server.client(test::TokenServer::kServerToken);
   SimulationProxy simulation(some.get(), 0);
   simulation.SetPose2d("r1", 0.5, 0.5, 0.0);
   refused([&] { simulation.SetPose2d("r2", 0.5, 1.5, 0.0); });
@@ -407,12 +396,12 @@ TEST(WorldProxiesOfAServer, ChangeOnlyWhatTheirTokensAllow) {
   double a = 0.0;
   simulation.GetPose2d("r2", x, y, a);
   EXPECT_EQ(x, 2.0);
-  const auto other = with_token("second-robot");
+  const auto other = server.client(test::TokenServer::kTokenOfR2);
   LogProxy log(other.get(), 0);
   log.QueryState();
   EXPECT_THAT(error_of([&] { log.SetWriteState(1); }).GetErrorStr(),  // r1's
               AnyOf(HasSubstr("token"), HasSubstr("all robots")));
-  const auto all = with_token("open-sesame,second-robot");
+  const auto all = server.client(test::TokenServer::kBothTokens);
   SimulationProxy(all.get(), 0).SetPose2d("b", 3.5, 1.0, 0.0);
 }
 

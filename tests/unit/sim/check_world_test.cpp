@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "outlines.h"
 #include "sim/io/world_io.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/outline.h"
@@ -16,6 +17,9 @@
 namespace sim::io {
 namespace {
 
+using test::box;
+using test::circle;
+using test::polygon;
 using testing::HasSubstr;
 using testing::SizeIs;
 
@@ -37,15 +41,6 @@ RobotDescription second_robot(const Pose& pose) {
   robot.pose = pose;
   robot.port = 6666;
   return robot;
-}
-
-ObstacleDescription box(const char* name, Vec2 center, Vec2 size, double yaw_rad = 0.0) {
-  ObstacleDescription obstacle;
-  obstacle.name = name;
-  obstacle.center = center;
-  obstacle.size = size;
-  obstacle.yaw_rad = yaw_rad;
-  return obstacle;
 }
 
 std::vector<std::string> ids(const WorldDescription& world) {
@@ -289,18 +284,6 @@ TEST(CheckWorld, RefusesWallsThatThePhysicsCannotBuild) {
   EXPECT_THAT(first_issue(world), HasSubstr("walls of at least 3 vertices"));
   world.arena.walls = {{{{1, 1}, {1e30, 1}, {1, 2}}}};
   EXPECT_THAT(first_issue(world), HasSubstr("/arena/map/origin: "));
-}
-
-ObstacleDescription circle(const char* name, Vec2 center, double radius_m) {
-  ObstacleDescription obstacle = box(name, std::move(center), {1, 1});
-  make_circle(obstacle, radius_m);
-  return obstacle;
-}
-
-ObstacleDescription polygon(const char* name, Vec2 center, Polygon outline) {
-  ObstacleDescription obstacle = box(name, std::move(center), {1, 1});
-  make_polygon(obstacle, std::move(outline));
-  return obstacle;
 }
 
 TEST(CheckWorld, ChecksShapesThatAProgramMakes) {

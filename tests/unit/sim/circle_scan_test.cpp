@@ -7,12 +7,13 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "circle_range.h"
+#include "outlines.h"
+#include "random_numbers.h"
 #include "sim/scan/cone.h"
 #include "sim/scan/scan_kernel.h"
 #include "sim/world/outline.h"
@@ -21,23 +22,24 @@ namespace sim {
 namespace {
 
 using test::circle_range_m;
+using test::kNotch;
+using test::Random;
 
 constexpr double kPi = std::numbers::pi;
 
-// A notch of 1 x 1 m that opens upwards: concave.
-const Polygon kNotch{{0, 0},     {1.4, 0},   {1.4, 1.2}, {1.2, 1.2},
-                     {1.2, 0.2}, {0.2, 0.2}, {0.2, 1.2}, {0, 1.2}};
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double a, double b) {
-    return a + (b - a) * static_cast<double>(engine_()) / 4294967296.0;
-  }
-
- private:
-  std::mt19937 engine_;
-};
+TEST(Outline, NearestPointOfASegmentIsBesideItOrAnEnd) {
+  const Vec2 a(1, 1);
+  const Vec2 b(4, 5);  // 5 m from a; the normal is (-4, 3) / 5
+  const Vec2 beside = a + 0.4 * (b - a) + Vec2(-1.6, 1.2);
+  EXPECT_NEAR((nearest_on_segment(beside, a, b) - Vec2(2.2, 2.6)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(nearest_share(beside, a, b), 0.4, 1e-12);
+  EXPECT_NEAR(distance_to_segment_m(beside, a, b), 2.0, 1e-12);
+  EXPECT_EQ(nearest_on_segment({0, 0}, a, b), a);
+  EXPECT_EQ(nearest_on_segment({5, 8}, a, b), b);
+  EXPECT_DOUBLE_EQ(distance_to_segment_m({7, 9}, a, b), 5.0);
+  EXPECT_EQ(nearest_on_segment({3, 4}, a, a), a) << "both ends are equal";
+  EXPECT_DOUBLE_EQ(distance_to_segment_m({4, 5}, a, a), 5.0);
+}
 
 TEST(Outline, AreaIsSigned) {
   EXPECT_DOUBLE_EQ(area_m2({{0, 0}, {2, 0}, {2, 1}}), 1.0);

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstring>
 #include <random>
 #include <string>
@@ -15,10 +14,14 @@
 #include "sim/devices/laser.h"
 #include "sim/simulation/simulation.h"
 #include "sim/simulation/world_hash.h"
+#include "simulation_runs.h"
 
 namespace sim {
 namespace {
 
+using test::drive;
+using test::events_of;
+using test::run;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -36,24 +39,6 @@ WorldDescription block_room(const std::string& settings, const std::string& more
 }
 
 constexpr const char* kSlow = R"("rise_speed": 0.4)";
-
-void drive(Simulation& simulation, double speed_mps, int robot = 0) {
-  const int motion = simulation.find_device(robot, "motion").value();
-  ASSERT_FALSE(simulation.apply({robot, motion}, TwistCommand{{speed_mps, 0.0, 0.0}}));
-}
-
-void run(Simulation& simulation, double duration_s) {
-  const auto steps = static_cast<int>(std::lround(duration_s / 0.01));
-  for (int i = 0; i < steps; ++i) simulation.step();
-}
-
-std::vector<std::string> events_of(const Simulation& simulation) {
-  std::vector<std::string> lines;
-  for (const ArenaEvent& event : simulation.arena_events().newest) {
-    lines.push_back(fixed_text(to_seconds(event.time_ns), 2) + ' ' + description(event));
-  }
-  return lines;
-}
 
 // What the laser measures straight ahead.
 double ahead_m(const Simulation& simulation) {
@@ -248,15 +233,7 @@ void go(Simulation& simulation, int from, int to) {
 TEST(LivingArena, RunsEquallyTwice) {
   Simulation a(living_arena());
   Simulation b(living_arena());
-  for (int i = 0; i < 4000; ++i) {
-    interfere(a, i);
-    a.step();
-    interfere(b, i);
-    b.step();
-    if (i % 50 != 0) continue;
-    ASSERT_EQ(a.state_hash(), b.state_hash()) << i;
-  }
-  EXPECT_EQ(events_of(a), events_of(b));
+  test::expect_equal_runs(a, b, interfere, 4000);
   // Something of each kind has happened.
   const std::vector<std::string> events = events_of(a);
   for (const char* word :
@@ -279,28 +256,12 @@ TEST(LivingArena, DependsOnTheSeed) {
 }
 
 TEST(LivingArena, GoesOnFromASnapshotAtAnyMoment) {
-  constexpr int kSteps = 3000;
-  Simulation whole(living_arena());
-  Simulation restored(living_arena());
   int while_moving = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    interfere(whole, i);
-    whole.step();
-    interfere(restored, i);
-    restored.step();
-    if (i % 37 == 0) {
-      while_moving += restored.moving_blocks().empty() ? 0 : 1;
-      const Snapshot snapshot = restored.save();
-      Simulation other(living_arena());
-      other.restore(snapshot);
-      EXPECT_EQ(other.save(), snapshot);
-      restored = std::move(other);
-    }
-    ASSERT_EQ(restored.state_hash(), whole.state_hash()) << i;
-  }
+  test::expect_equal_after_snapshots(living_arena(), interfere, 3000, 37,
+                                     [&while_moving](const Simulation& simulation) {
+                                       while_moving += simulation.moving_blocks().empty() ? 0 : 1;
+                                     });
   EXPECT_GT(while_moving, 3);
-  EXPECT_EQ(events_of(restored), events_of(whole));
-  EXPECT_EQ(restored.scores(), whole.scores());
 }
 
 TEST(LivingArena, IsForkedInTheMiddleOfARise) {

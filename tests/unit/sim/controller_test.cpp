@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,10 +13,13 @@
 #include "sim/core/number_text.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/robot_model.h"
+#include "simulation_runs.h"
 
 namespace sim {
 namespace {
 
+using test::drive;
+using test::run;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::Ge;
@@ -45,16 +47,6 @@ WorldDescription timer_room(const std::string& timer) {
 
 WorldDescription trap_room(const std::string& trap) {
   return room(R"("traps": [{"name": "p", )" + trap + "}]");
-}
-
-void drive(Simulation& simulation, double speed_mps, int robot = 0) {
-  const int motion = simulation.find_device(robot, "motion").value();
-  ASSERT_FALSE(simulation.apply({robot, motion}, TwistCommand{{speed_mps, 0.0, 0.0}}));
-}
-
-void run(Simulation& simulation, double duration_s) {
-  const auto steps = static_cast<int>(std::lround(duration_s / 0.01));
-  for (int i = 0; i < steps; ++i) simulation.step();
 }
 
 // Each event as "time kind what who text value", without what is empty.

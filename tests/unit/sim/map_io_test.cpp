@@ -14,6 +14,7 @@
 
 #include "canvas/image_file.h"
 #include "device_table.h"
+#include "outlines.h"
 #include "sim/io/world_io.h"
 #include "temporary_folder.h"
 
@@ -227,14 +228,7 @@ TEST(SimplifyWalls, MakesOneEdgeOfAStaircaseAndKeepsCornersAndSmallThings) {
   EXPECT_NEAR(0.5 * doubled_area(loops[0]), 210.0, 20.0 * std::sqrt(2.0) * 1.0);
   // Every corner of the steps is within the tolerance of the simplified outline.
   for (const Vec2& p : before[0].vertices) {
-    double nearest = 1e9;
-    for (std::size_t i = 0; i < loops[0].vertices.size(); ++i) {
-      const Vec2& a = loops[0].vertices[i];
-      const Vec2 way = loops[0].vertices[(i + 1) % loops[0].vertices.size()] - a;
-      const double t = std::clamp((p - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-      nearest = std::min(nearest, (p - a - t * way).norm());
-    }
-    EXPECT_LE(nearest, 1.0 + 1e-9);
+    EXPECT_LE(test::distance_to_outline_m(p, loops[0].vertices), 1.0 + 1e-9);
   }
 }
 

@@ -14,16 +14,19 @@
 #include <vector>
 
 #include "circle_range.h"
-#include "sim/core/number_text.h"
 #include "sim/devices/laser.h"
 #include "sim/render/render.h"
 #include "sim/simulation/simulation.h"
 #include "sim/simulation/world_hash.h"
 #include "simulation/social_force.h"
+#include "simulation_runs.h"
 
 namespace sim {
 namespace {
 
+using test::drive;
+using test::events_of;
+using test::run;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -46,16 +49,6 @@ std::string path(const std::string& settings) {
   return R"("motion": {"type": "path", )" + settings + "}";
 }
 
-void run(Simulation& simulation, double duration_s) {
-  const auto steps = static_cast<int>(std::lround(duration_s / 0.01));
-  for (int i = 0; i < steps; ++i) simulation.step();
-}
-
-void drive(Simulation& simulation, double speed_mps, int robot = 0) {
-  const int motion = simulation.find_device(robot, "motion").value();
-  ASSERT_FALSE(simulation.apply({robot, motion}, TwistCommand{{speed_mps, 0.0, 0.0}}));
-}
-
 const ObstacleDescription& obstacle(const Simulation& simulation, std::size_t index = 0) {
   return simulation.world().arena.obstacles.at(index);
 }
@@ -64,14 +57,6 @@ Vec2 place_after(const std::string& settings, double duration_s) {
   Simulation simulation(room(settings));
   run(simulation, duration_s);
   return obstacle(simulation).center;
-}
-
-std::vector<std::string> events_of(const Simulation& simulation) {
-  std::vector<std::string> lines;
-  for (const ArenaEvent& event : simulation.arena_events().newest) {
-    lines.push_back(fixed_text(to_seconds(event.time_ns), 2) + ' ' + description(event));
-  }
-  return lines;
 }
 
 void expect_near(const Vec2& found, const Vec2& expected) {
@@ -542,15 +527,7 @@ void interfere(Simulation& simulation, int step) {
 TEST(MovingObstacles, RunEquallyTwice) {
   Simulation a(busy_world());
   Simulation b(busy_world());
-  for (int i = 0; i < 3000; ++i) {
-    interfere(a, i);
-    a.step();
-    interfere(b, i);
-    b.step();
-    if (i % 50 != 0) continue;
-    ASSERT_EQ(a.state_hash(), b.state_hash()) << i;
-  }
-  EXPECT_EQ(events_of(a), events_of(b));
+  test::expect_equal_runs(a, b, interfere, 3000);
   EXPECT_GT((obstacle(a, 5).center - Vec2(2, 0.5)).norm(), 0.2) << "the crate was pushed";
   Simulation other(busy_world(2));
   run(other, 10.0);
@@ -560,23 +537,7 @@ TEST(MovingObstacles, RunEquallyTwice) {
 }
 
 TEST(MovingObstacles, ContinueFromASnapshotAtAnyMoment) {
-  Simulation whole(busy_world());
-  Simulation restored(busy_world());
-  for (int i = 0; i < 2500; ++i) {
-    interfere(whole, i);
-    whole.step();
-    interfere(restored, i);
-    restored.step();
-    if (i % 23 == 0) {
-      const Snapshot snapshot = restored.save();
-      Simulation other(busy_world());
-      other.restore(snapshot);
-      ASSERT_EQ(other.save(), snapshot) << i;
-      restored = std::move(other);
-    }
-    ASSERT_EQ(restored.state_hash(), whole.state_hash()) << i;
-  }
-  EXPECT_EQ(events_of(restored), events_of(whole));
+  test::expect_equal_after_snapshots(busy_world(), interfere, 2500, 23);
 }
 
 TEST(MovingObstacles, AreForked) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "outlines.h"
 #include "sim/world/robot_model.h"
 
 namespace sim {
@@ -23,11 +24,7 @@ ArenaDescription open_floor(double width_m, double height_m) {
 }
 
 ObstacleDescription box(Vec2 center, Vec2 size, double yaw_rad = 0.0) {
-  ObstacleDescription obstacle;
-  obstacle.center = std::move(center);
-  obstacle.size = std::move(size);
-  obstacle.yaw_rad = yaw_rad;
-  return obstacle;
+  return test::box("", std::move(center), std::move(size), yaw_rad);
 }
 
 CanvasDescription grid_of(int width, int height, double cell_size_m = 1.0,

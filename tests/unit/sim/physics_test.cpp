@@ -6,12 +6,15 @@
 #include <numbers>
 #include <random>
 
+#include "outlines.h"
 #include "physics/feasible_twist.h"
 #include "physics/physics_world.h"
 #include "polygon_overlap.h"
 
 namespace sim {
 namespace {
+
+using test::box;
 
 constexpr double kStep_s = 0.01;
 constexpr double kPi = std::numbers::pi;
@@ -21,16 +24,6 @@ ArenaDescription floor_4x4() {
   ArenaDescription arena;
   arena.size = {4.0, 4.0};
   return arena;
-}
-
-ObstacleDescription box(const std::string& name, double x, double y, double size_x, double size_y,
-                        double yaw_rad = 0.0) {
-  ObstacleDescription o;
-  o.name = name;
-  o.center = {x, y};
-  o.size = {size_x, size_y};
-  o.yaw_rad = yaw_rad;
-  return o;
 }
 
 void run(PhysicsWorld& world, int steps) {
@@ -196,7 +189,7 @@ TEST(PhysicsWorld, RobotPushesAnotherAlongButNotFaster) {
 
 TEST(PhysicsWorld, ContactIsCountedOnceUntilItEnds) {
   ArenaDescription arena = floor_4x4();
-  arena.obstacles.push_back(box("b", 2.5, 2.0, 0.2, 1.0));
+  arena.obstacles.push_back(box("b", {2.5, 2.0}, {0.2, 1.0}));
   PhysicsWorld world(arena);
   world.add_robot(s1r_model(), {2.0, 2.0, 0.0});
   int begun = 0;
@@ -223,8 +216,8 @@ TEST(PhysicsWorld, ContactIsCountedOnceUntilItEnds) {
 TEST(PhysicsWorld, ThirteenRobotsPushingAtRandomNeverSinkInByTwoMillimetres) {
   ArenaDescription arena = floor_4x4();
   arena.size = {1.6, 1.6};
-  arena.obstacles.push_back(box("a", 0.8, 0.8, 0.2, 0.2, 0.4));
-  arena.obstacles.push_back(box("b", 0.3, 1.1, 0.1, 0.3));
+  arena.obstacles.push_back(box("a", {0.8, 0.8}, {0.2, 0.2}, 0.4));
+  arena.obstacles.push_back(box("b", {0.3, 1.1}, {0.1, 0.3}));
   PhysicsWorld world(arena);
   int count = 0;
   for (int row = 0; row < 4 && count < 13; ++row) {
@@ -269,7 +262,7 @@ TEST(PhysicsWorld, LongStepsDoNotLetARobotSinkIn) {
 
 TEST(PhysicsWorld, RetractedObstaclesAreNotThere) {
   ArenaDescription arena = floor_4x4();
-  arena.obstacles.push_back(box("d", 2.5, 2.0, 0.2, 1.0));
+  arena.obstacles.push_back(box("d", {2.5, 2.0}, {0.2, 1.0}));
   arena.obstacles[0].type = ObstacleType::kDynamic;
   arena.obstacles[0].state = ObstacleState::kRetracted;
   PhysicsWorld world(arena);
@@ -298,8 +291,8 @@ TEST(PhysicsWorld, RobotsAmongTheWallsOfAMapNeverSinkInByTwoMillimetres) {
   arena.size = {1.6, 1.6};
   ArenaDescription same_with_boxes = arena;
   for (const ObstacleDescription& o :
-       {box("a", 0.8, 0.8, 0.2, 0.2, 0.4), box("b", 0.3, 1.1, 0.1, 0.3),
-        box("c", 1.2, 0.5, 0.3, 0.02), box("d", 1.1, 1.2, 0.1, 0.1, 0.7)}) {
+       {box("a", {0.8, 0.8}, {0.2, 0.2}, 0.4), box("b", {0.3, 1.1}, {0.1, 0.3}),
+        box("c", {1.2, 0.5}, {0.3, 0.02}), box("d", {1.1, 1.2}, {0.1, 0.1}, 0.7)}) {
     same_with_boxes.obstacles.push_back(o);
     arena.walls.push_back({test::box_polygon(o)});
   }
@@ -386,7 +379,7 @@ TEST(PhysicsWorld, RobotsThatNothingIsNearAreSolidAllTheSame) {
   EXPECT_TRUE(world.is_line_free({1.4, 2.5}, {3.5, 2.5}, 0.1, 0, kNothing)) << "passes it";
   EXPECT_NEAR(world.ray_cast_m({1.4, 2.0}, 0.0, 5.0, 0), 2.6 - 0.087 - 1.4, 1e-5);
   EXPECT_NEAR(world.clearance_m(0, 5.0, 5.0), 2.6 - 0.087 - 1.487, 1e-5);
-  ObstacleDescription place = box("place", 2.6, 2.0, 0.1, 0.1);
+  ObstacleDescription place = box("place", {2.6, 2.0}, {0.1, 0.1});
   EXPECT_EQ(world.robot_within(place), 1);
 }
 
@@ -410,7 +403,7 @@ TEST(PhysicsWorld, RobotsThatMeetFromAfarCollideOnceAndPushEvenly) {
 
 TEST(PhysicsWorld, ClearanceIsTheDistanceToTheNearestSolid) {
   ArenaDescription arena = floor_4x4();
-  arena.obstacles.push_back(box("b", 2.0, 2.0, 0.2, 0.2));
+  arena.obstacles.push_back(box("b", {2.0, 2.0}, {0.2, 0.2}));
   PhysicsWorld world(arena);
   // The side of the footprint is 0.081 m from the axle's centre; the block's face is at x = 2.1.
   // The robot is rotated by 90 degrees, so its left side is at x - 0.081.

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <random>
 #include <utility>
 #include <vector>
 
+#include "outlines.h"
 #include "physics/physics_world.h"
+#include "random_numbers.h"
 #include "sim/world/outline.h"
 #include "sim/world/robot_model.h"
 
@@ -23,17 +24,11 @@ constexpr double kGravity_mps2 = 9.81;
 constexpr double kTraction = 0.75;  // of the wheels, see docs/decisions/moving_obstacles.md
 
 ObstacleDescription circle(double x, double y, double radius_m) {
-  ObstacleDescription o;
-  o.center = {x, y};
-  make_circle(o, radius_m);
-  return o;
+  return test::circle("", {x, y}, radius_m);
 }
 
 ObstacleDescription box(double x, double y, double side_m) {
-  ObstacleDescription o;
-  o.center = {x, y};
-  o.size = {side_m, side_m};
-  return o;
+  return test::box("", {x, y}, {side_m, side_m});
 }
 
 ObstacleDescription pushable(ObstacleDescription o, double mass_kg, double friction = 0.3) {
@@ -319,15 +314,12 @@ TEST(DrivenObstacle, DoesNotCrushARobotOrACrateAtAWall) {
 
 TEST(MovableObstacle, CrowdsAtRandomDoNotSinkIntoEachOther) {
   // Every third of 24 circles is driven, every third can be pushed, the others stand.
-  std::mt19937 engine(5);
-  const auto uniform = [&engine](double a, double b) {
-    return a + (b - a) * static_cast<double>(engine()) / 4294967296.0;
-  };
+  test::Random random(5);
   std::vector<ObstacleDescription> obstacles;
   for (int i = 0; i < 24; ++i) {
-    ObstacleDescription o = circle(0.6 + 0.75 * (i % 6), 0.6 + i / 6, uniform(0.03, 0.15));
+    ObstacleDescription o = circle(0.6 + 0.75 * (i % 6), 0.6 + i / 6, random.uniform(0.03, 0.15));
     if (i % 3 == 0) o = driven(o);
-    if (i % 3 == 1) o = pushable(o, uniform(0.1, 3.0), uniform(0.0, 0.6));
+    if (i % 3 == 1) o = pushable(o, random.uniform(0.1, 3.0), random.uniform(0.0, 0.6));
     obstacles.push_back(o);
   }
   // A wall at y = 5 keeps all together.
@@ -338,8 +330,9 @@ TEST(MovableObstacle, CrowdsAtRandomDoNotSinkIntoEachOther) {
   double deepest_m = 1.0;
   for (int step = 0; step < 4000; ++step) {
     if (step % 50 == 0) {
-      for (int i = 0; i < 4; ++i) floor.drive(uniform(-0.5, 0.5), uniform(-3.0, 3.0), i);
-      for (Vec2& v : velocities) v = {uniform(-0.5, 0.5), uniform(-0.5, 0.5)};
+      for (int i = 0; i < 4; ++i)
+        floor.drive(random.uniform(-0.5, 0.5), random.uniform(-3.0, 3.0), i);
+      for (Vec2& v : velocities) v = {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)};
     }
     for (std::size_t i = 0; i < 24; i += 3) {
       const int index = static_cast<int>(i);

@@ -12,15 +12,17 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "allocation_count.h"
+#include "random_numbers.h"
 #include "reference_scan.h"
 
 namespace sim::scan {
 namespace {
+
+using test::Random;
 
 using playpen::test::allocation_count;
 using playpen::test::reference_scan;
@@ -77,18 +79,6 @@ void add_outline(EdgeBuffer& edges, const std::vector<std::array<float, 2>>& cor
     edges.add(from[0], from[1], to[0], to[1]);
   }
 }
-
-/// Random numbers that are equal with every standard library.
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_()) / 4294967296.0;
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 /// Convex solids around the sensor; none contains it, some are beyond 5 m.
 EdgeBuffer random_scene(Random& random, int solid_count) {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "physics/physics_world.h"
+#include "random_numbers.h"
 #include "sim/devices/laser.h"
 #include "sim/simulation/simulation.h"
 
@@ -35,15 +35,12 @@ TEST(ScanOfTheWorld, AgreesWithRayCastOnTenThousandPosesAmongThirteenRobots) {
   scan::ScanKernel kernel({laser.beam_count, laser.resolution_rad, laser.range_max_m});
   scan::EdgeBuffer edges;
   std::vector<double> ranges(static_cast<std::size_t>(laser.beam_count));
-  std::mt19937 random(1);
-  const auto uniform = [&random](double a, double b) {
-    return a + (b - a) * static_cast<double>(random()) / 4294967296.0;
-  };
+  test::Random random(1);
   long beams = 0;
   long at_corners = 0;
   for (int pose = 0; pose < 10'000; ++pose) {
-    const Vec2 p_WL(uniform(0.01, 3.41), uniform(0.01, 3.71));
-    const double yaw = uniform(-std::numbers::pi, std::numbers::pi);
+    const Vec2 p_WL(random.uniform(0.01, 3.41), random.uniform(0.01, 3.71));
+    const double yaw = random.uniform(-std::numbers::pi, std::numbers::pi);
     const int own = pose % 14 - 1;  // none, or one of the robots that the scan ignores
     physics.collect_edges(p_WL, laser.range_max_m, laser.height_m, own, true, edges);
     if (edges.inside) {
@@ -69,13 +66,11 @@ TEST(ScanOfTheWorld, AgreesWithRayCastOnTenThousandPosesAmongThirteenRobots) {
 TEST(ScanOfTheWorld, LeavesOutHiddenRobotsOfACrowdWithoutADifference) {
   const WorldDescription world = load_world(PLAYPEN_SOURCE_DIR "/worlds/cave.json");
   const RobotModel& model = *find_robot_model(world, "pioneer2dx");
-  std::mt19937 random(2);
-  const auto uniform = [&random](double a, double b) {
-    return a + (b - a) * static_cast<double>(random()) / 4294967296.0;
-  };
+  test::Random random(2);
   PhysicsWorld physics(world.arena);
   for (int i = 0; i < 200; ++i) {
-    physics.add_robot(model, {uniform(-8.0, 8.0), uniform(-8.0, 8.0), uniform(-3.0, 3.0)});
+    physics.add_robot(
+        model, {random.uniform(-8.0, 8.0), random.uniform(-8.0, 8.0), random.uniform(-3.0, 3.0)});
   }
   scan::EdgeBuffer edges;
   for (const scan::ScanGeometry& geometry :
@@ -85,7 +80,8 @@ TEST(ScanOfTheWorld, LeavesOutHiddenRobotsOfACrowdWithoutADifference) {
     std::vector<double> whole(static_cast<std::size_t>(geometry.beam_count));
     std::vector<double> parts(whole.size());
     for (int pose = 0; pose < 400; ++pose) {
-      const Pose X_WL{uniform(-7.9, 7.9), uniform(-7.9, 7.9), uniform(-4.0, 4.0)};
+      const Pose X_WL{random.uniform(-7.9, 7.9), random.uniform(-7.9, 7.9),
+                      random.uniform(-4.0, 4.0)};
       const int own = pose % 201 - 1;
       const double height_m = pose % 2 == 0 ? 0.1 : 0.23;  // above all robots
       physics.collect_edges(X_WL.position(), geometry.range_max_m, height_m, own, true, edges);

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "circle_range.h"
+#include "outlines.h"
 #include "physics/physics_world.h"
+#include "polygon_overlap.h"
+#include "random_numbers.h"
 #include "sim/devices/blobfinder.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/camera.h"
@@ -28,46 +30,17 @@
 namespace sim {
 namespace {
 
+using test::circle;
 using test::circle_range_m;
+using test::kNotch;
+using test::polygon;
+using test::Random;
 using testing::HasSubstr;
 using Kind = PhysicsWorld::Contact::Kind;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kStep_s = 0.01;
 const PhysicsWorld::Contact kNothing{-1, Kind::kObstacle, -1};
-
-// A notch of 1 x 1 m that opens upwards: concave.
-const Polygon kNotch{{0, 0},     {1.4, 0},   {1.4, 1.2}, {1.2, 1.2},
-                     {1.2, 0.2}, {0.2, 0.2}, {0.2, 1.2}, {0, 1.2}};
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double a, double b) {
-    return a + (b - a) * static_cast<double>(engine_()) / 4294967296.0;
-  }
-
- private:
-  std::mt19937 engine_;
-};
-
-ObstacleDescription circle(const std::string& name, double x, double y, double radius_m) {
-  ObstacleDescription o;
-  o.name = name;
-  o.center = {x, y};
-  make_circle(o, radius_m);
-  return o;
-}
-
-ObstacleDescription polygon(const std::string& name, double x, double y, Polygon outline,
-                            double yaw_rad = 0.0) {
-  ObstacleDescription o;
-  o.name = name;
-  o.center = {x, y};
-  o.yaw_rad = yaw_rad;
-  make_polygon(o, std::move(outline));
-  return o;
-}
 
 ArenaDescription floor_of(double side_m, std::vector<ObstacleDescription> obstacles) {
   ArenaDescription arena;
@@ -80,21 +53,10 @@ void run(PhysicsWorld& world, int steps) {
   for (int i = 0; i < steps; ++i) world.step(kStep_s);
 }
 
-double distance_to_circle_m(const Polygon& robot, const Vec2& center, double radius_m) {
-  double least_m = 1e9;
-  for (std::size_t i = 0; i < robot.size(); ++i) {
-    const Vec2 a = robot[i];
-    const Vec2 along = robot[(i + 1) % robot.size()] - a;
-    const double t = std::clamp((center - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    least_m = std::min(least_m, (a + t * along - center).norm() - radius_m);
-  }
-  return least_m;
-}
-
-Polygon footprint_at(const Pose& X_WB) {
-  Polygon outline;
-  for (const Vec2& p : s1r_model().footprint) outline.push_back(X_WB * p);
-  return outline;
+double distance_to_circle_m(const PhysicsWorld& world, int robot, const Vec2& center,
+                            double radius_m) {
+  const Polygon outline = test::placed(s1r_model().footprint, world.body(robot).X_WB);
+  return test::distance_to_outline_m(center, outline) - radius_m;
 }
 
 // A room with a circle, a convex and a concave polygon, for a robot at (1, 1).
@@ -144,9 +106,9 @@ TEST(Shapes, LaserSeesACircleExactly) {
 
 TEST(Shapes, ScansAgreeWithRayCastsInSmallAndLargeWorlds) {
   for (const int boxes : {0, 200}) {
-    std::vector<ObstacleDescription> obstacles{circle("c", 3, 1, 0.4),
-                                               polygon("wedge", 1, 3, {{0, 0}, {1, 0}, {0, 1}}),
-                                               polygon("notch", 3, 3.5, kNotch, 0.2)};
+    std::vector<ObstacleDescription> obstacles{circle("c", {3, 1}, 0.4),
+                                               polygon("wedge", {1, 3}, {{0, 0}, {1, 0}, {0, 1}}),
+                                               polygon("notch", {3, 3.5}, kNotch, 0.2)};
     // Boxes far away, so that the search for edges uses Box2D's tree.
     for (int i = 0; i < boxes; ++i) {
       ObstacleDescription o;
@@ -178,8 +140,8 @@ TEST(Shapes, ScansAgreeWithRayCastsInSmallAndLargeWorlds) {
 
 TEST(Shapes, InsideIsExact) {
   const PhysicsWorld physics(
-      floor_of(6.0, {circle("c", 3, 1, 0.4), polygon("notch", 3, 3.5, kNotch),
-                     polygon("wedge", 1, 3, {{0, 0}, {1, 0}, {0, 1}})}));
+      floor_of(6.0, {circle("c", {3, 1}, 0.4), polygon("notch", {3, 3.5}, kNotch),
+                     polygon("wedge", {1, 3}, {{0, 0}, {1, 0}, {0, 1}})}));
   EXPECT_TRUE(physics.is_inside_solid({3.0, 1.3999}, 0.1, -1));
   EXPECT_FALSE(physics.is_inside_solid({3.0, 1.4001}, 0.1, -1)) << "not its skin";
   EXPECT_FALSE(physics.is_inside_solid({3.0, 1.0}, 0.16, -1)) << "above it";
@@ -191,7 +153,7 @@ TEST(Shapes, InsideIsExact) {
 }
 
 TEST(Shapes, LinesOfSightPassACircleByAHair) {
-  const PhysicsWorld physics(floor_of(6.0, {circle("c", 3, 3, 0.5)}));
+  const PhysicsWorld physics(floor_of(6.0, {circle("c", {3, 3}, 0.5)}));
   const auto is_free = [&](double y) {
     return physics.is_line_free({1, y}, {5, y}, 0.1, -1, kNothing);
   };
@@ -268,7 +230,7 @@ TEST(Shapes, FiducialOfACircleIsSeenBehindNothing) {
 // --- physics
 
 TEST(Shapes, RobotStopsInFrontOfACircle) {
-  PhysicsWorld world(floor_of(6.0, {circle("c", 3, 3, 0.3)}));
+  PhysicsWorld world(floor_of(6.0, {circle("c", {3, 3}, 0.3)}));
   world.add_robot(s1r_model(), {2.0, 3.0, 0.0});
   world.set_target(0, {0.5, 0.0, 0.0});
   run(world, 300);
@@ -285,7 +247,7 @@ TEST(Shapes, RobotStopsInFrontOfACircle) {
 
 TEST(Shapes, RobotIsTurnedAwayByACircleThatItGrazes) {
   for (const double radius_m : {0.05, 0.3, 1.0}) {
-    PhysicsWorld world(floor_of(8.0, {circle("c", 4, 4, radius_m)}));
+    PhysicsWorld world(floor_of(8.0, {circle("c", {4, 4}, radius_m)}));
     const double start_x = 4.0 - radius_m - 0.4;
     // Its front right corner meets the circle where the normal is 65 degrees aside.
     world.add_robot(s1r_model(), {start_x, 4.0 + 0.9 * radius_m + 0.081, 0.0});
@@ -293,8 +255,7 @@ TEST(Shapes, RobotIsTurnedAwayByACircleThatItGrazes) {
     double closest_m = 1.0;
     for (int i = 0; i < 1500; ++i) {
       world.step(kStep_s);
-      closest_m = std::min(
-          closest_m, distance_to_circle_m(footprint_at(world.body(0).X_WB), {4, 4}, radius_m));
+      closest_m = std::min(closest_m, distance_to_circle_m(world, 0, {4, 4}, radius_m));
     }
     EXPECT_GT(closest_m, 0.0) << "of a circle of " << radius_m << " m";
     EXPECT_GT(world.body(0).X_WB.x_m, 4.0) << "it gets past a circle of " << radius_m << " m";
@@ -306,7 +267,7 @@ TEST(Shapes, RobotsAtRandomNeverSinkIntoCircles) {
   std::vector<ObstacleDescription> obstacles;
   Random random(5);
   for (int i = 0; i < 12; ++i) {
-    obstacles.push_back(circle("c" + std::to_string(i), 0.7 + 1.2 * (i % 4), 0.7 + 1.6 * (i / 4),
+    obstacles.push_back(circle("c" + std::to_string(i), {0.7 + 1.2 * (i % 4), 0.7 + 1.6 * (i / 4)},
                                random.uniform(0.003, 0.35)));
   }
   PhysicsWorld world(floor_of(5.0, obstacles));
@@ -321,8 +282,7 @@ TEST(Shapes, RobotsAtRandomNeverSinkIntoCircles) {
     world.step(kStep_s);
     for (int i = 0; i < 4; ++i) {
       for (const ObstacleDescription& o : obstacles) {
-        deepest_m = std::min(deepest_m, distance_to_circle_m(footprint_at(world.body(i).X_WB),
-                                                             o.center, radius_m(o)));
+        deepest_m = std::min(deepest_m, distance_to_circle_m(world, i, o.center, radius_m(o)));
       }
     }
   }
@@ -332,7 +292,7 @@ TEST(Shapes, RobotsAtRandomNeverSinkIntoCircles) {
 
 TEST(Shapes, SpinningBesideALargeCircleDoesNotSinkIn) {
   for (const double radius_m : {0.1, 0.5, 1.0, 3.0}) {
-    PhysicsWorld world(floor_of(12.0, {circle("c", 6, 6, radius_m)}));
+    PhysicsWorld world(floor_of(12.0, {circle("c", {6, 6}, radius_m)}));
     world.add_robot(s1r_model(), {6.0 - radius_m - 0.2, 6.0, 0.0});
     world.set_target(0, {0.3, 0.0, 0.0});
     run(world, 100);
@@ -340,15 +300,14 @@ TEST(Shapes, SpinningBesideALargeCircleDoesNotSinkIn) {
     for (int i = 0; i < 300; ++i) {
       world.set_target(0, {0.05, (i / 50) % 2 == 0 ? 6.0 : -6.0, 0.0});
       world.step(kStep_s);
-      closest_m = std::min(
-          closest_m, distance_to_circle_m(footprint_at(world.body(0).X_WB), {6, 6}, radius_m));
+      closest_m = std::min(closest_m, distance_to_circle_m(world, 0, {6, 6}, radius_m));
     }
     EXPECT_GT(closest_m, -0.0005) << "of a circle of " << radius_m << " m";
   }
 }
 
 TEST(Shapes, RobotDrivesIntoANotchAndStopsAtItsEnd) {
-  PhysicsWorld world(floor_of(6.0, {polygon("notch", 2, 2, kNotch)}));
+  PhysicsWorld world(floor_of(6.0, {polygon("notch", {2, 2}, kNotch)}));
   world.add_robot(s1r_model(), {2.7, 4.0, -0.5 * kPi});
   world.set_target(0, {0.4, 0.0, 0.0});
   run(world, 800);
@@ -364,21 +323,21 @@ TEST(Shapes, RobotSlidesAlongAPolygonOfManySides) {
   for (int i = 0; i < 40; ++i) {
     outline.push_back(0.5 * Vec2(std::cos(kPi * i / 20.0), std::sin(kPi * i / 20.0)));
   }
-  PhysicsWorld world(floor_of(6.0, {polygon("disc", 3, 3, outline)}));
+  PhysicsWorld world(floor_of(6.0, {polygon("disc", {3, 3}, outline)}));
   world.add_robot(s1r_model(), {2.0, 3.0 + 0.9 * 0.5 + 0.081, 0.0});
   world.set_target(0, {0.3, 0.0, 0.0});
   double closest_m = 1.0;
   for (int i = 0; i < 1200; ++i) {
     world.step(kStep_s);
-    closest_m =
-        std::min(closest_m, distance_to_circle_m(footprint_at(world.body(0).X_WB), {3, 3}, 0.4985));
+    closest_m = std::min(closest_m, distance_to_circle_m(world, 0, {3, 3}, 0.4985));
   }
   EXPECT_GT(closest_m, 0.0);  // the sides are 0.5 cos(pi / 40) = 0.4985 m from the centre
   EXPECT_GT(world.body(0).X_WB.x_m, 3.0);
 }
 
 TEST(Shapes, ClearanceIsTheDistanceToTheOutline) {
-  PhysicsWorld world(floor_of(8.0, {circle("c", 5, 4, 0.3), polygon("notch", 3.4, 0.5, kNotch)}));
+  PhysicsWorld world(
+      floor_of(8.0, {circle("c", {5, 4}, 0.3), polygon("notch", {3.4, 0.5}, kNotch)}));
   world.add_robot(s1r_model(), {4.0, 4.0, 0.0});
   EXPECT_NEAR(world.clearance_m(0, 3.0, 3.0), 1.0 - 0.3 - 0.087, 1e-5);
   world.set_pose(0, {4.1, 1.4, 0.0});  // in the notch, which reaches from x = 3.6 to 4.6
@@ -388,14 +347,14 @@ TEST(Shapes, ClearanceIsTheDistanceToTheOutline) {
 TEST(Shapes, RobotWithinIsExactExceptForTheSkins) {
   PhysicsWorld world(floor_of(8.0, {}));
   world.add_robot(s1r_model(), {4.0, 4.0, 0.0});
-  EXPECT_EQ(world.robot_within(circle("c", 4.387 + 0.003, 4.0, 0.3)), -1);
-  EXPECT_EQ(world.robot_within(circle("c", 4.387 - 0.001, 4.0, 0.3)), 0);
-  EXPECT_EQ(world.robot_within(polygon("n", 3.3, 3.5, kNotch)), -1) << "within its notch";
-  EXPECT_EQ(world.robot_within(polygon("n", 3.45, 3.5, kNotch)), -1);
-  EXPECT_EQ(world.robot_within(polygon("n", 3.3, 3.9, kNotch)), 0);
+  EXPECT_EQ(world.robot_within(circle("c", {4.387 + 0.003, 4.0}, 0.3)), -1);
+  EXPECT_EQ(world.robot_within(circle("c", {4.387 - 0.001, 4.0}, 0.3)), 0);
+  EXPECT_EQ(world.robot_within(polygon("n", {3.3, 3.5}, kNotch)), -1) << "within its notch";
+  EXPECT_EQ(world.robot_within(polygon("n", {3.45, 3.5}, kNotch)), -1);
+  EXPECT_EQ(world.robot_within(polygon("n", {3.3, 3.9}, kNotch)), 0);
   Polygon large = kNotch;
   for (Vec2& p : large) p *= 5.0;
-  EXPECT_EQ(world.robot_within(polygon("n", 3.5, 3.5, large)), 0) << "wholly in it, at no side";
+  EXPECT_EQ(world.robot_within(polygon("n", {3.5, 3.5}, large)), 0) << "wholly in it, at no side";
 }
 
 // --- simulations
@@ -489,13 +448,13 @@ TEST(Shapes, GripperTakesAPuckThatOthersStillSee) {
 }
 
 TEST(Shapes, ReachAcrossFollowsTheOutline) {
-  const auto round = reach_across({0.1, 0.05, 0.3}, circle("c", 0, 0, 0.05), 0.13, 0.2);
+  const auto round = reach_across({0.1, 0.05, 0.3}, circle("c", {0, 0}, 0.05), 0.13, 0.2);
   ASSERT_TRUE(round);
   EXPECT_NEAR(round->first, 0.05 - 0.04, 1e-12);  // 0.03 m beside the centre: a half chord of 0.04
   EXPECT_NEAR(round->second, 0.05 + 0.04, 1e-12);
-  EXPECT_FALSE(reach_across({0.1, 0.05, 0.3}, circle("c", 0, 0, 0.05), 0.16, 0.2));
+  EXPECT_FALSE(reach_across({0.1, 0.05, 0.3}, circle("c", {0, 0}, 0.05), 0.16, 0.2));
   const auto wedge =
-      reach_across({0, 0, 0}, polygon("p", 0, 0, {{0, 0}, {1, 0}, {0, 1}}), 0.5, 0.6);
+      reach_across({0, 0, 0}, polygon("p", {0, 0}, {{0, 0}, {1, 0}, {0, 1}}), 0.5, 0.6);
   ASSERT_TRUE(wedge);
   EXPECT_NEAR(wedge->first, 0.0, 1e-12);
   EXPECT_NEAR(wedge->second, 0.5, 1e-12);
@@ -503,7 +462,7 @@ TEST(Shapes, ReachAcrossFollowsTheOutline) {
 
 TEST(Shapes, TrueMapHasEachCellThatAShapeReachesInto) {
   const ArenaDescription arena =
-      floor_of(4.0, {circle("c", 1.03, 1.01, 0.47), polygon("n", 2, 2, kNotch, 0.3)});
+      floor_of(4.0, {circle("c", {1.03, 1.01}, 0.47), polygon("n", {2, 2}, kNotch, 0.3)});
   CanvasDescription grid;
   grid.width = grid.height = 80;
   grid.cell_size_m = 0.05;
@@ -530,14 +489,9 @@ TEST(Shapes, TrueMapHasEachCellThatAShapeReachesInto) {
       if (off_m > 1e-6 && !in_notch && !near_notch && occupied) {
         // The samples are 5 mm apart, so a side of the notch cuts off less than that.
         double least_m = 1.0;
-        for (std::size_t i = 0; i < notch.size(); ++i) {
-          const Vec2 a = notch[i];
-          const Vec2 along = notch[(i + 1) % notch.size()] - a;
-          for (const Vec2& c : {low, Vec2(low + Vec2(0.05, 0)), Vec2(low + Vec2(0, 0.05)),
-                                Vec2(low + Vec2(0.05, 0.05))}) {
-            const double t = std::clamp((c - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-            least_m = std::min(least_m, (a + t * along - c).norm());
-          }
+        for (const Vec2& c : {low, Vec2(low + Vec2(0.05, 0)), Vec2(low + Vec2(0, 0.05)),
+                              Vec2(low + Vec2(0.05, 0.05))}) {
+          least_m = std::min(least_m, test::distance_to_outline_m(c, notch));
         }
         EXPECT_LT(least_m, 0.008) << low.transpose();
       }

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
-#include <random>
 
 #include "physics/physics_world.h"
+#include "random_numbers.h"
 #include "sim/core/error.h"
 #include "sim/core/hash.h"
 #include "sim/devices/laser.h"
@@ -394,16 +394,13 @@ TEST(Simulation, SnapshotShowsObstaclesRobotsAndScan) {
 
 std::uint64_t hash_after_random_drive(WorldDescription world, int steps) {
   Simulation simulation(std::move(world));
-  std::mt19937 random(42);
-  const auto uniform = [&random] {  // the standard leaves std distributions open
-    return static_cast<double>(random()) / 4294967296.0 * 2.0 - 1.0;
-  };
+  test::Random random(42);
   for (int i = 0; i < steps; ++i) {
     if (i % 37 == 0) {
       for (int r = 0; r < simulation.robot_count(); ++r) {
         // in this order, because the order of arguments is unspecified
-        const double v = 0.5 * uniform();
-        drive(simulation, v, 3.0 * uniform(), r);
+        const double v = random.uniform(-0.5, 0.5);
+        drive(simulation, v, random.uniform(-3.0, 3.0), r);
       }
     }
     simulation.step();

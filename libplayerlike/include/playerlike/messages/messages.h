@@ -34,6 +34,15 @@ struct DeviceInfo {
   std::map<std::string, double> properties;  ///< numeric settings, in SI units and radians
 };
 
+/// An address of a Player server.
+struct PlayerAddress {
+  std::string interface;
+  int index = 0;
+  std::string driver;               ///< name of the server's driver
+  DeviceId reading{-1, -1};         ///< device of the readings; none for the world's interfaces
+  std::optional<DeviceId> motion;   ///< motors of the address, for position2d
+};
+
 /// Description of a robot for clients.
 struct RobotInfo {
   std::string name;
@@ -57,6 +66,9 @@ struct RobotInfo {
   std::vector<sim::DriverDescription> drivers;    ///< as in the world file
   std::vector<SndDriverDescription> snd_drivers;  ///< parsed entries of drivers with type "snd"
   std::vector<DeviceInfo> devices;
+  /// All addresses of the port, if the robot is that of a Player server. Otherwise they follow from
+  /// the devices' types, see find_interface().
+  std::optional<std::vector<PlayerAddress>> addresses;
 };
 
 /// Size and position of the grid-map.
@@ -160,6 +172,8 @@ struct InterfaceBinding {
   int robot = -1;                  ///< index of the robot; -1 for the world's interfaces
   const SndDriverDescription* driver = nullptr;  ///< driver that receives goals, or null; belongs
                                                  ///< to the list of robots
+  const PlayerAddress* address = nullptr;  ///< of a Player server, or null; belongs to the list of
+                                           ///< robots
 
   /// Whether the address belongs to the world instead of a device. The world answers requests and
   /// makes no readings.
@@ -180,6 +194,7 @@ struct InterfaceBinding {
 /// (batteries), "graphics2d" (pens); interfaces with the names of their devices ("aio",
 /// "blinkenlight", "bumper", "dio", "fiducial", "gps", "gripper", "imu", "opaque", "speech",
 /// "wifi"); and the world's interfaces "log", "map" and "simulation", with index 0 on every port.
+/// The port of a Player server has that server's addresses instead (RobotInfo::addresses).
 /// @throws SessionError kNoSuchDevice, naming the existing addresses and, if the port does not have
 ///         the interface at all, a world that has it (example_world()).
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,

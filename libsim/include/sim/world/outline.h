@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -9,8 +10,27 @@
 #include "sim/core/pose.h"
 #include "sim/world/description.h"
 
-/// Polygons, and the outlines of obstacles.
+/// Segments, polygons, and the outlines of obstacles.
 namespace sim {
+
+/// Where on the segment from a to b the point that is nearest to p lies: 0 at a, 1 at b. 0 if both
+/// ends are equal.
+[[nodiscard]] inline double nearest_share(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double length2 = along.squaredNorm();
+  return length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+}
+
+/// The point of the segment from a to b that is nearest to p [m].
+[[nodiscard]] inline Vec2 nearest_on_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  return a + nearest_share(p, a, b) * (b - a);
+}
+
+/// Distance of a point from the segment from a to b [m].
+[[nodiscard]] inline double distance_to_segment_m(const Vec2& p, const Vec2& a, const Vec2& b) {
+  // In this order: rounding decides between corners of a map that are equally far from a line.
+  return (p - a - nearest_share(p, a, b) * (b - a)).norm();
+}
 
 /// Signed area of a polygon [m^2]: positive if it runs counter-clockwise.
 [[nodiscard]] double area_m2(const Polygon& outline);
