@@ -233,6 +233,17 @@ TEST_F(PlaypenServe, LimitsAreOptions) {
   EXPECT_THAT(answer, HasSubstr("protocol/too-long"));
 }
 
+TEST_F(PlaypenServe, PlayersClientsFindEachRobotOnItsOwnPort) {
+  start({"--player-port", "0"});
+  const std::string start_of_line = "Player's protocol on 127.0.0.1:";
+  ASSERT_TRUE(server_->read_until(start_of_line));
+  ASSERT_TRUE(server_->read_until(": r1\n"));
+  const std::string& text = server_->output();
+  const int port = std::stoi(text.substr(text.find(start_of_line) + start_of_line.size()));
+  RawClient client("127.0.0.1", port);
+  EXPECT_THAT(client.bytes(32), testing::StartsWith("Player v.3."));
+}
+
 TEST_F(PlaypenServe, TheShellsSettingsOfRunsDoNotCount) {
   ProcessOptions process;
   process.environment = {{"PLAYPEN_SEED", "no number"}, {"PLAYPEN_DURATION", "1"}};
@@ -251,6 +262,7 @@ TEST_F(PlaypenServe, BadOptionsAreRefusedByNameAndValue) {
                                          {"--port", "http"},
                                          {"--stream-port", "70000"},
                                          {"--sync-port", "x"},
+                                         {"--player-port", "65536"},
                                          {"--clients", "-1"},
                                          {"--time", "slow"},
                                          {"--duration", "0"},

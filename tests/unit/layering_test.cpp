@@ -175,7 +175,8 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"playerc",
        {"virtual_time", "libplayerinterface", "libplayerc", "libplayerc++", "devices", "proxies"}},
       // Devices in the words of Player's protocol.
-      {"wire", {"messages", "protocol", "session", "libplayerinterface", "proxies"}},
+      {"wire",
+       {"messages", "protocol", "session", "libplayerinterface", "libplayerc++", "proxies"}},
       {"imr", {"virtual_time", "libplayerc++", "imr-h"}},
       // Programs.
       {"client", {"libplayerc++"}},

@@ -7,6 +7,7 @@
 #include "libplayerinterface/player_constants.h"
 #include "playerlike/server/server_settings.h"
 #include "proxies/interfaces.h"
+#include "session/checks.h"
 #include "sim/core/time.h"
 
 namespace playerlike::server {
@@ -139,7 +140,6 @@ PlayerConnection::Answer PlayerConnection::list_devices() {
     if (!code) continue;
     const Devaddr address =
         own_address(static_cast<unsigned>(*code), static_cast<unsigned>(item.index));
-    if (!driver_of(address)) continue;
     if (list.devices.size() < PLAYER_MAX_DEVICES) list.devices.push_back(address);
   }
   return {true, player::encode(list)};
@@ -160,32 +160,26 @@ PlayerConnection::Answer PlayerConnection::open_or_close(std::string_view payloa
   const int mode = std::exchange(answer.access, PLAYER_ERROR_MODE);
   answer.driver_name.clear();
   const auto refusal = [&] { return Answer{false, player::encode(answer)}; };
-  if (!rights_.connect) return refusal();
-  OpenDevice* device = find(answer.addr);
+  const std::optional<std::string> driver = driver_of(answer.addr);
+  if (!rights_.connect || !driver) return refusal();
+  OpenDevice* const device = find(answer.addr);
   if (mode == PLAYER_OPEN_MODE && device != nullptr) {
     ++device->count;
     answer.access = PLAYER_OPEN_MODE;
-  } else {
-    auto made = device == nullptr ? make(answer.addr) : nullptr;
-    if (device == nullptr && made == nullptr) return refusal();
-    answer.driver_name = player::text_bytes(device == nullptr ? made->driver() : device->driver);
-    if (mode == PLAYER_OPEN_MODE) {
-      try {
-        open(answer.addr, std::move(made));
-      } catch (const std::exception& error) {
-        note(device_text(answer.addr) + " was not opened: " + error.what());
-        answer.driver_name.clear();
-        return refusal();
-      }
-      answer.access = PLAYER_OPEN_MODE;
-    } else if (mode == PLAYER_CLOSE_MODE && device != nullptr) {
-      if (--device->count == 0) close(*device);
-      answer.access = PLAYER_CLOSE_MODE;
+  } else if (mode == PLAYER_OPEN_MODE) {
+    try {
+      open(answer.addr);
+    } catch (const std::exception& error) {
+      note(device_text(answer.addr) + " was not opened: " + error.what());
+      return refusal();
     }
-    // Otherwise the access remains "error", as Player answers.
-    return {true, player::encode(answer)};
+    answer.access = PLAYER_OPEN_MODE;
+  } else if (mode == PLAYER_CLOSE_MODE && device != nullptr) {
+    if (--device->count == 0) close(*device);
+    answer.access = PLAYER_CLOSE_MODE;
   }
-  answer.driver_name = player::text_bytes(device->driver);
+  // Otherwise the access remains "error", as Player answers.
+  answer.driver_name = player::text_bytes(*driver);
   return {true, player::encode(answer)};
 }
 
@@ -270,29 +264,19 @@ void PlayerConnection::request_data() {
 
 // --- Devices
 
-std::unique_ptr<wire::PlayerDevice> PlayerConnection::make(const Devaddr& address) {
-  const char* const name = PlayerCc::interface_name(address.interf);
-  if (name == nullptr) return nullptr;
-  try {
-    return wire::make_player_device(session_, robot_port_, name, address.index);
-  } catch (const SessionError&) {
-    return nullptr;  // no such device
-  }
-}
-
-// A driver's device has a thread, so it is made only for clients that open it.
-std::optional<std::string> PlayerConnection::driver_of(const Devaddr& address) {
-  if (const OpenDevice* const device = find(address)) return device->driver;
+// Devices are made only for clients that open them, since some have a thread or a layer.
+std::optional<std::string> PlayerConnection::driver_of(const Devaddr& address) const {
   const char* const name = PlayerCc::interface_name(address.interf);
   if (name == nullptr) return std::nullopt;
   try {
     const auto& robots = session_.robots();
-    if (find_interface(robots, robot_port_, name, address.index).driver != nullptr) return "snd";
+    const InterfaceBinding binding = find_interface(robots, robot_port_, name, address.index);
+    if (binding.is_world()) return "world";
+    if (binding.driver != nullptr) return "snd";
+    return require_device(robots, binding.reading).type;
   } catch (const SessionError&) {
-    return std::nullopt;
+    return std::nullopt;  // no such device
   }
-  const auto device = make(address);
-  return device == nullptr ? std::nullopt : std::optional(device->driver());
 }
 
 PlayerConnection::OpenDevice* PlayerConnection::find(const Devaddr& address) {
@@ -302,12 +286,17 @@ PlayerConnection::OpenDevice* PlayerConnection::find(const Devaddr& address) {
   return it == open_.end() ? nullptr : &*it;
 }
 
-void PlayerConnection::open(const Devaddr& address, std::unique_ptr<wire::PlayerDevice> device) {
+void PlayerConnection::open(const Devaddr& address) {
+  const char* const name = PlayerCc::interface_name(address.interf);
+  const InterfaceBinding binding =
+      find_interface(session_.robots(), robot_port_, name, address.index);
+  auto device = wire::make_player_device(session_, robot_port_, name, address.index);
+  if (device == nullptr) {
+    throw SessionError(SessionError::Code::kNotAvailable,
+                       "the interface is not offered to clients of Player's protocol");
+  }
   OpenDevice opened;
   opened.address = address;
-  opened.driver = device->driver();
-  const InterfaceBinding binding = find_interface(
-      session_.robots(), robot_port_, PlayerCc::interface_name(address.interf), address.index);
   if (!binding.is_world()) opened.belongs_to = binding.reading;
   const std::vector<DeviceId> sources = device->sources();
   opened.device = std::move(device);
@@ -469,7 +458,6 @@ void PlayerConnection::finish_round(Outcome outcome) {
     return peer_.close("");
   }
   if (outcome != Outcome::kData) return;
-  requested_ = false;
   EachReading readings([this](DeviceId source, const sim::Reading& reading) {
     data_time_s_ = sim::to_seconds(reading.time_ns);
     for (OpenDevice& device : open_) {
@@ -480,7 +468,11 @@ void PlayerConnection::finish_round(Outcome outcome) {
       guarded(device, [&] { device.device->on_reading(source, reading, *this); });
     }
   });
-  session_.take(readings);
+  // A round that began before the first device was opened may end without readings.
+  const bool has_sources = std::any_of(
+      open_.begin(), open_.end(), [](const OpenDevice& device) { return !device.sources.empty(); });
+  if (session_.take(readings) == 0 && pull_ && has_sources) return begin_to_wait();
+  requested_ = false;
   data_time_s_ = now_s();
   for (OpenDevice& device : open_) {
     current_ = &device;

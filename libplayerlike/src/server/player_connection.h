@@ -45,7 +45,6 @@ class PlayerConnection final : public Handler, private wire::DataSink {
   struct OpenDevice {
     player::Devaddr address;
     std::unique_ptr<wire::PlayerDevice> device;
-    std::string driver;
     std::vector<DeviceId> sources;       ///< subscribed
     std::optional<DeviceId> belongs_to;  ///< a device of its robot; none: the world's
     int count = 1;                       ///< how many times it is open
@@ -69,13 +68,11 @@ class PlayerConnection final : public Handler, private wire::DataSink {
   void request_data();
 
   // Devices.
-  /// @return null if there is no such device, or its interface is not offered.
-  [[nodiscard]] std::unique_ptr<wire::PlayerDevice> make(const player::Devaddr& address);
-  /// Name of the driver of a device; nullopt if make() would return null.
-  [[nodiscard]] std::optional<std::string> driver_of(const player::Devaddr& address);
+  /// Name of the driver of a device; nullopt if there is no such device.
+  [[nodiscard]] std::optional<std::string> driver_of(const player::Devaddr& address) const;
   [[nodiscard]] OpenDevice* find(const player::Devaddr& address);
   /// @throws SessionError, ProtocolError if the client may not read the device.
-  void open(const player::Devaddr& address, std::unique_ptr<wire::PlayerDevice> device);
+  void open(const player::Devaddr& address);
   void close(OpenDevice& device);
   void command(OpenDevice& to, const player::Message& message);
   [[nodiscard]] Answer request(OpenDevice& to, const player::Message& message);

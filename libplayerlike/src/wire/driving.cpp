@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "libplayerc++/playererror.h"
 #include "libplayerinterface/player_constants.h"
 #include "proxies/goal_driver.h"
 #include "session/player_values.h"
@@ -20,7 +21,7 @@ class Position2d final : public RobotDevice {
       : RobotDevice(context),
         max_speed_mps_(robot().max_speed_mps),
         max_turn_rate_radps_(robot().max_turn_rate_radps) {
-    if (binding().driver != nullptr) driver_ = share_driver(session(), binding());
+    if (binding().driver != nullptr) driver_ = shared_driver();
     if (!binding().motion) return;
     const DeviceSettings& limits = device_of(*binding().motion).properties;
     const auto tighten = [&](const char* name, double& value) {
@@ -35,11 +36,13 @@ class Position2d final : public RobotDevice {
     const auto* measured = reading_as<sim::PoseReading>(reading);
     if (measured == nullptr) return;
     const sim::Twist& twist = measured->twist;
-    sink.data(PLAYER_POSITION2D_DATA_STATE,
-              player::encode(
-                  player::Position2dData{pose_2d(measured->pose),
-                                         {twist.v_mps, twist.lateral_mps, twist.omega_radps},
-                                         static_cast<std::uint8_t>(measured->stalled ? 1 : 0)}));
+    constexpr std::size_t kLength = 6 * sizeof(double) + 4;
+    sink.data(
+        PLAYER_POSITION2D_DATA_STATE,
+        encode_long(player::Position2dData{pose_2d(measured->pose),
+                                           {twist.v_mps, twist.lateral_mps, twist.omega_radps},
+                                           static_cast<std::uint8_t>(measured->stalled ? 1 : 0)},
+                    kLength));
   }
 
   void command(std::uint8_t subtype, std::string_view payload) override {
@@ -91,6 +94,14 @@ class Position2d final : public RobotDevice {
  private:
   [[nodiscard]] const DeviceInfo& device_of(DeviceId device) const {
     return robot().devices.at(static_cast<std::size_t>(device.device));
+  }
+
+  [[nodiscard]] std::shared_ptr<GoalDriver> shared_driver() const {
+    try {
+      return share_driver(session(), binding());
+    } catch (const PlayerCc::PlayerError& e) {
+      throw SessionError(SessionError::Code::kNotAvailable, e.GetErrorStr());
+    }
   }
 
   void send_to_motors(const sim::Command& command) const {

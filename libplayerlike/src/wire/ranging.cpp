@@ -78,11 +78,8 @@ class LaserDevice final : public RobotDevice {
       scan_.ranges[i] = static_cast<float>(
           range_res_m_ > 0.0 ? limited_range_m(range_m, range_res_m_, 0.0, range_max_m_) : range_m);
     }
-    std::string payload;
     constexpr std::size_t kOtherFields = 64;
-    payload.reserve(kOtherFields + 5 * window.shown);
-    player::append(payload, scan_);
-    sink.data(PLAYER_LASER_DATA_SCAN, std::move(payload));
+    sink.data(PLAYER_LASER_DATA_SCAN, encode_long(scan_, kOtherFields + 5 * window.shown));
   }
 
  protected:
@@ -164,11 +161,9 @@ class RangerDevice final : public RobotDevice {
     } else {
       return;
     }
-    std::string payload;
     constexpr std::size_t kCounts = 8;
-    payload.reserve(kCounts + sizeof(double) * data_.ranges.size());
-    player::append(payload, data_);
-    sink.data(PLAYER_RANGER_DATA_RANGE, std::move(payload));
+    sink.data(PLAYER_RANGER_DATA_RANGE,
+              encode_long(data_, kCounts + sizeof(double) * data_.ranges.size()));
   }
 
  protected:

@@ -113,6 +113,15 @@ template <typename Reading>
 /// @throws SessionError kBadArgument if it has control characters, since it may be shown.
 [[nodiscard]] std::string printable_text(const char* what, std::string_view bytes);
 
+/// Encodes a payload of about this length without allocating memory twice [bytes].
+template <typename Payload>
+[[nodiscard]] std::string encode_long(const Payload& payload, std::size_t length) {
+  std::string bytes;
+  bytes.reserve(length);
+  player::append(bytes, payload);
+  return bytes;
+}
+
 /// Payload of messages without fields.
 [[nodiscard]] inline std::string empty_payload() { return {}; }
 

@@ -85,10 +85,7 @@ class Camera final : public RobotDevice {
  private:
   [[nodiscard]] std::string encoded() const {
     constexpr std::size_t kOtherFields = 36;
-    std::string payload;
-    payload.reserve(kOtherFields + picture_.image.size());
-    player::append(payload, picture_);
-    return payload;
+    return encode_long(picture_, kOtherFields + picture_.image.size());
   }
 
   player::CameraData picture_;  // the newest one

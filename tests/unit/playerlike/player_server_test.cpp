@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <iterator>
@@ -42,10 +44,8 @@ std::shared_ptr<Host> make_host(const std::string& simulation = "{}") {
   return test::patient_host(sim::load_world_text(
       R"({"name": "room", "arena": {"size": [20, 4]}, "simulation": )" + simulation +
       R"(, "robots": [
-        {"name": "r1", "pose": {"x": 1, "y": 1}, "devices": [
-          {"type": "motion"}, {"type": "pose"}, {"type": "laser"}]},
-        {"name": "r2", "pose": {"x": 1, "y": 3}, "devices": [
-          {"type": "motion"}, {"type": "pose"}]}]})"));
+        {"name": "r1", "pose": {"x": 1, "y": 1}},
+        {"name": "r2", "pose": {"x": 1, "y": 3}, "devices": {"laser": null}}]})"));
 }
 
 class PlayerServer : public testing::Test {
@@ -202,6 +202,22 @@ TEST_F(PlayerServer, ListsTheDevicesOfARobot) {
   for (const player::Devaddr& address :
        other.request(PLAYER_PLAYER_REQ_DEVLIST).as<player::DeviceDevlist>().devices) {
     EXPECT_NE(address.interf, PLAYER_LASER_CODE);
+  }
+}
+
+TEST_F(PlayerServer, EachDeviceOfTheListOpensAndCloses) {
+  start(test::patient_host(sim::load_world(PLAYPEN_SOURCE_DIR "/worlds/cave.json")));
+  PlayerWireClient client(server->player_ports().begin()->second);
+  client.set_mode(PLAYER_DATAMODE_PULL);
+  const auto devices =
+      client.request(PLAYER_PLAYER_REQ_DEVLIST).as<player::DeviceDevlist>().devices;
+  EXPECT_THAT(devices, SizeIs(testing::Gt(5U)));
+  for (const player::Devaddr& address : devices) {
+    for (const int mode : {PLAYER_OPEN_MODE, PLAYER_CLOSE_MODE}) {
+      const PlayerMessage answer = client.access(address.interf, address.index, mode);
+      EXPECT_EQ(answer.header.type, PLAYER_MSGTYPE_RESP_ACK) << address.interf;
+      EXPECT_EQ(answer.as<player::DeviceReq>().access, mode) << address.interf;
+    }
   }
 }
 
@@ -422,39 +438,46 @@ TEST_F(PlayerServer, ConnectionsOfAProcessCountAsOneThread) {
 }
 
 TEST_F(PlayerServer, TimeWaitsForOtherProcesses) {
-  start();
-  PlayerWireClient mine = reader({PLAYER_POSITION2D_CODE});
-  EXPECT_THAT(mine.round(), SizeIs(1));
   int to_parent[2];
   int to_child[2];
   ASSERT_EQ(pipe(to_parent), 0);
   ASSERT_EQ(pipe(to_child), 0);
-  const int tcp_port = port(6666);
+  // Forked while this process has one thread only.
   const pid_t child = fork();
   if (child == 0) {
-    // Only async-signal-safe calls may follow a fork of a process with threads; allocations work
-    // with glibc.
-    PlayerWireClient other(tcp_port);
-    other.set_mode(PLAYER_DATAMODE_PULL);
-    other.open(PLAYER_POSITION2D_CODE);
-    static_cast<void>(other.round().size());
-    char byte = 'x';
-    if (write(to_parent[1], &byte, 1) != 1 || read(to_child[0], &byte, 1) != 1) _exit(1);
-    _exit(0);  // its death must let time advance
+    try {
+      int tcp_port = 0;
+      char byte = 'x';
+      if (read(to_child[0], &tcp_port, sizeof tcp_port) != sizeof tcp_port) _exit(1);
+      PlayerWireClient other(tcp_port);
+      other.set_mode(PLAYER_DATAMODE_PULL);
+      other.open(PLAYER_POSITION2D_CODE);
+      if (other.round().empty()) _exit(2);
+      if (write(to_parent[1], &byte, 1) != 1 || read(to_child[0], &byte, 1) != 1) _exit(3);
+      _exit(0);  // its death must let time advance
+    } catch (...) {
+      _exit(4);
+    }
   }
-  // The child's first round needs this client's, too.
-  std::size_t rounds = 0;
+  start();
+  PlayerWireClient mine = reader({PLAYER_POSITION2D_CODE});
+  const int tcp_port = port(6666);
+  ASSERT_EQ(write(to_child[1], &tcp_port, sizeof tcp_port), ssize_t{sizeof tcp_port});
+  std::atomic<bool> over{false};
+  std::thread reading([&] {
+    while (!over) EXPECT_THAT(mine.round(), SizeIs(1));
+  });
+  // The child's round has ended, and it holds time until its death.
   char byte = 0;
-  std::thread reading([&] { EXPECT_EQ(read(to_parent[0], &byte, 1), 1); });
-  rounds += mine.round().size();
-  // The child may have asked for its round only after this one.
-  mine.begin_round();
-  reading.join();
+  EXPECT_EQ(read(to_parent[0], &byte, 1), 1);
   const auto before_ns = host->now_ns();
-  EXPECT_GT(before_ns, 0);
+  PlayerWireClient onlooker = reader({PLAYER_POSITION2D_CODE});
+  EXPECT_EQ(onlooker.request(PLAYER_POSITION2D_CODE, 0, PLAYER_POSITION2D_REQ_GET_GEOM).header.type,
+            PLAYER_MSGTYPE_RESP_ACK);
+  EXPECT_EQ(host->now_ns(), before_ns);
+  over = true;
   EXPECT_EQ(write(to_child[1], &byte, 1), 1);
-  rounds += mine.end_round().size();
-  EXPECT_GE(rounds, 2U);
+  reading.join();
   int status = 0;
   EXPECT_EQ(waitpid(child, &status, 0), child);
   EXPECT_EQ(status, 0);
@@ -463,7 +486,7 @@ TEST_F(PlayerServer, TimeWaitsForOtherProcesses) {
 }
 
 TEST_F(PlayerServer, PacedTimeFollowsTheClock) {
-  start(make_host(R"({"time": {"mode": "paced", "factor": 50}})"));
+  start(make_host(R"({"time": 50})"));
   PlayerWireClient client = reader({PLAYER_POSITION2D_CODE, PLAYER_LASER_CODE});
   double last_s = 0.0;
   for (int i = 0; i < 5; ++i) {
@@ -732,8 +755,10 @@ TEST(PeerProcess, FindsThisProcessForIpv4AndIpv6) {
     ServerSettings settings;
     settings.port = 0;
     settings.bind = address;
+    settings.player_port = 0;
     const Server server(host, settings);
-    const RawClient client(address, server.port());
+    RawClient client(address, server.player_ports().at(6665));
+    EXPECT_THAT(client.bytes(player::kBannerBytes), SizeIs(player::kBannerBytes));
     // Both ends belong to this process.
     EXPECT_EQ(peer_process(client.descriptor()), getpid());
   }

@@ -706,7 +706,7 @@ TEST(WirePtz, PointsAsTheProxy) {
   expect_same();
   EXPECT_FALSE(device.accepts(PLAYER_PTZ_REQ_CONTROL_MODE, player::PtzReqControlMode{2}));
   EXPECT_TRUE(device.accepts(PLAYER_PTZ_REQ_GEOM));
-  EXPECT_THROW(device.command(PLAYER_PTZ_CMD_STATE, player::PtzCmd{NAN, 0, 0, 0, 0}), SessionError);
+  EXPECT_THROW(device.command(PLAYER_PTZ_CMD_STATE, player::PtzCmd{0, 0, 0, NAN, 0}), SessionError);
 }
 
 TEST(WireGripper, GripsAsTheProxy) {
@@ -720,6 +720,15 @@ TEST(WireGripper, GripsAsTheProxy) {
     EXPECT_EQ(data.beams, proxy.GetBeams());
     EXPECT_EQ(data.stored, proxy.GetStored());
   };
+  // The can stands before the paddles.
+  const double speed_mps = 0.1;
+  Position2dProxy motors(&twins.client, 0);
+  motors.SetSpeed(speed_mps, 0.0);
+  WireDevice wheels = twins.open("position2d");
+  wheels.command(PLAYER_POSITION2D_CMD_VEL, player::Position2dCmdVel{{speed_mps, 0.0, 0.0}, 1});
+  expect_same();
+  motors.SetSpeed(0.0, 0.0);
+  wheels.command(PLAYER_POSITION2D_CMD_VEL, player::Position2dCmdVel{});
   expect_same();
   proxy.Close();
   device.command(PLAYER_GRIPPER_CMD_CLOSE, player::Empty{});
