@@ -42,10 +42,8 @@ std::shared_ptr<Host> make_host(const std::string& simulation = "{}") {
   return test::patient_host(sim::load_world_text(
       R"({"name": "room", "arena": {"size": [20, 4]}, "simulation": )" + simulation +
       R"(, "robots": [
-        {"name": "r1", "pose": {"x": 1, "y": 1}, "devices": [
-          {"type": "motion"}, {"type": "pose"}, {"type": "laser"}]},
-        {"name": "r2", "pose": {"x": 1, "y": 3}, "devices": [
-          {"type": "motion"}, {"type": "pose"}]}]})"));
+        {"name": "r1", "pose": {"x": 1, "y": 1}},
+        {"name": "r2", "pose": {"x": 1, "y": 3}, "devices": {"laser": null}}]})"));
 }
 
 class PlayerServer : public testing::Test {
@@ -463,7 +461,7 @@ TEST_F(PlayerServer, TimeWaitsForOtherProcesses) {
 }
 
 TEST_F(PlayerServer, PacedTimeFollowsTheClock) {
-  start(make_host(R"({"time": {"mode": "paced", "factor": 50}})"));
+  start(make_host(R"({"time": 50})"));
   PlayerWireClient client = reader({PLAYER_POSITION2D_CODE, PLAYER_LASER_CODE});
   double last_s = 0.0;
   for (int i = 0; i < 5; ++i) {
@@ -732,8 +730,10 @@ TEST(PeerProcess, FindsThisProcessForIpv4AndIpv6) {
     ServerSettings settings;
     settings.port = 0;
     settings.bind = address;
+    settings.player_port = 0;
     const Server server(host, settings);
-    const RawClient client(address, server.port());
+    RawClient client(address, server.player_ports().at(6665));
+    EXPECT_THAT(client.bytes(player::kBannerBytes), SizeIs(player::kBannerBytes));
     // Both ends belong to this process.
     EXPECT_EQ(peer_process(client.descriptor()), getpid());
   }
