@@ -56,8 +56,8 @@ struct PlayerLink::Impl {
 
   std::mutex mutex;  // guards the members below
   std::condition_variable changed;
-  bool led = false;              // a leader is reading the socket
-  bool round_requested = false;  // and the round is not complete yet
+  bool led = false;                     // a leader is reading the socket
+  bool round_requested = false;         // and the round is not complete yet
   std::optional<player::Msghdr> asked;  // the request in flight: interface, index and subtype
   std::optional<Reply> reply;
   Clock::time_point heard{};  // when data have arrived last

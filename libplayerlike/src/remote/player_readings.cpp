@@ -68,11 +68,11 @@ Made position(std::uint8_t subtype, std::string_view payload) {
 Made localization(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_LOCALIZE_DATA_HYPOTHS) return nullptr;
   const auto data = decode<player::LocalizeData>(payload);
-  const auto best = std::max_element(data.hypoths.begin(), data.hypoths.end(),
-                                     [](const player::LocalizeHypoth& a,
-                                        const player::LocalizeHypoth& b) {
-                                       return a.alpha < b.alpha;
-                                     });
+  const auto best =
+      std::max_element(data.hypoths.begin(), data.hypoths.end(),
+                       [](const player::LocalizeHypoth& a, const player::LocalizeHypoth& b) {
+                         return a.alpha < b.alpha;
+                       });
   if (best == data.hypoths.end()) return nullptr;
   const auto reading = std::make_shared<sim::PoseReading>();
   reading->pose = pose_of(best->mean);
@@ -140,8 +140,8 @@ Made battery(std::uint8_t subtype, std::string_view payload) {
   reading->charge_percent = double{data.percent};
   reading->energy_wh = double{data.joules} / 3600.0;
   reading->power_w = double{data.watts};
-  reading->status = data.charging > 0 ? sim::BatteryStatus::kCharging
-                                      : sim::BatteryStatus::kDischarging;
+  reading->status =
+      data.charging > 0 ? sim::BatteryStatus::kCharging : sim::BatteryStatus::kDischarging;
   return reading;
 }
 
@@ -308,10 +308,10 @@ Made blobs(std::uint8_t subtype, std::string_view payload) {
 }
 
 [[noreturn]] void refuse_image(const player::CameraData& data) {
-  throw protocol::ProtocolError(
-      "player/payload", "an image of " + std::to_string(data.width) + " x " +
-                            std::to_string(data.height) + " pixels has " +
-                            std::to_string(data.image.size()) + " bytes");
+  throw protocol::ProtocolError("player/payload", "an image of " + std::to_string(data.width) +
+                                                      " x " + std::to_string(data.height) +
+                                                      " pixels has " +
+                                                      std::to_string(data.image.size()) + " bytes");
 }
 
 /// Images become RGB with 8 bits per channel. Compressed ones are skipped.
@@ -319,8 +319,8 @@ Made image(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_CAMERA_DATA_STATE) return nullptr;
   auto data = decode<player::CameraData>(payload);
   if (data.compression != PLAYER_CAMERA_COMPRESS_RAW) return nullptr;
-  const bool is_wide = data.format == PLAYER_CAMERA_FORMAT_MONO16 ||
-                       data.format == PLAYER_CAMERA_FORMAT_RGB565;
+  const bool is_wide =
+      data.format == PLAYER_CAMERA_FORMAT_MONO16 || data.format == PLAYER_CAMERA_FORMAT_RGB565;
   const std::uint64_t bytes_per_pixel = data.format == PLAYER_CAMERA_FORMAT_RGB888 ? 3
                                         : is_wide                                  ? 2
                                                                                    : 1;

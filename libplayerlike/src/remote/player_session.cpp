@@ -77,9 +77,9 @@ std::shared_ptr<PlayerLink> PlayerSession::connect() {
   link->set_request_timeout(wall_duration(request_timeout_s_));
   for (const std::string& token : settings_.tokens) {
     player::DeviceAuthReq key;
-    key.auth_key.assign(token.begin(),
-                        token.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
-                                            token.size(), PLAYER_KEYLEN - 1)));
+    key.auth_key.assign(
+        token.begin(), token.begin() + static_cast<std::ptrdiff_t>(
+                                           std::min<std::size_t>(token.size(), PLAYER_KEYLEN - 1)));
     key.auth_key.push_back(0);
     const auto reply = link->request(player_itself(), PLAYER_PLAYER_REQ_AUTH, player::encode(key));
     if (reply && reply->accepted) break;
@@ -236,12 +236,11 @@ void PlayerSession::send_open(PlayerLink& link, const Address& address, std::uin
   request.addr.interf = address.at.interf;
   request.addr.index = address.at.index;
   request.access = mode;
-  const auto reply =
-      link.request(player_itself(), PLAYER_PLAYER_REQ_DEV, player::encode(request));
+  const auto reply = link.request(player_itself(), PLAYER_PLAYER_REQ_DEV, player::encode(request));
   if (!reply) {
     throw not_available("the Player server at " + link.address().text() + " has not answered for " +
-                        seconds_text(link.request_timeout()) + " whether it opens " +
-                        address.name + "; SetRequestTimeout() allows more time");
+                        seconds_text(link.request_timeout()) + " whether it opens " + address.name +
+                        "; SetRequestTimeout() allows more time");
   }
   if (mode == PLAYER_CLOSE_MODE) return;
   if (!reply->accepted ||
@@ -405,9 +404,9 @@ void PlayerSession::on_data(const player::Msghdr& header, std::string_view paylo
   if (address.subscriptions == 0) return;
   sim::SharedReading reading;
   try {
-    reading = address.readings.convert(
-        header.subtype, header.timestamp, payload,
-        robots_.front().devices[static_cast<std::size_t>(address.device)]);
+    reading =
+        address.readings.convert(header.subtype, header.timestamp, payload,
+                                 robots_.front().devices[static_cast<std::size_t>(address.device)]);
   } catch (const protocol::ProtocolError& e) {
     throw protocol::ProtocolError(e.id(), "data of " + address.name + ": " + e.what());
   }
@@ -454,8 +453,7 @@ bool PlayerSession::subscribes_to_nothing() {
                      [](const auto& address) { return address->subscriptions == 0; });
 }
 
-void PlayerSession::await_round(PlayerLink& link,
-                                std::optional<SocketClock::time_point> deadline) {
+void PlayerSession::await_round(PlayerLink& link, std::optional<SocketClock::time_point> deadline) {
   for (;;) {
     std::uint64_t rounds = 0;
     {
@@ -492,8 +490,8 @@ void PlayerSession::wait() {
 }
 
 bool PlayerSession::peek(milliseconds timeout) {
-  const auto deadline =
-      SocketClock::now() + std::clamp<milliseconds>(timeout, milliseconds(0), std::chrono::hours(1));
+  const auto deadline = SocketClock::now() +
+                        std::clamp<milliseconds>(timeout, milliseconds(0), std::chrono::hours(1));
   return with_link([&](PlayerLink& link) {
     if (subscribes_to_nothing()) {
       static_cast<void>(link.wait(deadline, [] { return false; }));

@@ -23,10 +23,10 @@ namespace playerlike {
 /// How to open a session with a Player server.
 struct PlayerSettings {
   ServerAddress server;
-  std::vector<std::string> tokens;    ///< keys for the server's authentication; tried in turn
-  double connect_timeout_s = 10.0;    ///< of the whole attempt
-  double banner_timeout_s = 10.0;     ///< of the server's greeting
-  double request_timeout_s = 5.0;     ///< of an answer, see AnswerTimeoutRequest
+  std::vector<std::string> tokens;  ///< keys for the server's authentication; tried in turn
+  double connect_timeout_s = 10.0;  ///< of the whole attempt
+  double banner_timeout_s = 10.0;   ///< of the server's greeting
+  double request_timeout_s = 5.0;   ///< of an answer, see AnswerTimeoutRequest
 };
 
 class PlayerWorld;
@@ -44,8 +44,9 @@ struct ListedDevice;
 /// view: JoinRequest and NoteLooksRequest do nothing, and SleepRequest takes wall time. There is no
 /// canvas: CanvasInfoRequest returns an empty one, and requests to draw throw kNotAvailable.
 ///
-/// It has no thread: a thread that waits reads the socket, see PlayerLink. A request that the server
-/// refuses or does not answer in time throws SessionError kNotAvailable; the connection goes on.
+/// It has no thread: a thread that waits reads the socket, see PlayerLink. A request that the
+/// server refuses or does not answer in time throws SessionError kNotAvailable; the connection goes
+/// on.
 class PlayerSession final : public Session, private PlayerLink::Receiver {
  public:
   /// Connects. @throws SessionError as PlayerLink::open(), and if the server refuses.
@@ -75,14 +76,14 @@ class PlayerSession final : public Session, private PlayerLink::Receiver {
   /// One address of the server, and what this session has done with it. Guarded by `mutex_` unless
   /// constant.
   struct Address {
-    player::Devaddr at;   ///< constant; for messages to the device
-    std::string name;     ///< constant; "laser:0"
-    int device = -1;      ///< constant; index of the device of the readings, -1: none
+    player::Devaddr at;  ///< constant; for messages to the device
+    std::string name;    ///< constant; "laser:0"
+    int device = -1;     ///< constant; index of the device of the readings, -1: none
     bool opened = false;
     bool completed = false;  ///< geometry and settings were requested
     int subscriptions = 0;
-    std::optional<bool> replace;  ///< nothing: as by default
-    PlayerReadings readings{0};   ///< used by the link's leader only
+    std::optional<bool> replace;          ///< nothing: as by default
+    PlayerReadings readings{0};           ///< used by the link's leader only
     std::optional<double> period_s = {};  ///< of a light, as last set
     std::optional<double> duty_cycle = {};
   };
@@ -111,7 +112,8 @@ class PlayerSession final : public Session, private PlayerLink::Receiver {
   /// Requests the list of devices with their drivers.
   [[nodiscard]] static std::vector<ListedDevice> list_devices(PlayerLink& link);
   void make_addresses(const std::vector<ListedDevice>& devices);
-  /// The address of a device: of its readings, or of its motors. @throws SessionError kNoSuchDevice.
+  /// The address of a device: of its readings, or of its motors. @throws SessionError
+  /// kNoSuchDevice.
   [[nodiscard]] Address& address_of(DeviceId device);
   /// The first address of an interface; null if the server has none.
   [[nodiscard]] Address* address_of(unsigned interface);
@@ -156,13 +158,13 @@ class PlayerSession final : public Session, private PlayerLink::Receiver {
   std::condition_variable changed_;
   std::shared_ptr<PlayerLink> link_;
   bool replace_by_default_ = true;
-  bool round_ = false;            ///< a round is complete and was not taken yet
-  std::uint64_t rounds_ = 0;      ///< rounds of the server so far, also those without readings
+  bool round_ = false;               ///< a round is complete and was not taken yet
+  std::uint64_t rounds_ = 0;         ///< rounds of the server so far, also those without readings
   SocketClock::time_point first_{};  ///< when the oldest reading of the round has arrived
-  std::deque<Waiting> waiting_;   ///< readings that were not taken, oldest first
+  std::deque<Waiting> waiting_;      ///< readings that were not taken, oldest first
   std::size_t waiting_bytes_ = 0;
   std::uint32_t overflow_ = 0;
-  sim::SimTime time_ns_ = 0;      ///< newest time of data
+  sim::SimTime time_ns_ = 0;  ///< newest time of data
 };
 
 }  // namespace playerlike

@@ -19,9 +19,9 @@ namespace playerlike {
 namespace {
 
 constexpr std::uint32_t kMaxPlayerMap = 8192;  // as in Playpen's own maps
-constexpr std::uint32_t kMapTile = 640;      // side of a tile [cells], as Player's client requests
-constexpr std::size_t kMaxEntries = 4096;    // of the blackboard
-constexpr float kUnknown = 0.5F;            // occupancy of unknown cells
+constexpr std::uint32_t kMapTile = 640;    // side of a tile [cells], as Player's client requests
+constexpr std::size_t kMaxEntries = 4096;  // of the blackboard
+constexpr float kUnknown = 0.5F;           // occupancy of unknown cells
 
 /// The bytes of properties are those of the machine, which is little-endian on all that Player
 /// supports.
@@ -75,14 +75,14 @@ std::string property_bytes(const std::string& property, const PropertyValue& val
   const auto& text = std::get<std::string>(value);
   const std::optional<sim::Colour> colour = sim::parse_colour(text);
   if (property != "colour" || !colour) return player::text_bytes(text);
-  return bytes_of(std::vector<float>{static_cast<float>(colour->r) / 255.0F,
-                                     static_cast<float>(colour->g) / 255.0F,
-                                     static_cast<float>(colour->b) / 255.0F,
-                                     static_cast<float>(colour->a) / 255.0F});
+  return bytes_of(std::vector<float>{
+      static_cast<float>(colour->r) / 255.0F, static_cast<float>(colour->g) / 255.0F,
+      static_cast<float>(colour->b) / 255.0F, static_cast<float>(colour->a) / 255.0F});
 }
 
 [[noreturn]] void refuse_map(const std::string& why) {
-  throw SessionError(SessionError::Code::kNotAvailable, "the Player server's map is invalid: " + why);
+  throw SessionError(SessionError::Code::kNotAvailable,
+                     "the Player server's map is invalid: " + why);
 }
 
 /// Decompresses the cells of a tile, which must be exactly `count`.
@@ -120,8 +120,7 @@ std::string PlayerWorld::ask(unsigned interface, std::uint8_t subtype, const std
 }
 
 template <typename Payload>
-Payload PlayerWorld::ask_for(unsigned interface, std::uint8_t subtype,
-                             const std::string& payload) {
+Payload PlayerWorld::ask_for(unsigned interface, std::uint8_t subtype, const std::string& payload) {
   const std::string answer = ask(interface, subtype, payload);
   return session_.with_link([&](PlayerLink&) { return player::decode<Payload>(answer); });
 }
@@ -172,8 +171,8 @@ void PlayerWorld::handle(const SetObjectPropertyRequest& what) {
 
 void PlayerWorld::fetch_tile(const player::MapInfo& info, player::MapData tile,
                              sim::OccupancyMap& map) {
-  const auto answer = ask_for<player::MapData>(PLAYER_MAP_CODE, PLAYER_MAP_REQ_GET_DATA,
-                                               player::encode(tile));
+  const auto answer =
+      ask_for<player::MapData>(PLAYER_MAP_CODE, PLAYER_MAP_REQ_GET_DATA, player::encode(tile));
   if (answer.col != tile.col || answer.row != tile.row || answer.width != tile.width ||
       answer.height != tile.height) {
     refuse_map("it has sent another tile than was requested");
@@ -182,8 +181,7 @@ void PlayerWorld::fetch_tile(const player::MapInfo& info, player::MapData tile,
       inflated(answer.data, std::size_t{tile.width} * tile.height);
   for (std::uint32_t row = 0; row < tile.height; ++row) {
     // The first row is the top row here, and the bottom row in Player.
-    const std::size_t to =
-        std::size_t{info.height - 1 - (tile.row + row)} * info.width + tile.col;
+    const std::size_t to = std::size_t{info.height - 1 - (tile.row + row)} * info.width + tile.col;
     for (std::uint32_t column = 0; column < tile.width; ++column) {
       const std::int8_t cell = cells[std::size_t{row} * tile.width + column];
       map.cells[to + column] = cell > 0 ? 1.0F : cell < 0 ? 0.0F : kUnknown;
@@ -302,9 +300,9 @@ void PlayerWorld::resume(PlayerLink& link) {
 
 std::vector<BlackboardEntry> PlayerWorld::handle(const BlackboardRequest& what) {
   if (what.group && what.key && what.after == 0) {
-    const auto answer = ask_for<player::BlackboardEntry>(
-        PLAYER_BLACKBOARD_CODE, PLAYER_BLACKBOARD_REQ_GET_ENTRY,
-        player::encode(named(*what.group, *what.key)));
+    const auto answer =
+        ask_for<player::BlackboardEntry>(PLAYER_BLACKBOARD_CODE, PLAYER_BLACKBOARD_REQ_GET_ENTRY,
+                                         player::encode(named(*what.group, *what.key)));
     const PlayerSession::Lock lock(session_.mutex_);
     const BlackboardEntry* const entry = note(answer);
     if (entry == nullptr) return {};
@@ -329,9 +327,8 @@ std::vector<BlackboardEntry> PlayerWorld::handle(const BlackboardRequest& what) 
       found.push_back(entry);
     }
   }
-  std::sort(found.begin(), found.end(), [](const BlackboardEntry& a, const BlackboardEntry& b) {
-    return a.change < b.change;
-  });
+  std::sort(found.begin(), found.end(),
+            [](const BlackboardEntry& a, const BlackboardEntry& b) { return a.change < b.change; });
   return found;
 }
 
@@ -341,9 +338,9 @@ void PlayerWorld::handle(const SetBlackboardRequest& what) {
   entry.subtype = static_cast<std::uint16_t>(what.subtype);
   entry.data = what.data;
   using std::chrono::microseconds;
-  const auto now = std::chrono::duration_cast<microseconds>(
-                       std::chrono::system_clock::now().time_since_epoch())
-                       .count();
+  const auto now =
+      std::chrono::duration_cast<microseconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count();
   constexpr std::int64_t kMicroseconds = 1'000'000;
   entry.timestamp_sec = static_cast<std::uint32_t>(now / kMicroseconds);
   entry.timestamp_usec = static_cast<std::uint32_t>(now % kMicroseconds);

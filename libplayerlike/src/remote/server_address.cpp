@@ -11,10 +11,11 @@ namespace playerlike {
 namespace {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  throw SessionError(SessionError::Code::kBadArgument,
-                     '"' + text + "\" names no server: " + why +
-                         "; servers are named as tcp://HOST, tcp://HOST:PORT or tcp://[IPV6]:PORT, and "
-                         "Player's as player://HOST or player://HOST:PORT");
+  throw SessionError(
+      SessionError::Code::kBadArgument,
+      '"' + text + "\" names no server: " + why +
+          "; servers are named as tcp://HOST, tcp://HOST:PORT or tcp://[IPV6]:PORT, and "
+          "Player's as player://HOST or player://HOST:PORT");
 }
 
 std::optional<int> parse_port(std::string_view text) {
