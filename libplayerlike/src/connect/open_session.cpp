@@ -141,12 +141,26 @@ std::unique_ptr<Session> connect_to_server(const std::string& server, int port) 
 }
 
 // MORSE's port is no Player server's, so programs that name it mean Player's default port.
-int player_tcp_port(int port) { return port == kMorsePort ? kPlayerTcpPort : port; }
+int player_tcp_port(int port) { return port == kMorsePort ? kPlayerPort : port; }
 
-std::unique_ptr<Session> connect_to_player(const std::string& server, int port) {
+// The address of PLAYPEN_WORLD stands for all ports that a program names: its port is that of the
+// robot on Player's default port, and other robots have the same distance to it.
+ServerAddress player_server_of_world(const std::string& world, int port) {
+  constexpr int kNone = 0;
+  ServerAddress server = parse_server_address(world, kNone);
+  const int first = server.tcp_port == kNone ? kPlayerPort : server.tcp_port;
+  server.tcp_port = first + player_tcp_port(port) - kPlayerPort;
+  constexpr int kMaxPort = 65535;
+  if (server.tcp_port >= 1 && server.tcp_port <= kMaxPort) return server;
+  throw SessionError(SessionError::Code::kBadArgument,
+                     "PLAYPEN_WORLD=" + world + " has no robot on port " + std::to_string(port) +
+                         ": that would be TCP port " + std::to_string(server.tcp_port));
+}
+
+std::unique_ptr<Session> connect_to_player(ServerAddress server, int port) {
   use_real_time();
   PlayerSettings settings;
-  settings.server = parse_server_address(server, player_tcp_port(port));
+  settings.server = std::move(server);
   settings.tokens = SocketSettings::from_environment(settings.server, port).tokens;
   return std::make_unique<PlayerSession>(std::move(settings));
 }
@@ -267,14 +281,18 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
     }
     return host_of(file)->connect(port);
   }
-  if (host.starts_with(kPlayerPrefix)) return connect_to_player(host, port);
+  if (host.starts_with(kPlayerPrefix)) {
+    return connect_to_player(parse_server_address(host, player_tcp_port(port)), port);
+  }
   const std::string file(variable("PLAYPEN_WORLD"));
   if (host != "localhost" && host != "127.0.0.1") {
     if (!is_plain_name(host)) return connect_to_server(host, port);
     if (file.empty()) return connect_to_host(host, port);
     warn_of_host(host, file);
   }
-  if (file.starts_with(kPlayerPrefix)) return connect_to_player(file, port);
+  if (file.starts_with(kPlayerPrefix)) {
+    return connect_to_player(player_server_of_world(file, port), port);
+  }
   if (file.starts_with(kTcpPrefix)) return connect_to_server(file, port);
   return host_of(file)->connect(port);
 }

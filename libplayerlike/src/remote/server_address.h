@@ -21,8 +21,6 @@ struct ServerAddress {
 inline constexpr std::string_view kTcpPrefix = "tcp://";
 /// Prefix of host names that mean a Player server.
 inline constexpr std::string_view kPlayerPrefix = "player://";
-/// Player's default TCP port.
-inline constexpr int kPlayerTcpPort = 6665;
 
 /// Parses "tcp://HOST[:PORT]", "player://HOST[:PORT]" or "HOST[:PORT]"; an IPv6 address is in
 /// brackets.

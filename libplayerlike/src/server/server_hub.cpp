@@ -196,16 +196,18 @@ std::map<int, int> wanted_player_ports(const ServerSettings& settings,
   if (!settings.player_port) return ports;
   for (const int port : robot_ports) ports[port] = 0;
   if (*settings.player_port == 0 || ports.empty()) return ports;
-  const int lowest = ports.begin()->first;
-  const int last = *settings.player_port + ports.rbegin()->first - lowest;
-  if (last > kMaxPort) {
+  const int shift = *settings.player_port - kPlayerPort;
+  const int first = ports.begin()->first;
+  const int last = ports.rbegin()->first;
+  if (first + shift < 1 || last + shift > kMaxPort) {
     throw_issue("server/port-range", "player_port",
-                "a port from 1 to " + std::to_string(kMaxPort - (ports.rbegin()->first - lowest)) +
-                    ", since the robots' ports are up to " +
-                    std::to_string(ports.rbegin()->first - lowest) + " apart",
+                "a port from " + std::to_string(std::max(1, kPlayerPort + 1 - first)) + " to " +
+                    std::to_string(std::min(kMaxPort, kMaxPort + kPlayerPort - last)) +
+                    ", which robots on port 6665 get, since the world's are on " +
+                    std::to_string(first) + " to " + std::to_string(last),
                 std::to_string(*settings.player_port), "port 0 takes any free ports");
   }
-  for (auto& [robot_port, port] : ports) port = *settings.player_port + robot_port - lowest;
+  for (auto& [robot_port, port] : ports) port = robot_port + shift;
   return ports;
 }
 

@@ -12,7 +12,8 @@ namespace playerlike {
 /// Opens the session for a client's host name:
 /// - "localhost" and "127.0.0.1": the embedded simulation of this process. PLAYPEN_WORLD names its
 ///   world file; without it, the default world is used. If PLAYPEN_WORLD is "tcp://HOST[:PORT]" or
-///   "player://HOST[:PORT]", that server is used instead;
+///   "player://HOST[:PORT]", that server is used instead. A Player server there has the robot on
+///   port 6665 at PORT, and others at the same distance to it;
 /// - "sim:FILE": an embedded simulation of that file;
 /// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`); the default TCP port
 /// is

@@ -25,6 +25,8 @@ using DeviceId = sim::Simulation::DeviceId;
 
 /// The port on which all robots of a world are visible (MORSE's).
 inline constexpr int kMorsePort = 4000;
+/// Player's default port, that of a world's first robot unless the world says otherwise.
+inline constexpr int kPlayerPort = 6665;
 
 /// Description of a device for clients.
 struct DeviceInfo {
