@@ -816,6 +816,48 @@ TEST(PlayerSession, OpensASecondSessionForDrivers) {
   EXPECT_THAT(error_of([&] { session->wait(); }), HasSubstr("the connection is closed"));
 }
 
+// --- Host names
+
+/// Sets PLAYPEN_WORLD for a scope.
+class WorldVariable {
+ public:
+  explicit WorldVariable(const std::string& world) { setenv("PLAYPEN_WORLD", world.c_str(), 1); }
+  WorldVariable(const WorldVariable&) = delete;
+  WorldVariable& operator=(const WorldVariable&) = delete;
+  ~WorldVariable() { unsetenv("PLAYPEN_WORLD"); }
+};
+
+TEST(PlayerHosts, GreetWithoutAProtocolInTheirName) {
+  unsetenv("PLAYPEN_WORLD");
+  ScriptedPlayerServer server(with_laser());
+  // Another name of this machine stands for a robot's.
+  PlayerClient client("127.1", static_cast<uint32_t>(server.port()));
+  EXPECT_NO_THROW(PlayerCc::LaserProxy(&client, 0));
+  EXPECT_EQ(client.GetPort(), static_cast<uint32_t>(server.port()));
+}
+
+TEST(PlayerHosts, StandForLocalhost) {
+  ScriptedPlayerServer server(with_laser());
+  const WorldVariable world(server.host());
+  PlayerClient client("localhost", 6665);
+  EXPECT_NO_THROW(PlayerCc::LaserProxy(&client, 0));
+}
+
+TEST(PlayerHosts, DecideWhateverTheWorldIs) {
+  ScriptedPlayerServer server(with_laser());
+  const WorldVariable world("no_such_world.json");
+  PlayerClient client(server.host(), 6665);
+  EXPECT_NO_THROW(PlayerCc::LaserProxy(&client, 0));
+}
+
+TEST(PlayerHosts, HaveTheClientsPortByDefault) {
+  EXPECT_EQ(parse_server_address("player://robot", 6666).text(), "robot:6666");
+  EXPECT_EQ(parse_server_address("player://robot:7000", 6666).text(), "robot:7000");
+  EXPECT_EQ(parse_server_address("player://[::1]:7000", 6666).text(), "[::1]:7000");
+  EXPECT_THAT(error_of([] { static_cast<void>(parse_server_address("player://", 6665)); }),
+              HasSubstr("the host is missing"));
+}
+
 // --- Both our ends
 
 sim::WorldDescription room() {
