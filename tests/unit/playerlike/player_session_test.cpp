@@ -10,11 +10,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "libplayerc++/playerc++.h"
+#include "libplayerc/playerc.h"
 #include "patient_host.h"
 #include "playerlike/connect/open_session.h"
 #include "playerlike/server/server.h"
@@ -862,28 +864,100 @@ TEST(PlayerHosts, HaveTheClientsPortByDefault) {
 
 sim::WorldDescription room() {
   return sim::load_world_text(R"({"name": "room", "arena": {"size": [20, 4]}, "robots": [
-      {"name": "r1", "pose": {"x": 1, "y": 1}, "devices": {"pose": null}}]})");
+      {"name": "r1", "pose": {"x": 1, "y": 1}, "devices": {"infrared": {}, "battery": {}}}]})");
 }
 
+/// A simulation with a Player server on any free port.
+struct Served {
+  Served() : host(test::patient_host(room())) {
+    ServerSettings settings;
+    settings.port = 0;
+    settings.player_port = 0;
+    server = std::make_unique<Server>(host, settings);
+  }
+  [[nodiscard]] std::string name() const {
+    return "player://127.0.0.1:" + std::to_string(server->player_ports().at(6665));
+  }
+
+  std::shared_ptr<Host> host;
+  std::unique_ptr<Server> server;
+};
+
 TEST(PlayerSession, DrivesARobotOfPlaypensPlayerServer) {
-  const auto host = test::patient_host(room());
-  ServerSettings settings;
-  settings.port = 0;
-  settings.player_port = 0;
-  Server server(host, settings);
-  const int port = server.player_ports().at(6665);
-  PlayerClient client("player://127.0.0.1:" + std::to_string(port), 6665);
-  PlayerCc::Position2dProxy position(&client, 0);
-  PlayerCc::LaserProxy laser(&client, 0);
-  PlayerCc::PowerProxy power(&client, 0);
-  client.Read();
-  EXPECT_EQ(laser.GetCount(), 682U);
-  position.SetMotorEnable(true);
-  position.SetSpeed(0.3, 0.0);
-  for (int i = 0; i < 200 && position.GetXPos() < 0.2; ++i) client.Read();
-  EXPECT_GE(position.GetXPos(), 0.2);
-  EXPECT_NEAR(position.GetYPos(), 0.0, 1e-3);
-  EXPECT_GT(power.GetCharge(), 0.0);
+  const Served served;
+  EXPECT_EQ(error_of([&] {
+              PlayerClient client(served.name(), 6665);
+              PlayerCc::Position2dProxy position(&client, 0);
+              PlayerCc::LaserProxy laser(&client, 0);
+              PlayerCc::PowerProxy power(&client, 0);
+              do {
+                client.Read();
+              } while (!laser.IsFresh() || !power.IsFresh());
+              EXPECT_EQ(laser.GetCount(), 682U);
+              EXPECT_GT(power.GetCharge(), 0.0);
+              EXPECT_GT(position.GetSize().sl, 0.1);
+              const double start_m = position.GetXPos();
+              position.SetMotorEnable(true);
+              position.SetSpeed(0.3, 0.0);
+              for (int i = 0; i < 1000 && position.GetXPos() < start_m + 0.2; ++i) client.Read();
+              EXPECT_GE(position.GetXPos(), start_m + 0.2);
+              EXPECT_NEAR(position.GetXSpeed(), 0.3, 0.05);
+            }),
+            "no error");
+}
+
+TEST(PlayerSession, ReachesTheWorldOfPlaypensPlayerServer) {
+  const Served served;
+  EXPECT_EQ(error_of([&] {
+              PlayerClient client(served.name(), 6665);
+              PlayerCc::SimulationProxy simulation(&client, 0);
+              std::string name = "r1";
+              double x = 0.0;
+              double y = 0.0;
+              double yaw = 0.0;
+              simulation.GetPose2d(name.data(), x, y, yaw);
+              EXPECT_DOUBLE_EQ(x, 1.0);
+              simulation.SetPose2d(name.data(), 3.0, 2.0, 0.5);
+              simulation.GetPose2d(name.data(), x, y, yaw);
+              EXPECT_DOUBLE_EQ(x, 3.0);
+              EXPECT_DOUBLE_EQ(yaw, 0.5);
+              std::string property = "color";
+              float colour[4] = {0.0F, 0.0F, 1.0F, 1.0F};
+              simulation.SetProperty(name.data(), property.data(), colour, sizeof colour);
+              float now[4] = {};
+              simulation.GetProperty(name.data(), property.data(), now, sizeof now);
+              EXPECT_FLOAT_EQ(now[2], 1.0F);
+              EXPECT_FLOAT_EQ(now[0], 0.0F);
+              PlayerCc::MapProxy map(&client, 0);
+              map.RequestMap();
+              EXPECT_NEAR(map.GetWidth() * map.GetResolution(), 20.0, map.GetResolution());
+              EXPECT_EQ(map.GetCell(5, 5), -1);  // free
+              PlayerCc::BlackBoardProxy board(&client, 0);
+            }),
+            "no error");
+}
+
+TEST(PlayerSession, ServesTheCLibrary) {
+  const Served served;
+  playerc_client_t* const client = playerc_client_create(nullptr, served.name().c_str(), 6665);
+  ASSERT_EQ(playerc_client_connect(client), 0) << playerc_error_str();
+  playerc_laser_t* const laser = playerc_laser_create(client, 0);
+  ASSERT_EQ(playerc_laser_subscribe(laser, PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_NE(playerc_client_read(client), nullptr) << playerc_error_str();
+  EXPECT_EQ(laser->scan_count, 682);
+  playerc_laser_unsubscribe(laser);
+  playerc_laser_destroy(laser);
+  playerc_client_disconnect(client);
+  playerc_client_destroy(client);
+}
+
+TEST(PlayerSession, LearnsThatPlaypensPlayerServerHasNoSuchDevice) {
+  const Served served;
+  EXPECT_THAT(error_of([&] {
+                PlayerClient client(served.name(), 6665);
+                const PlayerCc::GripperProxy gripper(&client, 0);
+              }),
+              HasSubstr("there is no device gripper:0"));
 }
 
 }  // namespace
