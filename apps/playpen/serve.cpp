@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "commands.h"
+#include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
 #include "playerlike/host/program.h"
 #include "playerlike/process/log.h"
@@ -92,6 +93,7 @@ playerlike::RunSettings with_environment(const playerlike::RunSettings& settings
     }
   }
   playerlike::RunSettings result = playerlike::RunSettings::from_environment();
+  result.open_real_robot = playerlike::open_real_robot;
   result.start_at_once = settings.start_at_once;  // not affected by the environment
   return result;
 }

@@ -84,6 +84,7 @@ std::shared_ptr<Host> host_of(const std::string& file) {
         settings.output_folder += "/world" + std::to_string(registry.results + 1);
       }
     }
+    settings.open_real_robot = open_real_robot;
     prepare_drawing(settings);
     // A program has one virtual clock, which belongs to the first world.
     const bool virtual_time_wanted = settings.virtual_time && registry.results == 0;
@@ -231,6 +232,16 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
   }
   if (file.starts_with(kTcpPrefix)) return connect_to_server(file, port);
   return host_of(file)->connect(port);
+}
+
+std::unique_ptr<Session> open_real_robot(const std::string& server, int port) {
+  const virtual_time::Inside inside;
+  if (!server.starts_with(kTcpPrefix)) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "a real robot is named " + std::string(sim::kRealServerExpected));
+  }
+  return std::make_unique<SocketSession>(
+      SocketSettings::from_environment(parse_server_address(server), port));
 }
 
 void close_embedded_hosts() {
