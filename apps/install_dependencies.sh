@@ -33,7 +33,7 @@ build_packages=(
   libbox2d-dev libeigen3-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
   libopencv-highgui-dev libx11-dev libpng-dev libfreetype-dev fonts-dejavu-core
-  libasio-dev nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev
+  libasio-dev nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev zlib1g-dev
 )
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev locales ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool

@@ -6,8 +6,11 @@
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
+#include <map>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "commands.h"
 #include "playerlike/connect/open_session.h"
@@ -103,6 +106,18 @@ std::string address_text(const std::string& bind, int port) {
          std::to_string(port);
 }
 
+/// Prints where each robot answers in Player's protocol.
+void print_player_ports(const playerlike::Host& host, const std::string& bind,
+                        const std::map<int, int>& ports) {
+  for (const auto& [robot_port, port] : ports) {
+    std::string names;
+    for (const playerlike::RobotInfo& robot : host.robots()) {
+      if (robot.port == robot_port) names += (names.empty() ? "" : ", ") + robot.name;
+    }
+    std::cout << "Player's protocol on " << address_text(bind, port) << ": " << names << std::endl;
+  }
+}
+
 /// Serves until a signal arrives or everything is over.
 void wait_for_end(playerlike::Host& host, const playerlike::Server& server, HeldSignals& signals) {
   std::optional<Clock::time_point> finished;
@@ -139,9 +154,13 @@ int serve(ServeRequest request) {
     request.server.access = playerlike::read_token_file(request.token_file, log);
   }
   std::vector<std::string> robots;
-  for (const sim::RobotDescription& robot : world.robots) robots.push_back(robot.name);
+  std::vector<int> robot_ports;
+  for (const sim::RobotDescription& robot : world.robots) {
+    robots.push_back(robot.name);
+    robot_ports.push_back(robot.port);
+  }
   // Check this before removing the results of a server that may be using the port.
-  playerlike::Server::check(request.server, robots);
+  playerlike::Server::check(request.server, robots, robot_ports);
 
   prepare_outputs(settings, world_file);
   std::optional<ViewerProcess> viewer;
@@ -154,6 +173,7 @@ int serve(ServeRequest request) {
     std::cout << "listening on " << address_text(request.server.bind, server.port());
     if (request.server.sync_port) std::cout << ", clock synchronisation on " << server.sync_port();
     std::cout << std::endl;
+    print_player_ports(*host, request.server.bind, server.player_ports());
     wait_for_end(*host, server, signals);
     host->finish();
     server.stop();

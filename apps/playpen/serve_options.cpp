@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "command_line.h"
@@ -16,6 +17,17 @@ bool parse_port(const std::string& text, int& port) {
   if (!parse_number(text, read) || read < 0 || read > 65535) return false;
   port = read;
   return true;
+}
+
+void add_optional_port(CLI::App& command, const std::string& name, const std::string& description,
+                       std::optional<int>& port) {
+  add_parsed(command, name, description, "PORT", "a whole number from 0 to 65535",
+             [&port](const std::string& text) {
+               int parsed = 0;
+               const bool good = parse_port(text, parsed);
+               if (good) port = parsed;
+               return good;
+             });
 }
 
 bool parse_log_level(const std::string& text, sim::LogLevel& level) {
@@ -113,13 +125,11 @@ void add_serve(CommandLine& line) {
   add_parsed(command, "--stream-port", "First port of MORSE's data streams; 0: any [60000]", "PORT",
              "a whole number from 0 to 65535",
              [&server](const std::string& text) { return parse_port(text, server.stream_port); });
-  add_parsed(command, "--sync-port", "Port of MORSE's clock synchronisation; 0: any [none]", "PORT",
-             "a whole number from 0 to 65535", [&server](const std::string& text) {
-               int port = 0;
-               const bool good = parse_port(text, port);
-               if (good) server.sync_port = port;
-               return good;
-             });
+  add_optional_port(command, "--sync-port", "Port of MORSE's clock synchronisation; 0: any [none]",
+                    server.sync_port);
+  add_optional_port(command, "--player-port",
+                    "First port of Player's protocol, one for each robot; 0: any [none]",
+                    server.player_port);
   add_limits(command, server.limits);
   CLI::Option* const log_level = add_parsed(
       command, "--log-level", "debug, info, warning or error [info]", "LEVEL",

@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (data[0] < kFrames) {
     take_frame(stream);
   } else {
-    fuzz::split(stream, data[0] % 16U, Encoding::kCbor, take_frame);
+    fuzz::split(stream, data[0] % 16U, Framing::kFrames, take_frame);
   }
   return 0;
 }

@@ -22,6 +22,6 @@ void take_line(std::string_view line) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view stream(reinterpret_cast<const char*>(data) + 1, size - 1);
-  fuzz::split(stream, data[0] % 16U, Encoding::kJson, take_line);
+  fuzz::split(stream, data[0] % 16U, Framing::kLines, take_line);
   return 0;
 }

@@ -101,8 +101,8 @@ inline void take_message(const json& message, Encoding encoding) {
 /// Feeds a stream in pieces to a splitter and passes on the splitter's output.
 /// @param piece  size of a piece [bytes]; 0: all at once.
 template <typename Take>
-void split(std::string_view stream, std::size_t piece, Encoding encoding, Take take) {
-  MessageSplitter splitter(encoding, 4096);
+void split(std::string_view stream, std::size_t piece, Framing framing, Take take) {
+  MessageSplitter splitter(framing, 4096);
   attempt([&] {
     while (!stream.empty()) {
       const std::string_view some = stream.substr(0, piece == 0 ? stream.size() : piece);

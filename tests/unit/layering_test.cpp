@@ -147,12 +147,14 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"view", {}},
       {"process", {"messages"}},
       {"protocol", {"messages"}},
-      {"session", {"messages"}},
+      {"session", {"messages", "libplayerinterface"}},
       {"virtual_time", {"process"}},
       {"host", {"messages", "process", "protocol", "session", "view", "virtual_time"}},
       {"remote", {"messages", "process", "protocol", "session"}},
       {"connect", {"messages", "process", "session", "virtual_time", "host", "remote"}},
-      {"server", {"messages", "process", "protocol", "session", "host", "wire"}},
+      {"server",
+       {"messages", "process", "protocol", "session", "host", "wire", "proxies",
+        "libplayerinterface"}},
       // Headers that clients include.
       {"libplayerinterface", {}},
       {"libplayercommon", {}},
@@ -265,6 +267,10 @@ std::vector<std::string> violations(const Source& source) {
     }
     if (include == "png.h" && path != "libsim/src/canvas/png_codec.cpp") {
       refuse("libpng belongs in libsim/src/canvas/png_codec.cpp");
+    }
+    if (include == "zlib.h" && !starts_with_any(path, {"libplayerlike/src/wire/",
+                                                       "libplayerlike/src/remote/", "tests/"})) {
+      refuse("zlib belongs in libplayerlike/src/wire and libplayerlike/src/remote");
     }
     if ((include == "opencv2/highgui.hpp" || include.starts_with("X11/")) && !in_window) {
       refuse("windows belong in apps/playpen/view");

@@ -17,6 +17,7 @@
 
 namespace playerlike {
 class ClientCore;
+struct CanvasInfo;
 class DrawQueue;
 }  // namespace playerlike
 
@@ -387,6 +388,7 @@ class Drawing {
   void Put(Write aWrite);
   void MakeRoom();
   void Refresh() const;
+  playerlike::CanvasInfo Canvas() const;  // of the last Refresh()
 
   std::shared_ptr<playerlike::ClientCore> mCore;
   playerlike::DrawQueue* mQueue;  // owned by the core's session

@@ -4,10 +4,8 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
-#include <map>
 #include <memory>
 #include <string>
-#include <utility>
 
 #include "libplayerc++/clientproxy.h"
 
@@ -77,14 +75,9 @@ class BlackBoardProxy : public ClientProxy {
 
  private:
   struct Events;
-  typedef std::pair<std::string, std::string> Name;  // group and key
-
   void DeliverEvents();
 
-  // Guarded by the client's mutex. For each subscription, the number of the last change that is
-  // known to the program.
-  std::map<Name, int64_t> mKeys;
-  std::map<std::string, int64_t> mGroups;
+  // Guarded by the client's mutex.
   std::shared_ptr<Events> mEvents;
   EventHandler mHandler;
 };

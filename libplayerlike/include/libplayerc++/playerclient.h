@@ -31,11 +31,14 @@ struct CoreAccess;
 /// Host names:
 /// - "localhost" and "127.0.0.1": the simulation of this process. The environment variable
 ///   PLAYPEN_WORLD names its world file; the default is the SyRoTek arena. If PLAYPEN_WORLD is
-///   "tcp://HOST[:PORT]", it is that server.
+///   "tcp://HOST[:PORT]" or "player://HOST[:PORT]", it is that server.
 /// - "sim:FILE": a simulation of that world file in this process.
-/// - "tcp://HOST[:PORT]" or "HOST:PORT": a server (`playpen serve`); the default TCP port is 4000.
-/// - any other host name: the server there. If PLAYPEN_WORLD is set, it means "localhost" instead,
-///   and a warning says so.
+/// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`); the default TCP port is
+///   4000.
+/// - "player://HOST[:PORT]": a Player server, e.g. of a real robot; the default TCP port is that of
+///   the client.
+/// - any other host name: the server there, of Player on the client's port or else of Playpen. If
+///   PLAYPEN_WORLD is set, it means "localhost" instead, and a warning says so.
 ///
 /// Ports: each robot has its own port (6665, 6666, ... in order). On that port, index 0 of an
 /// interface is the robot's first device. Port 4000 gives access to all robots; there, the world's

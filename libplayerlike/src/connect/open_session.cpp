@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "playerlike/process/log.h"
+#include "remote/player_session.h"
 #include "remote/socket_session.h"
 #include "sim/render/render.h"
 #include "virtual_time/virtual_time.h"
@@ -126,14 +127,59 @@ std::string_view variable(const char* name) {
   return value == nullptr ? std::string_view() : std::string_view(value);
 }
 
-std::unique_ptr<Session> connect_to_server(const std::string& server, int port) {
-  // A server runs in real time, so this program cannot use virtual time.
+// A server runs in real time, so this program cannot use virtual time.
+void use_real_time() {
   if (virtual_time::active()) virtual_time::give_up();
+}
+
+std::unique_ptr<Session> connect_to_server(const std::string& server, int port) {
+  use_real_time();
   SocketSettings settings = SocketSettings::from_environment(parse_server_address(server), port);
   const std::string_view run = variable("PLAYPEN_RUN");
   settings.quiet_end =
       (!run.empty() && run != "0") || variable("PLAYPEN_WORLD").starts_with(kTcpPrefix);
   return std::make_unique<SocketSession>(std::move(settings));
+}
+
+// MORSE's port is no Player server's, so programs that name it mean Player's default port.
+int player_tcp_port(int port) { return port == kMorsePort ? kPlayerTcpPort : port; }
+
+std::unique_ptr<Session> open_player_session(const std::string& server, int port) {
+  PlayerSettings settings;
+  settings.server = parse_server_address(server, player_tcp_port(port));
+  settings.tokens = SocketSettings::from_environment(settings.server, port).tokens;
+  return std::make_unique<PlayerSession>(std::move(settings));
+}
+
+std::unique_ptr<Session> connect_to_player(const std::string& server, int port) {
+  use_real_time();
+  return open_player_session(server, port);
+}
+
+// For a host without a protocol: a Player server speaks first, a Playpen server does not.
+std::unique_ptr<Session> connect_to_host(const std::string& host, int port) {
+  if (port == kMorsePort) return connect_to_server(host, port);
+  use_real_time();
+  constexpr double kConnect_s = 3.0;
+  constexpr double kGreeting_s = 2.0;
+  std::string no_player;
+  try {
+    PlayerSettings settings;
+    settings.server = parse_server_address(host, port);
+    settings.tokens = SocketSettings::from_environment(settings.server, port).tokens;
+    settings.connect_timeout_s = kConnect_s;
+    settings.banner_timeout_s = kGreeting_s;
+    return std::make_unique<PlayerSession>(std::move(settings));
+  } catch (const SessionError& e) {
+    if (e.code() != SessionError::Code::kDisconnected) throw;
+    no_player = e.what();
+  }
+  try {
+    return connect_to_server(host, port);
+  } catch (const SessionError& e) {
+    if (e.code() != SessionError::Code::kDisconnected) throw;
+    throw SessionError(e.code(), no_player + "; and as a Playpen server: " + e.what());
+  }
 }
 
 // Whether a variable may change after the start. The library itself removes PLAYPEN_VIEW; the
@@ -197,7 +243,7 @@ void refuse_other_worlds(const std::string& host) {
   }
 }
 
-// Whether a host is named as in programs for real robots: without "tcp://" and without a port.
+// Whether a host is named as in programs for real robots: without a protocol and without a port.
 bool is_plain_name(std::string_view host) { return host.find_first_of(":/[") == host.npos; }
 
 // Warns once for each host.
@@ -209,7 +255,8 @@ void warn_of_host(const std::string& host, const std::string& world) {
   }
   log_to_stderr()(sim::LogLevel::kWarning, "the program asks for a robot at \"" + host +
                                                "\" and gets that of this run's world, " + world +
-                                               "; for a server there, name it tcp://" + host);
+                                               "; for a server there, name it player://" + host +
+                                               " (Player) or tcp://" + host + " (Playpen)");
 }
 
 }  // namespace
@@ -225,17 +272,21 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
     }
     return host_of(file)->connect(port);
   }
+  if (host.starts_with(kPlayerPrefix)) return connect_to_player(host, port);
   const std::string file(variable("PLAYPEN_WORLD"));
   if (host != "localhost" && host != "127.0.0.1") {
-    if (file.empty() || !is_plain_name(host)) return connect_to_server(host, port);
+    if (!is_plain_name(host)) return connect_to_server(host, port);
+    if (file.empty()) return connect_to_host(host, port);
     warn_of_host(host, file);
   }
+  if (file.starts_with(kPlayerPrefix)) return connect_to_player(file, port);
   if (file.starts_with(kTcpPrefix)) return connect_to_server(file, port);
   return host_of(file)->connect(port);
 }
 
 std::unique_ptr<Session> open_real_robot(const std::string& server, int port) {
   const virtual_time::Inside inside;
+  if (server.starts_with(kPlayerPrefix)) return open_player_session(server, port);
   if (!server.starts_with(kTcpPrefix)) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "a real robot is named " + std::string(sim::kRealServerExpected));

@@ -9,6 +9,7 @@
 
 #include "devices/client_core.h"
 #include "devices/errors.h"
+#include "session/canvas_cells.h"
 #include "sim/canvas/layers.h"
 #include "sim/core/colour.h"
 #include "sim/core/number_text.h"
@@ -43,13 +44,6 @@ std::string text_of_colour(const ImageColour_t& c) {
 }  // namespace detail
 
 namespace {
-
-// Clamped as in sim::Canvas, so that far positions stay outside of the canvas.
-constexpr double kFar = 1 << 30;
-
-int cell_number(double cells) {
-  return static_cast<int>(std::clamp(std::floor(cells), -kFar, kFar));
-}
 
 constexpr std::pair<ViewMode, sim::ViewMode> kModes[] = {
     {GROUND, sim::ViewMode::kGround},
@@ -163,14 +157,19 @@ int Drawing::GetHeight() const {
 
 double Drawing::GetCellSize() const { return mCellSize; }
 
+playerlike::CanvasInfo Drawing::Canvas() const {
+  return {mWidth, mHeight, mCellSize, mOriginX, mOriginY};
+}
+
 int Drawing::GetX(double aX) const {
   if (!std::isfinite(aX)) playerlike::require_finite(mName, {{"x", aX}});
-  return cell_number((aX - mOriginX) / mCellSize);
+  return playerlike::column_of(Canvas(), aX);
 }
 
 int Drawing::GetY(double aY) const {
   if (!std::isfinite(aY)) playerlike::require_finite(mName, {{"y", aY}});
-  return GetHeight() - 1 - cell_number((aY - mOriginY) / mCellSize);
+  Refresh();
+  return playerlike::row_of(Canvas(), aY);
 }
 
 // --- Values of cells
@@ -273,45 +272,17 @@ void Drawing::DrawPolyline(const player_point_2d_t* aPoints, std::size_t aCount,
   }
 }
 
-// Scan-line fill at the cells' centres: a cell is filled if an odd number of edges cross its row to
-// the left of its centre.
 void Drawing::FillPolygon(const player_point_2d_t* aPoints, std::size_t aCount,
                           const ImageColour_t& aColour) {
   require_points(Fun("SetPolygonMetres"), aPoints, aCount);
   RequireUsable("SetPolygonMetres");
   if (aCount == 0) return;
-  struct Corner {
-    double column, row;  // in cells from the top left corner
-  };
-  const int height = GetHeight();
-  std::vector<Corner> corners(aCount);
-  double top = static_cast<double>(height);
-  double bottom = 0.0;
-  for (std::size_t i = 0; i < aCount; ++i) {
-    corners[i] = {(aPoints[i].px - mOriginX) / mCellSize,
-                  height - (aPoints[i].py - mOriginY) / mCellSize};
-    top = std::min(top, corners[i].row);
-    bottom = std::max(bottom, corners[i].row);
-  }
-  const int first_row =
-      static_cast<int>(std::clamp(std::floor(top), 0.0, static_cast<double>(height)));
-  const int last_row =
-      static_cast<int>(std::clamp(std::floor(bottom), -1.0, static_cast<double>(height - 1)));
+  Refresh();
+  std::vector<sim::Vec2> corners(aCount);
+  for (std::size_t i = 0; i < aCount; ++i) corners[i] = {aPoints[i].px, aPoints[i].py};
   const std::uint32_t value = ValueOf(aColour);
-  std::vector<double> crossings;
-  for (int row = first_row; row <= last_row; ++row) {
-    const double middle = row + 0.5;
-    crossings.clear();
-    for (std::size_t i = 0; i < aCount; ++i) {
-      const Corner& a = corners[i];
-      const Corner& b = corners[(i + 1) % aCount];
-      if ((a.row <= middle) == (b.row <= middle)) continue;
-      crossings.push_back(a.column + (b.column - a.column) * ((middle - a.row) / (b.row - a.row)));
-    }
-    std::sort(crossings.begin(), crossings.end());
-    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      PutSpan(std::ceil(crossings[i] - 0.5), std::ceil(crossings[i + 1] - 0.5) - 1.0, row, value);
-    }
+  for (const playerlike::CellSpan& span : playerlike::polygon_spans(Canvas(), corners)) {
+    PutSpan(span.first, span.last, span.row, value);
   }
 }
 

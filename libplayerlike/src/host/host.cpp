@@ -84,6 +84,8 @@ void Host::finish() noexcept { InsideCore(*core_)->stop(); }
 bool Host::finished() const {
   return InsideCore(*core_)->locked([this] { return core_->over(); });
 }
+sim::SimTime Host::now_ns() const noexcept { return core_->now_ns(); }
+
 TimeStatistics Host::time() const {
   return InsideCore(*core_)->locked([this] { return core_->time_locked(); });
 }

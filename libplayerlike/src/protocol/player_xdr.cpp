@@ -15,12 +15,12 @@ namespace xdr {
 std::size_t Reader::array_size(const char* name, std::size_t limit) {
   const auto size = number<std::uint32_t>(name);
   if (size != announced_) {
-    refuse(std::string(name) + "_count is " + std::to_string(announced_) +
-           ", but the array has " + std::to_string(size) + " elements");
+    refuse(std::string(name) + "_count is " + std::to_string(announced_) + ", but the array has " +
+           std::to_string(size) + " elements");
   }
   if (size > limit) {
-    refuse(std::string(name) + ": expected at most " + std::to_string(limit) +
-           " elements, found " + std::to_string(size));
+    refuse(std::string(name) + ": expected at most " + std::to_string(limit) + " elements, found " +
+           std::to_string(size));
   }
   return size;
 }
@@ -56,16 +56,16 @@ void append_message(std::string& bytes, Msghdr header, std::string_view payload)
 
 Message parse_message(std::string_view bytes) {
   if (bytes.size() < kHeaderBytes) {
-    throw protocol::ProtocolError("player/header",
-                                  "expected a header of " + std::to_string(kHeaderBytes) +
-                                      " bytes, found " + std::to_string(bytes.size()) + " bytes");
+    throw protocol::ProtocolError(
+        "player/header", "expected a header of " + std::to_string(kHeaderBytes) + " bytes, found " +
+                             std::to_string(bytes.size()) + " bytes");
   }
   const auto header = decode<Msghdr>(bytes.substr(0, kHeaderBytes));
   bytes.remove_prefix(kHeaderBytes);
   if (bytes.size() != header.size) {
-    throw protocol::ProtocolError("player/header",
-                                  "the header announces " + std::to_string(header.size) +
-                                      " bytes, found " + std::to_string(bytes.size()) + " bytes");
+    throw protocol::ProtocolError(
+        "player/header", "the header announces " + std::to_string(header.size) + " bytes, found " +
+                             std::to_string(bytes.size()) + " bytes");
   }
   return {header, bytes};
 }

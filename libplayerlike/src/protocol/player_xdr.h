@@ -266,10 +266,10 @@ void append_message(std::string& bytes, Msghdr header, const Payload& payload) {
 template <typename Visitor>
 bool visit_payload(unsigned interface, unsigned type, unsigned subtype, Visitor&& visitor) {
   // Requests that every interface has have the interface code 0 in the table.
-#define PLAYER_MESSAGE(code, row_type, row_subtype, Payload)                               \
+#define PLAYER_MESSAGE(code, row_type, row_subtype, Payload)                                    \
   if ((interface == (code) || (code) == 0) && type == (row_type) && subtype == (row_subtype)) { \
-    visitor.template operator()<Payload>();                                                \
-    return true;                                                                           \
+    visitor.template operator()<Payload>();                                                     \
+    return true;                                                                                \
   }
 #include "protocol/player_messages.inc"
 #undef PLAYER_MESSAGE

@@ -8,6 +8,7 @@
 #include "devices/errors.h"
 #include "libplayerc++/actarrayproxy.h"
 #include "proxies/link.h"
+#include "session/player_values.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/actarray.h"
 
@@ -24,38 +25,6 @@ constexpr uint32_t kAllJoints = static_cast<uint32_t>(-1);
 
 // Positions of clients are single-precision numbers.
 constexpr double kRounding = 1e-5;
-
-uint8_t actuator_state(sim::JointState state) {
-  switch (state) {
-    case sim::JointState::kIdle:
-      return PLAYER_ACTARRAY_ACTSTATE_IDLE;
-    case sim::JointState::kMoving:
-      return PLAYER_ACTARRAY_ACTSTATE_MOVING;
-    case sim::JointState::kBraked:
-      return PLAYER_ACTARRAY_ACTSTATE_BRAKED;
-    case sim::JointState::kStalled:
-      break;
-  }
-  return PLAYER_ACTARRAY_ACTSTATE_STALLED;
-}
-
-player_point_3d_t unit_vector(double axis) {
-  switch (static_cast<sim::JointAxis>(static_cast<int>(axis))) {
-    case sim::JointAxis::kX:
-      return {1.0, 0.0, 0.0};
-    case sim::JointAxis::kY:
-      return {0.0, 1.0, 0.0};
-    case sim::JointAxis::kMinusX:
-      return {-1.0, 0.0, 0.0};
-    case sim::JointAxis::kMinusY:
-      return {0.0, -1.0, 0.0};
-    case sim::JointAxis::kMinusZ:
-      return {0.0, 0.0, -1.0};
-    case sim::JointAxis::kZ:
-      break;
-  }
-  return {0.0, 0.0, 1.0};
-}
 
 std::vector<double> doubles(const std::vector<float>& values) {
   return {values.begin(), values.end()};
@@ -117,7 +86,7 @@ void ActArrayProxy::SetAccelerationConfig(uint32_t aJoint, float aAcc) {
 // --- movements
 
 double ActArrayProxy::OfJoint(const char* aName, std::size_t aJoint) const {
-  return mLink->property(std::string(aName) + '_' + std::to_string(aJoint), 0.0);
+  return playerlike::joint_setting(mLink->info().properties, aName, aJoint);
 }
 
 void ActArrayProxy::WarnBeyondLimits(const char* aFun, std::size_t aFirst, std::size_t aEnd,
@@ -200,33 +169,16 @@ player_actarray_actuator_t ActArrayProxy::GetActuatorData(uint32_t aJoint) const
   const scoped_lock_t lock(LockData(fun));
   const auto& joints = mLink->newest.as<ActArrayReading>().joints;
   if (!mLink->has_element(fun, kJointWords, aJoint, joints.size())) return {};
-  const sim::JointReading& joint = joints[aJoint];
-  return {static_cast<float>(joint.position), static_cast<float>(joint.speed),
-          static_cast<float>(joint.acceleration), static_cast<float>(joint.current_a),
-          actuator_state(joint.state)};
+  return playerlike::actuator_of<player_actarray_actuator_t>(joints[aJoint]);
 }
 
 player_actarray_actuatorgeom_t ActArrayProxy::GetActuatorGeom(uint32_t aJoint) const {
   const char* fun = "ActArrayProxy::GetActuatorGeom";
   const scoped_lock_t lock(LockData(fun));
   if (!mLink->has_element(fun, kJointWords, aJoint, mJoints)) return {};
-  const auto of = [&](const char* name) { return static_cast<float>(OfJoint(name, aJoint)); };
   const auto& joints = mLink->newest.as<ActArrayReading>().joints;
-  const bool is_linear = OfJoint("type", aJoint) == static_cast<double>(sim::JointType::kLinear);
-  player_actarray_actuatorgeom_t geometry = {};
-  geometry.type = is_linear ? PLAYER_ACTARRAY_TYPE_LINEAR : PLAYER_ACTARRAY_TYPE_ROTARY;
-  geometry.length = of("length");
-  geometry.orientation = {OfJoint("roll", aJoint), OfJoint("pitch", aJoint),
-                          OfJoint("yaw", aJoint)};
-  geometry.axis = unit_vector(OfJoint("axis", aJoint));
-  geometry.min = of("min");
-  geometry.centre = of("centre");
-  geometry.max = of("max");
-  geometry.home = of("home");
-  geometry.config_speed =
-      aJoint < joints.size() ? static_cast<float>(joints[aJoint].speed_setting) : of("speed");
-  geometry.hasbrakes = OfJoint("brake", aJoint) != 0.0 ? 1 : 0;
-  return geometry;
+  return playerlike::actuator_geometry<player_actarray_actuatorgeom_t>(
+      mLink->info().properties, aJoint, aJoint < joints.size() ? &joints[aJoint] : nullptr);
 }
 
 player_point_3d_t ActArrayProxy::GetBasePos() const {

@@ -10,8 +10,8 @@
 namespace PlayerCc::detail {
 
 using playerlike::announced_scan;
-using playerlike::bearing_rad;
 using playerlike::BeamWindow;
+using playerlike::bearing_rad;
 using playerlike::kRangeResolution_m;
 using playerlike::part_of;
 using playerlike::ScannerSettings;

@@ -7,7 +7,6 @@
 #include <memory>
 #include <new>
 #include <ostream>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,14 +14,17 @@
 #include "devices/errors.h"
 #include "libplayerc++/blackboardproxy.h"
 #include "proxies/link.h"
+#include "session/blackboard_feed.h"
 
 namespace PlayerCc {
 
 using playerlike::BlackboardEntry;
-using playerlike::BlackboardRequest;
+using Name = playerlike::BlackboardFeed::Name;
 
-/// Changes that were read, but not delivered to the handler yet. A handler may delete the proxy.
+/// The subscriptions, and changes that were read, but not delivered to the handler yet. A handler
+/// may delete the proxy.
 struct BlackBoardProxy::Events {
+  playerlike::BlackboardFeed feed;       ///< guarded by the client's mutex
   std::vector<BlackboardEntry> waiting;  ///< guarded by the client's mutex
   std::atomic<bool> proxy_deleted{false};
 };
@@ -77,13 +79,6 @@ player_blackboard_entry_t* owned(BlackboardEntry entry) {
   return owned_entry;
 }
 
-/// Returns the present entry; an empty one if it was never set.
-BlackboardEntry entry_now(playerlike::Session& session, const std::string& group,
-                          const std::string& key) {
-  std::vector<BlackboardEntry> found = session.request(BlackboardRequest{0, group, key});
-  return found.empty() ? BlackboardEntry{} : std::move(found.front());
-}
-
 }  // namespace
 
 BlackBoardProxy::BlackBoardProxy(PlayerClient* aPc, uint32_t aIndex)
@@ -106,38 +101,30 @@ player_blackboard_entry_t* BlackBoardProxy::SubscribeToKey(const char* key, cons
   const char* fun = "BlackBoardProxy::SubscribeToKey";
   const Name name(text_of(fun, group), text_of(fun, key));
   const scoped_lock_t lock(LockData(fun));
-  return playerlike::translated(fun, [&] {
-    BlackboardEntry entry = entry_now(mLink->core->session(), name.first, name.second);
-    mKeys[name] = entry.change;
-    entry.group = name.first;  // as in Player, also if the entry was never set
-    entry.key = name.second;
-    return owned(std::move(entry));
-  });
+  return playerlike::translated(
+      fun, [&] { return owned(mEvents->feed.subscribe_to_key(mLink->core->session(), name)); });
 }
 
 void BlackBoardProxy::UnsubscribeFromKey(const char* key, const char* group) {
   const char* fun = "BlackBoardProxy::UnsubscribeFromKey";
   const Name name(text_of(fun, group), text_of(fun, key));
   const scoped_lock_t lock(LockData(fun));
-  mKeys.erase(name);
+  mEvents->feed.unsubscribe_from_key(name);
 }
 
 void BlackBoardProxy::SubscribeToGroup(const char* group) {
   const char* fun = "BlackBoardProxy::SubscribeToGroup";
   const std::string name = text_of(fun, group);
   const scoped_lock_t lock(LockData(fun));
-  // Read() would throw in a private world, so ask now: no change has a greater number.
-  playerlike::translated(fun, [&] {
-    static_cast<void>(mLink->core->session().request(BlackboardRequest{INT64_MAX, name}));
-  });
-  mGroups.emplace(name, 0);
+  playerlike::translated(fun,
+                         [&] { mEvents->feed.subscribe_to_group(mLink->core->session(), name); });
 }
 
 void BlackBoardProxy::UnsubscribeFromGroup(const char* group) {
   const char* fun = "BlackBoardProxy::UnsubscribeFromGroup";
   const std::string name = text_of(fun, group);
   const scoped_lock_t lock(LockData(fun));
-  mGroups.erase(name);
+  mEvents->feed.unsubscribe_from_group(name);
 }
 
 void BlackBoardProxy::SetEntry(const player_blackboard_entry_t& entry) {
@@ -159,8 +146,9 @@ player_blackboard_entry_t* BlackBoardProxy::GetEntry(const char* key, const char
   const char* fun = "BlackBoardProxy::GetEntry";
   const Name name(text_of(fun, group), text_of(fun, key));
   const scoped_lock_t lock(LockData(fun));
-  return playerlike::translated(
-      fun, [&] { return owned(entry_now(mLink->core->session(), name.first, name.second)); });
+  return playerlike::translated(fun, [&] {
+    return owned(playerlike::BlackboardFeed::entry_now(mLink->core->session(), name));
+  });
 }
 
 void BlackBoardProxy::SetEventHandler(void (*handler)(playerc_blackboard_t*,
@@ -177,41 +165,12 @@ void BlackBoardProxy::SetEventFunction(EventHandler handler) {
 }
 
 bool BlackBoardProxy::HandlePoll() {
-  if (mKeys.empty() && mGroups.empty()) return false;
-  // All changes up to `after` have been reported. Programs usually subscribe within one group; then
-  // the entries of other groups are not transferred.
-  BlackboardRequest what;
-  what.after = INT64_MAX;
-  std::set<std::string> groups;
-  for (const auto& key : mKeys) {
-    what.after = std::min(what.after, key.second);
-    groups.insert(key.first.first);
-  }
-  for (const auto& group : mGroups) {
-    what.after = std::min(what.after, group.second);
-    groups.insert(group.first);
-  }
-  if (groups.size() == 1) what.group = *groups.begin();
-  const std::vector<BlackboardEntry> changes = mLink->core->session().request(what);
-  bool is_new = false;
-  for (const BlackboardEntry& entry : changes) {
-    const auto key = mKeys.find({entry.group, entry.key});
-    const auto group = mGroups.find(entry.group);
-    const bool by_key = key != mKeys.end() && entry.change > key->second;
-    const bool by_group = group != mGroups.end() && entry.change > group->second;
-    if (by_key || by_group) mEvents->waiting.push_back(entry);
-    is_new = is_new || by_key || by_group;
-  }
-  if (!changes.empty()) {
-    const int64_t newest = changes.back().change;
-    for (auto& key : mKeys) key.second = std::max(key.second, newest);
-    for (auto& group : mGroups) group.second = std::max(group.second, newest);
-  }
-  if (is_new) {
-    mLink->refresh(sim::to_seconds(mEvents->waiting.back().time_ns));
-    mFresh = true;
-  }
-  return is_new;
+  const std::vector<BlackboardEntry> changes = mEvents->feed.changes(mLink->core->session());
+  if (changes.empty()) return false;
+  mEvents->waiting.insert(mEvents->waiting.end(), changes.begin(), changes.end());
+  mLink->refresh(sim::to_seconds(changes.back().time_ns));
+  mFresh = true;
+  return true;
 }
 
 void BlackBoardProxy::DeliverEvents() {

@@ -6,29 +6,12 @@
 #include "libplayerc++/blobfinderproxy.h"
 #include "proxies/link.h"
 #include "proxies/sensor_support.h"
+#include "session/player_values.h"
 #include "sim/devices/blobfinder.h"
 
 namespace PlayerCc {
 
 using sim::BlobfinderReading;
-
-namespace {
-
-playerc_blobfinder_blob_t shown(const BlobfinderReading::Blob& seen) {
-  playerc_blobfinder_blob_t blob = {};
-  blob.color = static_cast<uint32_t>(seen.colour.r << 16 | seen.colour.g << 8 | seen.colour.b);
-  blob.area = static_cast<uint32_t>(seen.area);
-  blob.x = static_cast<uint32_t>(seen.x);
-  blob.y = static_cast<uint32_t>(seen.y);
-  blob.left = static_cast<uint32_t>(seen.left);
-  blob.right = static_cast<uint32_t>(seen.right);
-  blob.top = static_cast<uint32_t>(seen.top);
-  blob.bottom = static_cast<uint32_t>(seen.bottom);
-  blob.range = static_cast<float>(seen.range_m);
-  return blob;
-}
-
-}  // namespace
 
 BlobfinderProxy::BlobfinderProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
   const char* fun = "BlobfinderProxy::BlobfinderProxy";
@@ -57,7 +40,7 @@ playerc_blobfinder_blob_t BlobfinderProxy::GetBlob(uint32_t aIndex) const {
   return Look<BlobfinderReading>(
       [&](const auto& r) {
         return mLink->has_element(fun, {"blob", "blobs"}, aIndex, r.blobs.size())
-                   ? shown(r.blobs[aIndex])
+                   ? playerlike::blob_of<playerc_blobfinder_blob_t>(r.blobs[aIndex])
                    : playerc_blobfinder_blob_t{};
       },
       fun);

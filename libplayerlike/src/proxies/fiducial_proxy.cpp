@@ -1,10 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <ostream>
 
 #include "libplayerc++/fiducialproxy.h"
 #include "proxies/link.h"
 #include "proxies/sensor_support.h"
+#include "session/player_values.h"
 #include "sim/devices/fiducial.h"
 
 namespace PlayerCc {
@@ -25,22 +25,10 @@ uint32_t FiducialProxy::GetCount() const {
 player_fiducial_item_t FiducialProxy::GetFiducialItem(uint32_t aIndex) const {
   const char* fun = "FiducialProxy::GetFiducialItem";
   const scoped_lock_t lock(LockData(fun));
-  player_fiducial_item_t item = {};
   const auto& marks = mLink->newest.as<FiducialReading>().marks;
   constexpr ElementWords kThings{"thing in view", "things"};
-  if (!mLink->has_element(fun, kThings, aIndex, marks.size())) return item;
-  const FiducialReading::Mark& mark = marks[aIndex];
-  item.id = mark.id;
-  item.pose = {mark.X_ST.x_m, mark.X_ST.y_m, 0.0, 0.0, 0.0, mark.X_ST.yaw_rad};
-  // The distance is uncertain along the line of sight, the bearing across it.
-  const double along = mLink->property("noise", 0.0);
-  const double across =
-      mLink->property("noise_bearing", 0.0) * std::hypot(mark.X_ST.x_m, mark.X_ST.y_m);
-  const double bearing = std::atan2(mark.X_ST.y_m, mark.X_ST.x_m);
-  item.upose.px = std::hypot(along * std::cos(bearing), across * std::sin(bearing));
-  item.upose.py = std::hypot(along * std::sin(bearing), across * std::cos(bearing));
-  item.upose.pyaw = mLink->property("noise_yaw", 0.0);
-  return item;
+  if (!mLink->has_element(fun, kThings, aIndex, marks.size())) return {};
+  return playerlike::fiducial_item<player_fiducial_item_t>(marks[aIndex], mLink->info().properties);
 }
 
 player_pose3d_t FiducialProxy::GetSensorPose() const {

@@ -1,5 +1,4 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <ostream>
 #include <string>
 
@@ -7,63 +6,18 @@
 #include "libplayerc++/gripperproxy.h"
 #include "libplayerc++/playerconstants.h"
 #include "proxies/link.h"
+#include "session/player_values.h"
 #include "sim/devices/gripper.h"
 
 namespace PlayerCc {
 
 using sim::GripperReading;
 
-namespace {
-
-// The bits of Player's drivers for Pioneers.
-constexpr uint32_t kOuterBeam = 0x04;
-constexpr uint32_t kInnerBeam = 0x08;
-
-uint32_t state_code(sim::GripperState state) {
-  switch (state) {
-    case sim::GripperState::kOpen:
-      return PLAYER_GRIPPER_STATE_OPEN;
-    case sim::GripperState::kClosed:
-      return PLAYER_GRIPPER_STATE_CLOSED;
-    case sim::GripperState::kMoving:
-      return PLAYER_GRIPPER_STATE_MOVING;
-    case sim::GripperState::kError:
-      break;
-  }
-  return PLAYER_GRIPPER_STATE_ERROR;
-}
-
-sim::GripCommand::Action action_of(int code) {
-  using Action = sim::GripCommand::Action;
-  switch (code) {
-    case PLAYER_GRIPPER_CMD_OPEN:
-      return Action::kOpen;
-    case PLAYER_GRIPPER_CMD_CLOSE:
-      return Action::kClose;
-    case PLAYER_GRIPPER_CMD_STORE:
-      return Action::kStore;
-    case PLAYER_GRIPPER_CMD_RETRIEVE:
-      return Action::kRetrieve;
-    default:
-      return Action::kStop;
-  }
-}
-
-}  // namespace
-
 GripperProxy::GripperProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
   const char* fun = "GripperProxy::GripperProxy";
   Attach(PLAYER_GRIPPER_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
-  const double length = mLink->property("length", 0.0);
-  const double opening = mLink->property("opening", 0.0);
-  const double height = mLink->property("height", 0.0);
-  mGeom.pose = {mLink->property("mount_x", 0.0),  mLink->property("mount_y", 0.0), 0.0, 0.0, 0.0,
-                mLink->property("mount_yaw", 0.0)};
-  mGeom.outer_size = {opening + 2.0 * mLink->property("thickness", 0.0), length, height};
-  mGeom.inner_size = {opening, length, height};
-  mGeom.num_beams = 2;
-  mGeom.capacity = static_cast<uint8_t>(std::clamp(mLink->property("capacity", 0.0), 0.0, 255.0));
+  mGeom = playerlike::gripper_geometry<player_gripper_geom_t>(mLink->info().properties);
 }
 
 GripperProxy::~GripperProxy() { ClientProxy::Unsubscribe(); }
@@ -75,12 +29,10 @@ void GripperProxy::RequestGeometry() {
 uint32_t GripperProxy::GetState() const {
   const scoped_lock_t lock(LockData());
   const auto* reading = mLink->newest.find<GripperReading>();
-  return reading == nullptr ? 0 : state_code(reading->state);
+  return reading == nullptr ? 0 : playerlike::gripper_state_code(reading->state);
 }
 uint32_t GripperProxy::GetBeams() const {
-  return Look<GripperReading>([](const auto& r) {
-    return (r.outer_beam ? kOuterBeam : 0) | (r.inner_beam ? kInnerBeam : 0);
-  });
+  return Look<GripperReading>([](const auto& r) { return playerlike::broken_beams(r); });
 }
 player_pose3d_t GripperProxy::GetPose() const { return GetVar(mGeom.pose); }
 player_bbox3d_t GripperProxy::GetOuterSize() const { return GetVar(mGeom.outer_size); }
@@ -93,7 +45,9 @@ uint32_t GripperProxy::GetStored() const {
 
 void GripperProxy::Grip(const char* aFun, int aAction) {
   const scoped_lock_t lock(LockData(aFun));
-  mLink->send(aFun, sim::GripCommand{action_of(aAction)});
+  mLink->send(
+      aFun,
+      sim::GripCommand{playerlike::grip_action(aAction).value_or(sim::GripCommand::Action::kStop)});
 }
 
 void GripperProxy::Open() { Grip("GripperProxy::Open", PLAYER_GRIPPER_CMD_OPEN); }
@@ -102,8 +56,12 @@ void GripperProxy::Stop() { Grip("GripperProxy::Stop", PLAYER_GRIPPER_CMD_STOP);
 void GripperProxy::Store() { Grip("GripperProxy::Store", PLAYER_GRIPPER_CMD_STORE); }
 void GripperProxy::Retrieve() { Grip("GripperProxy::Retrieve", PLAYER_GRIPPER_CMD_RETRIEVE); }
 
-uint32_t GripperProxy::GetOuterBreakBeam() const { return (GetBeams() & kOuterBeam) != 0 ? 1 : 0; }
-uint32_t GripperProxy::GetInnerBreakBeam() const { return (GetBeams() & kInnerBeam) != 0 ? 1 : 0; }
+uint32_t GripperProxy::GetOuterBreakBeam() const {
+  return (GetBeams() & playerlike::kOuterBeam) != 0 ? 1 : 0;
+}
+uint32_t GripperProxy::GetInnerBreakBeam() const {
+  return (GetBeams() & playerlike::kInnerBeam) != 0 ? 1 : 0;
+}
 uint32_t GripperProxy::GetPaddlesOpen() const {
   return GetState() == PLAYER_GRIPPER_STATE_OPEN ? 1 : 0;
 }

@@ -5,6 +5,7 @@
 #include "devices/errors.h"
 #include "libplayerc++/imuproxy.h"
 #include "proxies/link.h"
+#include "session/player_values.h"
 #include "sim/devices/compass.h"
 #include "sim/devices/imu.h"
 
@@ -33,14 +34,8 @@ float ImuProxy::GetXMagn() { return GetRawValues().magn_x; }
 float ImuProxy::GetYMagn() { return GetRawValues().magn_y; }
 float ImuProxy::GetZMagn() { return GetRawValues().magn_z; }
 player_imu_data_calib_t ImuProxy::GetRawValues() const {
-  return Look<ImuReading>([](const ImuReading& r) -> player_imu_data_calib_t {
-    const auto& a = r.acceleration_mps2;
-    const auto& w = r.rate_radps;
-    const auto& b = r.field_ut;
-    return {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2]),
-            static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2]),
-            static_cast<float>(b[0]), static_cast<float>(b[1]), static_cast<float>(b[2])};
-  });
+  return Look<ImuReading>(
+      [](const ImuReading& r) { return playerlike::imu_values<player_imu_data_calib_t>(r); });
 }
 
 void ImuProxy::SetDatatype(int aDatatype) {

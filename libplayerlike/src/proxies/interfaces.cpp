@@ -4,18 +4,11 @@
 #include <iterator>
 #include <string>
 
+#include "messages/player_interfaces.h"
 #include "proxies/link.h"
 
 namespace PlayerCc {
 namespace {
-
-struct InterfaceRow {
-  int code;
-  const char* name;
-};
-constexpr InterfaceRow kInterfaceNames[] = {
-#include "proxies/interface_names.inc"  // generated from libplayerlike/player/interfaces.txt
-};
 
 /// The messages that the proxies of an interface receive or send.
 struct MessageRow {
@@ -120,18 +113,10 @@ bool has_message(uint32_t interface, uint32_t type, uint32_t subtype) noexcept {
   });
 }
 
-const char* interface_name(int code) noexcept {
-  for (const InterfaceRow& row : kInterfaceNames) {
-    if (row.code == code) return row.name;
-  }
-  return nullptr;
-}
+const char* interface_name(int code) noexcept { return playerlike::player_interface_name(code); }
 
 std::optional<int> interface_code(const std::string& name) noexcept {
-  for (const InterfaceRow& row : kInterfaceNames) {
-    if (name == row.name) return row.code;
-  }
-  return std::nullopt;
+  return playerlike::player_interface_code(name);
 }
 
 }  // namespace PlayerCc

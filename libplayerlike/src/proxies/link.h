@@ -117,8 +117,8 @@ struct detail::CoreAccess {
   }
 };
 
-/// Player's name of the driver at an address: that of a Player server, otherwise the type of device,
-/// "snd" or "world".
+/// Player's name of the driver at an address: that of a Player server, otherwise the type of
+/// device, "snd" or "world".
 [[nodiscard]] inline std::string driver_name(const playerlike::ClientCore& core,
                                              const playerlike::InterfaceBinding& binding) {
   if (binding.address != nullptr) return binding.address->driver;

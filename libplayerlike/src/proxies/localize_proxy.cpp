@@ -6,6 +6,7 @@
 #include "devices/errors.h"
 #include "libplayerc++/localizeproxy.h"
 #include "proxies/link.h"
+#include "session/player_values.h"
 #include "sim/devices/localization.h"
 
 namespace PlayerCc {
@@ -42,17 +43,9 @@ player_localize_hypoth_t LocalizeProxy::GetHypoth(uint32_t aIndex) const {
   const char* fun = "LocalizeProxy::GetHypoth";
   const scoped_lock_t lock(LockData(fun));
   const auto* reading = mLink->newest.find<sim::PoseReading>();
-  player_localize_hypoth_t hypoth = {};
   constexpr ElementWords kHypotheses{"hypothesis", "hypotheses"};
-  if (!mLink->has_element(fun, kHypotheses, aIndex, reading == nullptr ? 0 : 1)) return hypoth;
-  const double noise_m = mLink->property("noise", 0.0);
-  const double noise_yaw_rad = mLink->property("noise_yaw", 0.0);
-  hypoth.mean = mean_of(*reading);
-  hypoth.cov[0] = noise_m * noise_m;
-  hypoth.cov[1] = noise_m * noise_m;
-  hypoth.cov[2] = noise_yaw_rad * noise_yaw_rad;
-  hypoth.alpha = 1.0;
-  return hypoth;
+  if (!mLink->has_element(fun, kHypotheses, aIndex, reading == nullptr ? 0 : 1)) return {};
+  return playerlike::hypothesis_of<player_localize_hypoth_t>(*reading, mLink->info().properties);
 }
 
 int LocalizeProxy::GetParticles() {
@@ -83,6 +76,9 @@ void LocalizeProxy::SetPose(double pose[3], double cov[6]) {
   playerlike::require_finite(
       fun, {{"the pose's x", pose[0]}, {"the pose's y", pose[1]}, {"the pose's yaw", pose[2]}});
   const scoped_lock_t lock(LockData(fun));
+  // Simulated localisation knows the pose.
+  if (mLink->property("accepts_pose", 0.0) == 0.0) return;
+  mLink->send(fun, sim::SetPoseCommand{{pose[0], pose[1], sim::normalize_angle(pose[2])}});
 }
 
 }  // namespace PlayerCc

@@ -8,20 +8,10 @@
 #include "devices/errors.h"
 #include "libplayerc++/mapproxy.h"
 #include "proxies/link.h"
+#include "session/player_values.h"
 #include "sim/world/occupancy_map.h"
 
 namespace PlayerCc {
-namespace {
-
-constexpr int8_t kDataRange = 1;
-
-// Converts an occupancy to a cell of Player's map interface.
-int8_t player_cell(float occupancy) {
-  if (occupancy > 0.5F) return kDataRange;
-  return occupancy < 0.5F ? static_cast<int8_t>(-kDataRange) : int8_t{0};
-}
-
-}  // namespace
 
 MapProxy::MapProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
   Attach(PLAYER_MAP_CODE, aIndex, "MapProxy::MapProxy", false);
@@ -39,15 +29,7 @@ void MapProxy::RequestMap() {
             .request(playerlike::WorldMapRequest{
                 session.request(playerlike::CanvasInfoRequest{}).cell_size_m})
             .map;
-    const auto width = static_cast<std::size_t>(map.width);
-    mCells.resize(map.cells.size());
-    // The first row is the top row here, and the bottom row in Player.
-    for (int row = 0; row < map.height; ++row) {
-      const auto from = map.cells.begin() + row * map.width;
-      const auto y = static_cast<std::size_t>(map.height - 1 - row);
-      std::transform(from, from + map.width,
-                     mCells.begin() + static_cast<std::ptrdiff_t>(y * width), player_cell);
-    }
+    mCells = playerlike::map_cells(map);
     mWidth = static_cast<uint32_t>(map.width);
     mHeight = static_cast<uint32_t>(map.height);
     mResolution = map.cell_size_m;
@@ -86,7 +68,7 @@ double MapProxy::GetOriginY() const { return GetVar(mOriginY); }
 
 int8_t MapProxy::GetDataRange() const {
   const scoped_lock_t lock(LockData("MapProxy::GetDataRange"));
-  return kDataRange;
+  return playerlike::kMapDataRange;
 }
 
 void MapProxy::GetMap(int8_t* aMap) const {

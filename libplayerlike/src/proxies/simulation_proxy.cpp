@@ -6,10 +6,10 @@
 #include <string>
 
 #include "devices/errors.h"
-#include "devices/object_values.h"
 #include "devices/warnings.h"
 #include "libplayerc++/simulationproxy.h"
 #include "proxies/link.h"
+#include "session/object_values.h"
 
 namespace playerlike {
 namespace {

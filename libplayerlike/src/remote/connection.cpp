@@ -126,7 +126,8 @@ struct Connection::Impl {
       }
     };
     take();  // messages that arrived together with the answer to hello
-    if (!messages.empty() || !wait_for_socket(socket.native_handle(), POLLIN, deadline)) return messages;
+    if (!messages.empty() || !wait_for_socket(socket.native_handle(), POLLIN, deadline))
+      return messages;
     const std::size_t count = read_some(socket, address, splitter.room(kRoom));
     if (count == 0) return messages;
     splitter.added(count);

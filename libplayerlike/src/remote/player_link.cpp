@@ -56,8 +56,8 @@ struct PlayerLink::Impl {
 
   std::mutex mutex;  // guards the members below
   std::condition_variable changed;
-  bool led = false;              // a leader is reading the socket
-  bool round_requested = false;  // and the round is not complete yet
+  bool led = false;                     // a leader is reading the socket
+  bool round_requested = false;         // and the round is not complete yet
   std::optional<player::Msghdr> asked;  // the request in flight: interface, index and subtype
   std::optional<Reply> reply;
   Clock::time_point heard{};  // when data have arrived last
@@ -129,13 +129,14 @@ struct PlayerLink::Impl {
         case PLAYER_MSGTYPE_DATA:
           receiver.on_data(message.header, message.payload);
           break;
-        case PLAYER_MSGTYPE_SYNCH: {
+        case PLAYER_MSGTYPE_SYNCH:
           round_bytes = 0;
+          {
+            const std::lock_guard lock(mutex);
+            round_requested = false;  // before threads see the round: they may request the next one
+          }
           receiver.on_round();
-          const std::lock_guard lock(mutex);
-          round_requested = false;
           break;
-        }
         case PLAYER_MSGTYPE_RESP_ACK:
         case PLAYER_MSGTYPE_RESP_NACK:
           take_reply(message);

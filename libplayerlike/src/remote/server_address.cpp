@@ -11,9 +11,11 @@ namespace playerlike {
 namespace {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  throw SessionError(SessionError::Code::kBadArgument,
-                     '"' + text + "\" names no server: " + why +
-                         "; servers are named as tcp://HOST, tcp://HOST:PORT or tcp://[IPV6]:PORT");
+  throw SessionError(
+      SessionError::Code::kBadArgument,
+      '"' + text + "\" names no server: " + why +
+          "; servers are named as tcp://HOST, tcp://HOST:PORT or tcp://[IPV6]:PORT, and "
+          "Player's as player://HOST or player://HOST:PORT");
 }
 
 std::optional<int> parse_port(std::string_view text) {
@@ -37,12 +39,17 @@ std::string ServerAddress::text() const {
   return (is_v6 ? '[' + host + ']' : host) + ':' + std::to_string(tcp_port);
 }
 
-ServerAddress parse_server_address(const std::string& text) {
+ServerAddress parse_server_address(const std::string& text, int default_port) {
   std::string_view rest = text;
-  if (rest.starts_with(kTcpPrefix)) rest.remove_prefix(kTcpPrefix.size());
-  if (rest.find("//") != std::string_view::npos) refuse(text, "only tcp:// is known");
+  for (const std::string_view prefix : {kTcpPrefix, kPlayerPrefix}) {
+    if (text.starts_with(prefix)) rest.remove_prefix(prefix.size());
+  }
+  if (rest.find("//") != std::string_view::npos) {
+    refuse(text, "only tcp:// and player:// are known");
+  }
 
   ServerAddress address;
+  address.tcp_port = default_port;
   std::optional<std::string_view> port;
   if (rest.starts_with('[')) {
     const std::size_t end = rest.find(']');

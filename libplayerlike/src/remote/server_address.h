@@ -19,9 +19,16 @@ struct ServerAddress {
 
 /// Optional prefix of host names that mean a Playpen server.
 inline constexpr std::string_view kTcpPrefix = "tcp://";
+/// Prefix of host names that mean a Player server.
+inline constexpr std::string_view kPlayerPrefix = "player://";
+/// Player's default TCP port.
+inline constexpr int kPlayerTcpPort = 6665;
 
-/// Parses "tcp://HOST[:PORT]" or "HOST[:PORT]"; an IPv6 address is in brackets. @throws
-/// SessionError kBadArgument with the reason.
-[[nodiscard]] ServerAddress parse_server_address(const std::string& text);
+/// Parses "tcp://HOST[:PORT]", "player://HOST[:PORT]" or "HOST[:PORT]"; an IPv6 address is in
+/// brackets.
+/// @param default_port  of an address without a port.
+/// @throws SessionError kBadArgument with the reason.
+[[nodiscard]] ServerAddress parse_server_address(const std::string& text,
+                                                 int default_port = protocol::kDefaultTcpPort);
 
 }  // namespace playerlike

@@ -81,8 +81,8 @@ std::vector<asio::ip::address> look_up(const ServerAddress& server, SocketClock:
 
 /// Connects a socket. @return the error text, nullopt if it is connected.
 std::optional<std::string> connect_to(tcp::socket& socket, const tcp::endpoint& endpoint,
-                                   const ConnectDeadline& deadline, std::size_t share,
-                                   const char* refused) {
+                                      const ConnectDeadline& deadline, std::size_t share,
+                                      const char* refused) {
   asio::error_code error;
   socket.open(endpoint.protocol(), error);
   if (!error) socket.non_blocking(true, error);
@@ -91,7 +91,8 @@ std::optional<std::string> connect_to(tcp::socket& socket, const tcp::endpoint& 
     if (error == asio::error::in_progress || error == asio::error::would_block) {
       const int handle = socket.native_handle();
       const bool done = deadline.wait(
-          [&](SocketClock::time_point until) { return wait_for_socket(handle, POLLOUT, until); }, share);
+          [&](SocketClock::time_point until) { return wait_for_socket(handle, POLLOUT, until); },
+          share);
       if (!done) return "no answer in time";
       int problem = 0;
       socklen_t size = sizeof problem;

@@ -1,7 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "server/connection.h"
 
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <asio/buffer.hpp>
@@ -12,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/local_process.h"
 #include "sim/core/number_text.h"
 
 namespace playerlike::server {
@@ -107,8 +111,15 @@ void Connection::on_read(const asio::error_code& error, std::size_t size) {
     return read();
   }
   splitter_.added(size);
+  const std::uint64_t bytes_out_before = bytes_out_;
   if (size >= room_) room_ = std::min(room_ * 2, kLargestRoom);
   process();
+  // Linux acknowledges at once for a while only, so the option is set again. What was written has
+  // acknowledged already.
+  if (acknowledges_at_once_ && bytes_out_ == bytes_out_before && state_ != State::kEnded) {
+    const int on = 1;
+    setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
+  }
 }
 
 // Runs an action of a handler. If it throws, the connection is closed; the others are not affected.
@@ -180,6 +191,20 @@ void Connection::set_busy(bool busy) {
   if (busy_ && !busy && owner_.limits().idle_s > 0.0) last_request_ = Clock::now();
   busy_ = busy;
   if (was_paused && !paused() && !processing_ && !reading_) process_soon();
+}
+
+std::optional<int> Connection::local_process() {
+  return socket_.is_open() ? peer_process(socket_.native_handle()) : std::nullopt;
+}
+
+std::uint32_t Connection::own_ipv4() const {
+  asio::error_code error;
+  asio::ip::address address = socket_.local_endpoint(error).address();
+  if (error) return 0;
+  if (address.is_v6() && address.to_v6().is_v4_mapped()) {
+    address = asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
+  }
+  return address.is_v4() ? htonl(address.to_v4().to_uint()) : 0;
 }
 
 // --- Writing

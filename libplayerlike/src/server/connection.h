@@ -81,7 +81,10 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   void close(std::string farewell) override;
   void set_in_flight(std::size_t requests) override;
   void set_busy(bool busy) override;
-  void set_encoding(protocol::Encoding encoding) override { splitter_.set_encoding(encoding); }
+  void set_framing(protocol::Framing framing) override { splitter_.set_framing(framing); }
+  void acknowledge_at_once() override { acknowledges_at_once_ = true; }
+  [[nodiscard]] std::optional<int> local_process() override;
+  [[nodiscard]] std::uint32_t own_ipv4() const override;
   [[nodiscard]] const std::string& name() const noexcept override { return name_; }
   void describe(const std::string& text) override { description_ = text; }
 
@@ -132,6 +135,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   bool write_ended_ = false;  ///< our sending direction is shut down
   std::size_t in_flight_ = 0;
   bool busy_ = false;  ///< see Peer::set_busy()
+  bool acknowledges_at_once_ = false;
 
   protocol::MessageSplitter splitter_;
   std::size_t room_;                  ///< size of the next read [bytes]

@@ -29,18 +29,6 @@ constexpr std::size_t kStepCells = std::size_t{1} << 20U;
 // [bytes].
 constexpr std::size_t kSmallAnswer = std::size_t{1} << 20U;
 constexpr double kMaxTimeout_s = 1e9;
-constexpr std::size_t kMaxReason = 200;
-
-// The handler whose wait this thread is starting; that code checks the outcome itself.
-thread_local const void* beginning = nullptr;
-
-class Beginning {
- public:
-  explicit Beginning(const void* who) { beginning = who; }
-  ~Beginning() { beginning = nullptr; }
-  Beginning(const Beginning&) = delete;
-  Beginning& operator=(const Beginning&) = delete;
-};
 
 std::int64_t integer_or(const json& object, const char* key, std::int64_t otherwise,
                         std::int64_t least, std::int64_t most) {
@@ -85,115 +73,6 @@ const NativeHandler::OwnRequest* NativeHandler::find_own_request(std::string_vie
   return it == std::end(kRequests) ? nullptr : it;
 }
 
-// --- Rights
-
-void NativeHandler::require_rights(int robot) const {
-  if (robot < 0) {
-    if (terms_.rights.command_all()) return;
-    throw ProtocolError("access/denied",
-                        "this concerns all robots: only who may command each of them may do it");
-  }
-  const auto index = static_cast<std::size_t>(robot);
-  if (index < terms_.rights.command.size() && terms_.rights.command[index]) return;
-  throw ProtocolError("access/denied", "robot " + hub_.host().robots()[index].name +
-                                           " obeys only those whose hello has its token");
-}
-
-// The index of the robot with this name; -1 if the object is not a robot.
-int NativeHandler::robot_named(const std::string& name) const {
-  const auto& robots = hub_.host().robots();
-  const auto it = std::find_if(robots.begin(), robots.end(),
-                               [&](const RobotInfo& robot) { return robot.name == name; });
-  return it == robots.end() ? -1 : static_cast<int>(it - robots.begin());
-}
-
-/// Refuses requests that this client may not make, and requests that a server never executes.
-struct NativeHandler::Guard {
-  const NativeHandler& handler;
-
-  template <typename One>
-  void operator()(const One& what) const {
-    if constexpr (requires { One::kTellsTruth; }) require_truth();
-    if constexpr (requires { check(what); }) check(what);
-  }
-
- private:
-  void require_truth() const {
-    if (handler.terms_.rights.truth) return;
-    throw ProtocolError(
-        "access/denied",
-        "this world keeps the poses and properties of its objects and its map private "
-        "(\"privacy\" in its \"simulation\"): that takes the tokens of all robots");
-  }
-  void check(const SubscribeRequest& what) const {
-    const std::vector<RobotInfo>& robots = handler.hub_.host().robots();
-    require_device(robots, what.device);
-    const auto robot = static_cast<std::size_t>(what.device.robot);
-    if (handler.terms_.rights.read[robot]) return;
-    throw ProtocolError("access/denied",
-                        "this world lets a client read the sensors of its own robots only "
-                        "(\"privacy\" in its \"simulation\"): for those of " +
-                            robots[robot].name + " present that robot's token");
-  }
-  void check(const ReplaceRequest& what) const {
-    if (what.device) require_device(handler.hub_.host().robots(), *what.device);
-  }
-  void check(const SetCellsRequest& what) const {
-    if (what.layer == sim::kBaseLayer) handler.require_canvas_rights();
-  }
-  void check(const ResizeCanvasRequest&) const { handler.require_canvas_rights(); }
-  void check(const PlaceObjectRequest& what) const {
-    handler.require_rights(handler.robot_named(what.name));
-  }
-  void check(const SetObjectPropertyRequest& what) const {
-    handler.require_rights(handler.robot_named(what.name));
-  }
-  void check(const SetConfigurationRequest&) const { handler.require_rights(-1); }
-  void check(const SetBlockRequest&) const { handler.require_rights(-1); }
-  void check(const SetTimerRequest&) const { handler.require_rights(-1); }
-  void check(const SetTrapRequest&) const { handler.require_rights(-1); }
-  void check(const SaveStateRequest&) const { handler.require_rights(-1); }
-  void check(const RestoreStateRequest&) const { handler.require_rights(-1); }
-  void check(const WorldMapRequest& what) const {
-    if (what.tile) {
-      const sim::CellRect& tile = *what.tile;
-      if (static_cast<double>(tile.width) * tile.height <= kMaxMapCells) return;
-      protocol::refuse_value("tile", "at most 4194304 cells",
-                             {tile.column, tile.row, tile.width, tile.height});
-    }
-    const sim::Vec2 arena_m = native_arena_m(handler.hub_.host());
-    if (!(what.cell_size_m > 0.0) || (arena_m / what.cell_size_m).prod() <= kMaxMapCells) return;
-    throw SessionError(SessionError::Code::kBadArgument,
-                       "a server makes maps of up to 4194304 cells: a cell of this arena must be " +
-                           sim::rounded_text(std::sqrt(arena_m.prod() / kMaxMapCells), 6) +
-                           " m long at least, unless the map is asked for in tiles");
-  }
-  void check(const SetBlackboardRequest&) const {
-    if (handler.terms_.rights.change_shared()) return;
-    throw ProtocolError("access/denied",
-                        "only who may command a robot may set entries of the blackboard that all "
-                        "share: present the token of a robot in hello");
-  }
-  void check(const NoteGoalRequest& what) const {
-    require_device(handler.hub_.host().robots(), what.device);
-    handler.require_rights(what.device.robot);
-  }
-  void check(const LogRequest& what) const {
-    if (!what.file && !what.replay && !what.rewind && !what.running) return;
-    const std::vector<RobotInfo>& robots = handler.hub_.host().robots();
-    const auto robot = std::find_if(robots.rbegin(), robots.rend(), [&](const RobotInfo& r) {
-      return r.port == handler.terms_.port;
-    });
-    handler.require_rights(robot == robots.rend() ? -1
-                                                  : static_cast<int>(robots.rend() - robot) - 1);
-  }
-  // The reason is written to the log.
-  static void check(const PreferRealTimeRequest& what) {
-    if (what.reason.size() <= kMaxReason && is_printable(what.reason)) return;
-    protocol::refuse_value("reason", "at most 200 printable bytes", what.reason);
-  }
-};
-
 // --- Requests
 
 NativeHandler::NativeHandler(Peer& peer, Hub& hub, Terms terms)
@@ -201,31 +80,21 @@ NativeHandler::NativeHandler(Peer& peer, Hub& hub, Terms terms)
       hub_(hub),
       state_(hub.native_state),
       terms_(std::move(terms)),
+      guard_(hub.host(), terms_.rights, terms_.port),
       self_(std::make_shared<NativeHandler*>(this)) {
   if (!terms_.session) return;
-  const void* me = self_.get();
-  const auto notify = [&hub, me, weak = std::weak_ptr<NativeHandler*>(self_)] {
-    if (beginning == me) return;
-    hub.post([weak] {
-      if (const auto self = weak.lock()) (*self)->answer_waiting();
-    });
-  };
-  client_ = hub_.host().connect_events(terms_.port, notify, terms_.follower);
+  wait_.emplace(hub, terms_.port, terms_.follower, [this] { answer_waiting(); });
   state_->leaders[terms_.key] = {terms_.port, terms_.rights.command};
 }
 
 NativeHandler::~NativeHandler() {
   state_->watching.forget(peer_);
-  if (client_) {
-    state_->leaders.erase(terms_.key);
-    // The worker thread may still hold a reference.
-    client_->session().close();
-  }
+  if (wait_) state_->leaders.erase(terms_.key);
   if (waiting_ && waiting_->timer != 0) hub_.cancel(waiting_->timer);
 }
 
 json NativeHandler::tell_canvas() {
-  if (!client_) {
+  if (!wait_) {
     sim::CanvasDescription canvas;
     hub_.host().with_simulation(
         [&](sim::Simulation& simulation) { canvas = simulation.layers().description(); });
@@ -272,12 +141,12 @@ void NativeHandler::execute(const json& message, const json& id, std::string& na
     throw ProtocolError("protocol/unknown-request",
                         "there is no request of this name; see docs/protocol.md");
   }
-  if (!client_ && (own == nullptr || !own->for_watchers)) {
+  if (!wait_ && (own == nullptr || !own->for_watchers)) {
     throw ProtocolError("access/denied", "this connection only watches, as its hello said");
   }
   if (type) {
     Request request = protocol::decode_request(*type, message, terms_.encoding);
-    std::visit(Guard{*this}, request);
+    guard_.check(request);
     if (native_work_cells(request, session(), hub_.host()) > kInlineCells) {
       return answer_elsewhere(std::move(request), id, name);
     }
@@ -326,7 +195,7 @@ void NativeHandler::answer_elsewhere(Request request, const json& id, const std:
   const auto made = std::make_shared<Made>();
   made->canvas_generation = canvas_generation_;
   // The job holds no reference to the handler, which may be destroyed before the job is done.
-  const auto run_slice = [client = client_, encoding = terms_.encoding,
+  const auto run_slice = [client = wait_->client(), encoding = terms_.encoding,
                           request = std::move(request), id, made] {
     Session& session = client->session();
     json answer = protocol::encode_answer(request, session.answer(request), encoding);
@@ -348,20 +217,11 @@ void NativeHandler::answer_elsewhere(Request request, const json& id, const std:
   });
 }
 
-void NativeHandler::require_canvas_rights() const {
-  if (terms_.rights.change_shared()) return;
-  throw ProtocolError(
-      "access/denied",
-      "only who may command a robot may draw on the canvas that all share, erase or "
-      "resize it: present the token of a robot in hello, or draw on a layer of "
-      "your own");
-}
-
 void NativeHandler::require_drawing(std::span<const sim::DrawOperation> drawings) const {
-  if (terms_.rights.change_shared()) return;
+  if (guard_.may_draw()) return;
   if (std::any_of(drawings.begin(), drawings.end(),
                   [](const auto& drawing) { return drawing.layer == sim::kBaseLayer; })) {
-    require_canvas_rights();
+    guard_.check_canvas();
   }
 }
 
@@ -388,14 +248,15 @@ void NativeHandler::draw_elsewhere(std::vector<sim::DrawOperation> drawings, con
   const auto drawing = std::make_shared<DrawWork>();
   drawing->operations = std::move(drawings);
   work(
-      id, name, [client = client_, drawing] { return !client->draw_some(*drawing, kSliceCells); },
+      id, name,
+      [client = wait_->client(), drawing] { return !client->draw_some(*drawing, kSliceCells); },
       std::move(then));
 }
 
 void NativeHandler::answer(const json& id, json answer) {
   if (id.is_null()) return;
   answer["id"] = id;
-  if (client_ && session().canvas_generation() != canvas_generation_) {
+  if (wait_ && session().canvas_generation() != canvas_generation_) {
     answer["canvas"] = tell_canvas();
   }
   peer_.send(protocol::encode(answer, terms_.encoding));
@@ -473,7 +334,7 @@ void NativeHandler::read(const json& request, const json& id) {
       protocol::refuse_unknown_keys(item, {"device", "command"}, "an item of commands");
       commands.emplace_back(protocol::require_device_id(item, "device"),
                             protocol::decode_command(protocol::require(item, "command")));
-      require_command(commands.back().first);
+      guard_.check_command(commands.back().first);
     }
   }
   std::vector<sim::DrawOperation> drawings;
@@ -483,7 +344,7 @@ void NativeHandler::read(const json& request, const json& id) {
   require_drawing(drawings);
   const auto go_on = [this, id, wait](const auto& list, const json& what) {
     for (const auto& [device, command] : list) session().send(device, command);
-    if (wait == Wait::kJoin) client_->join(thread_id(what));
+    if (wait == Wait::kJoin) wait_->client()->join(thread_id(what));
     if (wait == Wait::kJoin || wait == Wait::kNone) return answer(id, round(wait, Outcome::kData));
     begin_to_wait(what, id, wait);
   };
@@ -499,11 +360,11 @@ void NativeHandler::read(const json& request, const json& id) {
 
 NativeHandler::Outcome NativeHandler::begin(Wait wait, const json& request) {
   const ThreadId who = thread_id(request);
-  if (wait == Wait::kData) return client_->begin_wait(who);
-  if (wait == Wait::kSleep) return client_->begin_sleep(who, require_timeout(request));
+  if (wait == Wait::kData) return wait_->client()->begin_wait(who);
+  if (wait == Wait::kSleep) return wait_->client()->begin_sleep(who, require_timeout(request));
   const double timeout_s = request.contains("timeout") ? require_timeout(request) : 0.0;
   const std::chrono::milliseconds timeout(std::llround(timeout_s * 1e3));
-  const Outcome outcome = client_->begin_peek(who, timeout);
+  const Outcome outcome = wait_->client()->begin_peek(who, timeout);
   // In a paced simulation the host does not end a peek, see EventClient, so a timer does. The mode
   // is checked after the start: if the simulation becomes paced later, the peek ends by simulated
   // time.
@@ -519,18 +380,9 @@ NativeHandler::Outcome NativeHandler::begin(Wait wait, const json& request) {
 void NativeHandler::begin_to_wait(const json& request, const json& id, Wait wait) {
   waiting_ = {id, wait};
   try {
-    Outcome outcome;
-    {
-      const Beginning scope(self_.get());
-      outcome = begin(wait, request);
-      // Usually time can advance at once, and the wait ends without another turn of the event loop.
-      if (outcome == Outcome::kWaiting) hub_.pump();
-    }
-    if (outcome == Outcome::kWaiting) {
-      if (waiting_) answer_waiting();
-      if (waiting_) peer_.set_in_flight(1);
-      return;
-    }
+    const Outcome outcome = wait_->begin([&] { return begin(wait, request); });
+    if (outcome == Outcome::kWaiting) return peer_.set_in_flight(1);
+    if (waiting_->timer != 0) hub_.cancel(waiting_->timer);
     waiting_.reset();
     answer(id, round(wait, outcome));
   } catch (...) {
@@ -541,7 +393,7 @@ void NativeHandler::begin_to_wait(const json& request, const json& id, Wait wait
 
 void NativeHandler::answer_waiting() {
   if (!waiting_) return;
-  const Outcome outcome = client_->outcome();
+  const Outcome outcome = wait_->client()->outcome();
   if (outcome == Outcome::kWaiting) return;
   const Waiting done = std::move(*waiting_);
   waiting_.reset();
@@ -559,7 +411,7 @@ void NativeHandler::answer_waiting() {
 void NativeHandler::on_peek_timeout() {
   if (!waiting_) return;
   waiting_->timer = 0;
-  if (client_->outcome() == Outcome::kWaiting) client_->cancel();
+  if (wait_->client()->outcome() == Outcome::kWaiting) wait_->client()->cancel();
   answer_waiting();
 }
 
@@ -592,18 +444,10 @@ json NativeHandler::readings() {
 
 // --- Commands
 
-void NativeHandler::require_command(DeviceId device) const {
-  require_device(hub_.host().robots(), device);
-  const auto robot = static_cast<std::size_t>(device.robot);
-  if (robot < terms_.rights.command.size() && terms_.rights.command[robot]) return;
-  throw ProtocolError("access/denied", "robot " + hub_.host().robots()[robot].name +
-                                           " obeys only those whose hello has its token");
-}
-
 json NativeHandler::command(const json& request) {
   const DeviceId device = protocol::require_device_id(request, "device");
   const sim::Command command = protocol::decode_command(protocol::require(request, "command"));
-  require_command(device);
+  guard_.check_command(device);
   session().send(device, command);
   return json::object();
 }

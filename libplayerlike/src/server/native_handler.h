@@ -10,10 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "playerlike/host/event_client.h"
+#include "server/event_wait.h"
 #include "server/native_state.h"
 #include "server/native_work.h"
 #include "server/peer.h"
+#include "server/request_guard.h"
 
 namespace playerlike::server {
 
@@ -49,7 +50,6 @@ class NativeHandler final : public Handler {
   using json = nlohmann::json;  // NOLINT(readability-identifier-naming): the library's name
   using Outcome = EventClient::Outcome;
   struct OwnRequest;
-  struct Guard;
   class ReadingList;
 
   enum class Wait { kData, kPeek, kSleep, kJoin, kNone };
@@ -80,7 +80,6 @@ class NativeHandler final : public Handler {
   /// @throws ProtocolError access/denied for drawings on the shared canvas without the right to
   /// change it.
   void require_drawing(std::span<const sim::DrawOperation> drawings) const;
-  void require_canvas_rights() const;
   void answer(const json& id, json answer);
   void fail(const json& id, const std::string& name, std::string_view error, const char* message);
 
@@ -94,13 +93,8 @@ class NativeHandler final : public Handler {
   json round(Wait wait, Outcome outcome);
   json readings();
 
-  [[nodiscard]] Session& session() { return client_->session(); }
+  [[nodiscard]] Session& session() { return wait_->session(); }
   [[nodiscard]] ThreadId thread_id(const json& request);
-  /// @throws ProtocolError access/denied.
-  void require_command(DeviceId device) const;
-  /// @param robot  index; -1: all robots. @throws ProtocolError access/denied.
-  void require_rights(int robot) const;
-  [[nodiscard]] int robot_named(const std::string& name) const;
 
   // Requests about the connection or the client, not about the simulation.
   json command(const json& request);
@@ -116,9 +110,9 @@ class NativeHandler final : public Handler {
   Hub& hub_;
   std::shared_ptr<NativeState> state_;
   Terms terms_;
+  RequestGuard guard_;
   std::shared_ptr<NativeHandler*> self_;  ///< expires with the handler; posted tasks check it
-  /// Null: only watches. Shared with jobs of the worker thread.
-  std::shared_ptr<EventClient> client_;
+  std::optional<EventWait> wait_;         ///< none: only watches
   std::optional<Waiting> waiting_;
   bool ending_ = false;                  ///< the client has sent bye
   std::uint64_t canvas_generation_ = 0;  ///< the generation that the client knows

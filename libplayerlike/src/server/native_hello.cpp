@@ -147,7 +147,7 @@ void say_hello(Peer& peer, Hub& hub, const std::string& id, const json& argument
         (terms.session ? " session " + std::to_string(hub.native_state->sessions) : " watcher") +
         (name.empty() ? "" : " \"" + name + '"'));
     peer.send(id + " SUCCESS " + protocol::encode(answer, Encoding::kJson));
-    peer.set_encoding(terms.encoding);
+    peer.set_framing(protocol::framing_of(terms.encoding));
     hub.hand_over(peer, std::move(handler));
   } catch (const ProtocolError& error) {
     refuse(error.id(), error.what());

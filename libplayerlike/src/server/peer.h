@@ -3,8 +3,11 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -86,8 +89,16 @@ class Peer {
   virtual void set_in_flight(std::size_t requests) = 0;
   /// While true, the connection does not read, because a request is executed elsewhere.
   virtual void set_busy(bool busy) = 0;
-  /// Sets the encoding of the following input; at first kJson (lines).
-  virtual void set_encoding(protocol::Encoding encoding) = 0;
+  /// Sets the framing of the following input; at first kLines.
+  virtual void set_framing(protocol::Framing framing) = 0;
+  /// From now on input is acknowledged to the other end's system at once, if no answer does so. The
+  /// next message of a client that leaves Nagle's algorithm on then follows without delay.
+  virtual void acknowledge_at_once() {}
+  /// The process at the other end; nullopt if it is unknown or on another machine. See
+  /// peer_process().
+  [[nodiscard]] virtual std::optional<int> local_process() { return std::nullopt; }
+  /// The address of this end as it lies in memory; 0: not IPv4.
+  [[nodiscard]] virtual std::uint32_t own_ipv4() const { return 0; }
   /// "127.0.0.1:51234", for the log.
   [[nodiscard]] virtual const std::string& name() const noexcept = 0;
   /// Sets the text for the log: protocol and client name, 'playpen cbor "robot"'.
@@ -158,6 +169,8 @@ class Hub {
   /// such a callback, this happens after the return, without another wake-up.
   virtual void pump() = 0;
 
+  /// TCP ports of Player's protocol by the robots' ports in the world; empty if it is not offered.
+  [[nodiscard]] virtual const std::map<int, int>& player_ports() const noexcept = 0;
   /// Opens another port on the server's addresses, with its own kind of handler.
   /// @param first  the first port to try, then the following ones; 0: any free port.
   /// @return the port.

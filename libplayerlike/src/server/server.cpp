@@ -16,12 +16,16 @@ Server::Server(std::shared_ptr<Host> host, ServerSettings settings, sim::LogHook
           {std::move(host), std::move(settings), std::move(log), server::make_morse_handler}}) {}
 Server::~Server() = default;
 
-void Server::check(const ServerSettings& settings, const std::vector<std::string>& robots) {
-  server::ServerHub::check(settings, robots);
+void Server::check(const ServerSettings& settings, const std::vector<std::string>& robots,
+                   const std::vector<int>& robot_ports) {
+  server::ServerHub::check(settings, robots, robot_ports);
 }
 
 int Server::port() const noexcept { return impl_->hub.port(); }
 int Server::sync_port() const noexcept { return impl_->hub.sync_port(); }
+const std::map<int, int>& Server::player_ports() const noexcept {
+  return impl_->hub.player_ports();
+}
 std::size_t Server::connections() const noexcept { return impl_->hub.connections(); }
 bool Server::done() const noexcept { return impl_->hub.done(); }
 void Server::stop() noexcept { impl_->hub.stop(); }

@@ -15,6 +15,7 @@
 #include <atomic>
 #include <csignal>
 #include <exception>
+#include <list>
 #include <map>
 #include <mutex>
 #include <system_error>
@@ -23,6 +24,7 @@
 #include <utility>
 
 #include "server/connection.h"
+#include "server/player_connection.h"
 #include "sim/core/error.h"
 
 namespace playerlike::server {
@@ -185,6 +187,28 @@ void open_or_throw(asio::io_context& io, const std::vector<asio::ip::address>& a
               where + ": " + error.message(), "");
 }
 
+/// TCP ports of Player's protocol by the robots' ports, 0 for any free one.
+/// @throws sim::ConfigError server/port-range.
+std::map<int, int> wanted_player_ports(const ServerSettings& settings,
+                                       const std::vector<int>& robot_ports) {
+  constexpr int kMaxPort = 65535;
+  std::map<int, int> ports;
+  if (!settings.player_port) return ports;
+  for (const int port : robot_ports) ports[port] = 0;
+  if (*settings.player_port == 0 || ports.empty()) return ports;
+  const int lowest = ports.begin()->first;
+  const int last = *settings.player_port + ports.rbegin()->first - lowest;
+  if (last > kMaxPort) {
+    throw_issue("server/port-range", "player_port",
+                "a port from 1 to " + std::to_string(kMaxPort - (ports.rbegin()->first - lowest)) +
+                    ", since the robots' ports are up to " +
+                    std::to_string(ports.rbegin()->first - lowest) + " apart",
+                std::to_string(*settings.player_port), "port 0 takes any free ports");
+  }
+  for (auto& [robot_port, port] : ports) port = *settings.player_port + robot_port - lowest;
+  return ports;
+}
+
 }  // namespace
 
 class ServerHub::Body final : public Hub, private ConnectionOwner {
@@ -207,6 +231,16 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
       open_or_throw(io_, addresses_, settings_, *settings_.sync_port, "sync_port", clock);
       sync_port_ = add(std::move(clock));
     }
+    std::vector<int> robot_ports;
+    for (const RobotInfo& robot : host_->robots()) robot_ports.push_back(robot.port);
+    for (const auto& [robot_port, port] : wanted_player_ports(settings_, robot_ports)) {
+      Listener player;
+      open_or_throw(io_, addresses_, settings_, port, "player_port", player);
+      player.make = [robot_port = robot_port, tcp_port = player.port](Peer& peer, Hub& hub) {
+        return std::make_unique<PlayerConnection>(peer, hub, robot_port, tcp_port);
+      };
+      player_ports_[robot_port] = add(std::move(player));
+    }
     tick();
     thread_ = std::thread([this] { serve(); });
   }
@@ -214,6 +248,9 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
 
   [[nodiscard]] int port() const noexcept { return port_; }
   [[nodiscard]] int sync_port() const noexcept { return sync_port_; }
+  [[nodiscard]] const std::map<int, int>& player_ports() const noexcept override {
+    return player_ports_;
+  }
   [[nodiscard]] std::size_t connections() const noexcept { return open_connections_; }
   [[nodiscard]] bool done() const noexcept {
     return quit_ || (open_connections_ == 0 && host_->finished());
@@ -276,6 +313,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   std::vector<asio::ip::address> addresses_;
   int port_ = 0;
   int sync_port_ = 0;
+  std::map<int, int> player_ports_;
 
   std::vector<std::unique_ptr<Listener>> listeners_;
   std::unordered_set<std::shared_ptr<Connection>> connections_;  ///< also those that are closing
@@ -612,7 +650,8 @@ ServerHub::ServerHub(std::shared_ptr<Host> host, ServerSettings settings, sim::L
                                    std::move(services))) {}
 ServerHub::~ServerHub() = default;
 
-void ServerHub::check(const ServerSettings& settings, const std::vector<std::string>& robots) {
+void ServerHub::check(const ServerSettings& settings, const std::vector<std::string>& robots,
+                      const std::vector<int>& robot_ports) {
   std::vector<RobotInfo> infos(robots.size());
   for (std::size_t i = 0; i < robots.size(); ++i) infos[i].name = robots[i];
   const Access access(settings.access, infos);
@@ -624,10 +663,15 @@ void ServerHub::check(const ServerSettings& settings, const std::vector<std::str
   if (settings.sync_port) {
     open_or_throw(io, addresses, settings, *settings.sync_port, "sync_port", clock);
   }
+  std::list<Listener> players;
+  for (const auto& [robot_port, port] : wanted_player_ports(settings, robot_ports)) {
+    open_or_throw(io, addresses, settings, port, "player_port", players.emplace_back());
+  }
 }
 
 int ServerHub::port() const noexcept { return body_->port(); }
 int ServerHub::sync_port() const noexcept { return body_->sync_port(); }
+const std::map<int, int>& ServerHub::player_ports() const noexcept { return body_->player_ports(); }
 std::size_t ServerHub::connections() const noexcept { return body_->connections(); }
 bool ServerHub::done() const noexcept { return body_->done(); }
 void ServerHub::stop() noexcept { body_->stop(); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,9 +26,11 @@ class ServerHub {
 
   /// @name As in Server
   /// @{
-  static void check(const ServerSettings& settings, const std::vector<std::string>& robots);
+  static void check(const ServerSettings& settings, const std::vector<std::string>& robots,
+                    const std::vector<int>& robot_ports);
   [[nodiscard]] int port() const noexcept;
   [[nodiscard]] int sync_port() const noexcept;
+  [[nodiscard]] const std::map<int, int>& player_ports() const noexcept;
   [[nodiscard]] std::size_t connections() const noexcept;
   [[nodiscard]] bool done() const noexcept;
   void stop() noexcept;

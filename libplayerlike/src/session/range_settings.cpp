@@ -45,8 +45,9 @@ ScannerSettings scanner_settings(const DeviceSettings& settings) {
   ScannerSettings scanner;
   scanner.count = count_of(settings, "beams");
   scanner.native_rad = setting_of(settings, "resolution");
-  // The simulated laser is symmetric about forward.
-  if (scanner.count > 0) {
+  if (const auto least = settings.find("angle_min"); least != settings.end()) {
+    scanner.least_rad = least->second;
+  } else if (scanner.count > 0) {  // the simulated laser is symmetric about forward
     scanner.least_rad = -0.5 * static_cast<double>(scanner.count - 1) * scanner.native_rad;
   }
   scanner.range_max_m = setting_of(settings, "range_max");
@@ -65,11 +66,11 @@ BeamWindow window_of(double min_rad, double max_rad, double resolution_rad, std:
   const double begin = std::max(0.0, std::ceil((min_rad - least_rad) / native_rad - kSameBeam));
   const double end = std::min(last, std::floor((max_rad - least_rad) / native_rad + kSameBeam));
   if (!(begin <= end)) {
-    throw SessionError(
-        SessionError::Code::kBadArgument,
-        "no beam lies between " + std::to_string(min_rad) + " and " + std::to_string(max_rad) +
-            " rad; this laser's lie from " + std::to_string(least_rad) + " to " +
-            std::to_string(least_rad + last * native_rad) + " rad");
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "no beam lies between " + std::to_string(min_rad) + " and " +
+                           std::to_string(max_rad) + " rad; this laser's lie from " +
+                           std::to_string(least_rad) + " to " +
+                           std::to_string(least_rad + last * native_rad) + " rad");
   }
   // A server may report a spacing of zero: then the window has all beams.
   const double ratio = std::round(resolution_rad / native_rad);

@@ -6,6 +6,7 @@
 
 #include "libplayerinterface/player_constants.h"
 #include "proxies/goal_driver.h"
+#include "session/player_values.h"
 #include "sim/devices/localization.h"
 #include "wire/robot_device.h"
 
@@ -35,10 +36,10 @@ class Position2d final : public RobotDevice {
     if (measured == nullptr) return;
     const sim::Twist& twist = measured->twist;
     sink.data(PLAYER_POSITION2D_DATA_STATE,
-              player::encode(player::Position2dData{
-                  pose_2d(measured->pose),
-                  {twist.v_mps, twist.lateral_mps, twist.omega_radps},
-                  static_cast<std::uint8_t>(measured->stalled ? 1 : 0)}));
+              player::encode(
+                  player::Position2dData{pose_2d(measured->pose),
+                                         {twist.v_mps, twist.lateral_mps, twist.omega_radps},
+                                         static_cast<std::uint8_t>(measured->stalled ? 1 : 0)}));
   }
 
   void command(std::uint8_t subtype, std::string_view payload) override {
@@ -55,7 +56,7 @@ class Position2d final : public RobotDevice {
       }
       case PLAYER_POSITION2D_CMD_VEL_HEAD: {
         const auto asked = player::decode<player::Position2dCmdVelHead>(payload);
-        require_finite("the heading", asked.angle);
+        require_number("the heading", asked.angle);
         return drive(sim::HeadingCommand{asked.velocity, 0.0, sim::normalize_angle(asked.angle),
                                          binding().reading.device});
       }
@@ -94,16 +95,16 @@ class Position2d final : public RobotDevice {
 
   void send_to_motors(const sim::Command& command) const {
     if (!binding().motion) {
-      throw SessionError(SessionError::Code::kNotAvailable,
-                         "robot " + robot().name +
-                             " has no motors (a device of type \"motion\") in this world");
+      throw SessionError(
+          SessionError::Code::kNotAvailable,
+          "robot " + robot().name + " has no motors (a device of type \"motion\") in this world");
     }
     session().send(*binding().motion, command);
   }
 
   // Sends a command that moves the robot; cancels the driver's goal.
   void drive(const sim::Command& command) const {
-    require_finite(command);
+    playerlike::require_finite(command);
     if (driver_ != nullptr) driver_->cancel();
     send_to_motors(command);
   }
@@ -111,10 +112,10 @@ class Position2d final : public RobotDevice {
   void go_to(const player::Position2dCmdPos& asked) const {
     const sim::Pose goal{asked.pos.px, asked.pos.py, asked.pos.pa};
     for (const double number : {goal.x_m, goal.y_m, goal.yaw_rad}) {
-      require_finite("a goal's coordinate", number);
+      require_number("a goal's coordinate", number);
     }
     for (const double number : {asked.vel.px, asked.vel.py, asked.vel.pa}) {
-      require_finite("a speed", number);
+      require_number("a speed", number);
     }
     const double yaw_rad = sim::normalize_angle(goal.yaw_rad);
     if (driver_ == nullptr) {
@@ -141,8 +142,8 @@ class Position2d final : public RobotDevice {
   }
 
   void set_odometry(const player::Pose2d& pose) const {
-    require_finite("a coordinate of the odometry", pose.px + pose.py);
-    require_finite("the heading", pose.pa);
+    require_number("a coordinate of the odometry", pose.px + pose.py);
+    require_number("the heading", pose.pa);
     send(sim::SetPoseCommand{{pose.px, pose.py, sim::normalize_angle(pose.pa)}});
   }
 
@@ -151,12 +152,51 @@ class Position2d final : public RobotDevice {
   std::shared_ptr<GoalDriver> driver_;  // null except at the index of a driver
 };
 
+/// LocalizeProxy's counterpart.
+class Localize final : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* measured = reading_as<sim::PoseReading>(reading);
+    if (measured == nullptr) return;
+    pose_ = pose_2d(measured->pose);
+    player::LocalizeData data;
+    data.hypoths.push_back(hypothesis_of<player::LocalizeHypoth>(*measured, *settings()));
+    sink.data(PLAYER_LOCALIZE_DATA_HYPOTHS, player::encode(data));
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
+    switch (subtype) {
+      case PLAYER_LOCALIZE_REQ_SET_POSE: {
+        // A simulated localisation needs no first pose: it is checked only.
+        const auto asked = player::decode<player::LocalizeSetPose>(payload);
+        for (const double number : {asked.mean.px, asked.mean.py, asked.mean.pa}) {
+          require_number("a coordinate of the pose", number);
+        }
+        return empty_payload();
+      }
+      case PLAYER_LOCALIZE_REQ_GET_PARTICLES:
+        if (!pose_) return std::nullopt;
+        return player::encode(player::LocalizeGetParticles{*pose_, 0.0, {{*pose_, 1.0}}});
+      default:
+        return std::nullopt;
+    }
+  }
+
+ private:
+  std::optional<player::Pose2d> pose_;  // none before the first reading
+};
+
 }  // namespace
 
 MadeDevice make_driving_device(const DeviceContext& context) {
   switch (context.interface) {
     case PLAYER_POSITION2D_CODE:
       return std::make_unique<Position2d>(context);
+    case PLAYER_LOCALIZE_CODE:
+      return std::make_unique<Localize>(context);
     default:
       return nullptr;
   }

@@ -41,10 +41,10 @@ bool CommonDevice::has_capability(std::string_view payload) const {
     return true;
   }
   // A robot without motors still has position2d devices.
-  const bool needs_motors = context_.interface == PLAYER_POSITION2D_CODE &&
-                            (asked.type == PLAYER_MSGTYPE_CMD ||
-                             (asked.type == PLAYER_MSGTYPE_REQ &&
-                              asked.subtype == PLAYER_POSITION2D_REQ_MOTOR_POWER));
+  const bool needs_motors =
+      context_.interface == PLAYER_POSITION2D_CODE &&
+      (asked.type == PLAYER_MSGTYPE_CMD ||
+       (asked.type == PLAYER_MSGTYPE_REQ && asked.subtype == PLAYER_POSITION2D_REQ_MOTOR_POWER));
   return PlayerCc::has_message(static_cast<std::uint32_t>(context_.interface), asked.type,
                                asked.subtype) &&
          (!needs_motors || context_.binding.motion.has_value());
@@ -112,19 +112,27 @@ std::uint32_t whole_number(double value) {
   return static_cast<std::uint32_t>(std::llround(std::min(value, kMost)));
 }
 
-void require_finite(const char* what, double value) {
+void require_number(const char* what, double value) {
   if (std::isfinite(value)) return;
   throw SessionError(SessionError::Code::kBadArgument,
                      std::string(what) + " must be a finite number");
+}
+
+std::string printable_text(const char* what, std::string_view bytes) {
+  std::string text = player::text_of(bytes);
+  if (is_printable(text)) return text;
+  throw SessionError(SessionError::Code::kBadArgument,
+                     std::string(what) + " has control characters");
 }
 
 std::unique_ptr<PlayerDevice> make_player_device(Session& session, int port,
                                                  std::string_view interface, int index) {
   const std::optional<int> code = PlayerCc::interface_code(std::string(interface));
   if (!code) return nullptr;
-  const DeviceContext context{session, *code,
+  const DeviceContext context{session, *code, index,
                               find_interface(session.robots(), port, interface, index)};
-  for (const auto make : {make_driving_device, make_ranging_device}) {
+  for (const auto make : {make_driving_device, make_ranging_device, make_sensing_device,
+                          make_acting_device, make_drawing_device, make_world_device}) {
     if (MadeDevice made = make(context)) return made;
   }
   return nullptr;

@@ -1,11 +1,13 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Devices that measure ranges: laser.
+// Devices that measure ranges: laser, ranger, sonar and ir.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
 #include "libplayerinterface/player_constants.h"
 #include "sim/devices/laser.h"
+#include "sim/devices/rangers.h"
 #include "wire/robot_device.h"
 
 namespace playerlike::wire {
@@ -87,8 +89,7 @@ class LaserDevice final : public RobotDevice {
   std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
     switch (subtype) {
       case PLAYER_LASER_REQ_GET_GEOM:
-        return player::encode(
-            player::LaserGeom{pose_3d(scanner_.mounting), box_3d(scanner_.size)});
+        return player::encode(player::LaserGeom{pose_3d(scanner_.mounting), box_3d(scanner_.size)});
       case PLAYER_LASER_REQ_SET_CONFIG:
         configure(player::decode<player::LaserConfig>(payload));
         return player::encode(config());
@@ -120,10 +121,10 @@ class LaserDevice final : public RobotDevice {
   void configure(const player::LaserConfig& wish) {
     double spacing_rad = static_cast<double>(wish.resolution);
     double range_res_m = static_cast<double>(wish.range_res);
-    require_finite("the least angle", static_cast<double>(wish.min_angle));
-    require_finite("the greatest angle", static_cast<double>(wish.max_angle));
-    require_finite("the angular resolution", spacing_rad);
-    require_finite("the resolution of ranges", range_res_m);
+    require_number("the least angle", static_cast<double>(wish.min_angle));
+    require_number("the greatest angle", static_cast<double>(wish.max_angle));
+    require_number("the angular resolution", spacing_rad);
+    require_number("the resolution of ranges", range_res_m);
     // LaserProxy::Configure() of Player's client library sends its arguments as they are: whole
     // numbers of 0.01 degrees and of millimetres.
     if (spacing_rad > std::numbers::pi) spacing_rad *= 0.01 * std::numbers::pi / 180.0;
@@ -142,12 +143,218 @@ class LaserDevice final : public RobotDevice {
   player::LaserData scan_;    // keeps its memory
 };
 
+/// RangerProxy's counterpart: a laser, or a ring of sonars or infrared sensors.
+class RangerDevice final : public RobotDevice {
+ public:
+  explicit RangerDevice(const DeviceContext& context)
+      : RobotDevice(context),
+        is_laser_(info().type == "laser"),
+        scanner_(is_laser_ ? scanner_settings(info().properties) : ScannerSettings{}),
+        beams_(scanner_),
+        max_range_m_(setting("range_max")) {
+    if (!is_laser_) elements_ = element_mountings(info().properties);
+  }
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    if (const auto* scan = reading_as<sim::LaserReading>(reading)) {
+      beams_.update(*scan);
+      show(scan->ranges_m, beams_.window);
+    } else if (const auto* ring = reading_as<sim::RangerReading>(reading)) {
+      show(ring->ranges_m, {0, 1, ring->ranges_m.size()});
+    } else {
+      return;
+    }
+    std::string payload;
+    constexpr std::size_t kCounts = 8;
+    payload.reserve(kCounts + sizeof(double) * data_.ranges.size());
+    player::append(payload, data_);
+    sink.data(PLAYER_RANGER_DATA_RANGE, std::move(payload));
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
+    switch (subtype) {
+      case PLAYER_RANGER_REQ_GET_GEOM:
+        return player::encode(geometry());
+      case PLAYER_RANGER_REQ_POWER:
+        static_cast<void>(player::decode<player::RangerPowerConfig>(payload));
+        return empty_payload();  // simulated rangers are always on
+      case PLAYER_RANGER_REQ_INTNS:
+        static_cast<void>(player::decode<player::RangerIntnsConfig>(payload));
+        return empty_payload();  // they measure no intensities, as RangerProxy
+      case PLAYER_RANGER_REQ_SET_CONFIG:
+        configure(player::decode<player::RangerConfig>(payload));
+        return player::encode(config());
+      case PLAYER_RANGER_REQ_GET_CONFIG:
+        return player::encode(config());
+      default:
+        return std::nullopt;
+    }
+  }
+
+ private:
+  void show(const std::vector<double>& ranges_m, const BeamWindow& window) {
+    const bool limits = range_res_m_ > 0.0 || min_range_m_ > 0.0 || limits_range_;
+    data_.ranges.resize(window.shown);
+    for (std::size_t i = 0; i < window.shown; ++i) {
+      const double range_m = ranges_m[window.first + i * window.stride];
+      data_.ranges[i] =
+          limits ? limited_range_m(range_m, range_res_m_, min_range_m_, max_range_m_) : range_m;
+    }
+  }
+
+  [[nodiscard]] player::RangerGeom geometry() const {
+    player::RangerGeom geometry;
+    if (is_laser_) {
+      geometry.pose = pose_3d(scanner_.mounting);
+      geometry.size = box_3d(scanner_.size);
+      geometry.element_poses.resize(1);
+      geometry.element_sizes.assign(1, geometry.size);
+      return geometry;
+    }
+    geometry.size = box_3d(robot());
+    for (const Mounting& element : elements_) geometry.element_poses.push_back(pose_3d(element));
+    geometry.element_sizes.resize(elements_.size());
+    return geometry;
+  }
+
+  [[nodiscard]] player::RangerConfig config() const {
+    const double view_rad = setting("field_of_view");
+    player::RangerConfig now;
+    now.min_angle = is_laser_ ? beams_.min_rad() : -0.5 * view_rad;
+    now.max_angle = is_laser_ ? beams_.max_rad() : 0.5 * view_rad;
+    now.angular_res = is_laser_ ? beams_.spacing_rad() : view_rad;
+    now.min_range = min_range_m_;
+    now.max_range = max_range_m_;
+    now.range_res = range_res_m_ > 0.0 ? range_res_m_ : kRangeResolution_m;
+    now.frequency = setting("frequency");
+    return now;
+  }
+
+  // The frequency cannot be set.
+  void configure(const player::RangerConfig& wish) {
+    require_number("the least angle", wish.min_angle);
+    require_number("the greatest angle", wish.max_angle);
+    require_number("the angular resolution", wish.angular_res);
+    for (const double range_m : {wish.min_range, wish.max_range, wish.range_res}) {
+      require_number("a range", range_m);
+      if (range_m >= 0.0) continue;
+      throw SessionError(SessionError::Code::kBadArgument,
+                         "a range, or the resolution of ranges, is negative");
+    }
+    if (is_laser_) beams_.choose(wish.min_angle, wish.max_angle, wish.angular_res);
+    const double most_m = setting("range_max");
+    max_range_m_ = wish.max_range > 0.0 ? std::min(wish.max_range, most_m) : most_m;
+    min_range_m_ = std::min(wish.min_range, max_range_m_);
+    range_res_m_ = wish.range_res;
+    limits_range_ = max_range_m_ != most_m;
+  }
+
+  const bool is_laser_;
+  const ScannerSettings scanner_;
+  ShownBeams beams_;                // of a laser
+  std::vector<Mounting> elements_;  // of a ring
+  double min_range_m_ = 0.0;
+  double max_range_m_;
+  double range_res_m_ = 0.0;           // 0: ranges are not rounded
+  bool limits_range_ = false;          // whether max_range_m_ is below the device's own limit
+  player::RangerDataRange data_ = {};  // keeps its memory
+};
+
+/// Common part of SonarProxy's and IrProxy's counterparts.
+class RingDevice : public RobotDevice {
+ public:
+  explicit RingDevice(const DeviceContext& context)
+      : RobotDevice(context), elements_(element_mountings(info().properties)) {}
+
+ protected:
+  [[nodiscard]] std::vector<player::Pose3d> poses() const {
+    std::vector<player::Pose3d> poses;
+    poses.reserve(elements_.size());
+    for (const Mounting& element : elements_) poses.push_back(pose_3d(element));
+    return poses;
+  }
+
+ private:
+  std::vector<Mounting> elements_;
+};
+
+class SonarDevice final : public RingDevice {
+ public:
+  using RingDevice::RingDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* ring = reading_as<sim::RangerReading>(reading);
+    if (ring == nullptr) return;
+    data_.ranges.clear();
+    for (const double range_m : ring->ranges_m) data_.ranges.push_back(static_cast<float>(range_m));
+    sink.data(PLAYER_SONAR_DATA_RANGES, player::encode(data_));
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
+    switch (subtype) {
+      case PLAYER_SONAR_REQ_GET_GEOM:
+        return player::encode(player::SonarGeom{poses()});
+      case PLAYER_SONAR_REQ_POWER:
+        static_cast<void>(player::decode<player::SonarPowerConfig>(payload));
+        return empty_payload();  // simulated sonars are always on
+      default:
+        return std::nullopt;
+    }
+  }
+
+ private:
+  player::SonarData data_;
+};
+
+class IrDevice final : public RingDevice {
+ public:
+  using RingDevice::RingDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* ring = reading_as<sim::RangerReading>(reading);
+    if (ring == nullptr) return;
+    const double gain = setting("voltage_gain");
+    const double shift = setting("voltage_shift");
+    data_.ranges.clear();
+    data_.voltages.clear();
+    for (const double range_m : ring->ranges_m) {
+      data_.ranges.push_back(static_cast<float>(range_m));
+      data_.voltages.push_back(static_cast<float>(sim::infrared_voltage_v(range_m, gain, shift)));
+    }
+    sink.data(PLAYER_IR_DATA_RANGES, player::encode(data_));
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
+    switch (subtype) {
+      case PLAYER_IR_REQ_POSE:
+        return player::encode(player::IrPose{poses()});
+      case PLAYER_IR_REQ_POWER:
+        static_cast<void>(player::decode<player::IrPowerReq>(payload));
+        return empty_payload();  // simulated infrared sensors are always on
+      default:
+        return std::nullopt;
+    }
+  }
+
+ private:
+  player::IrData data_;
+};
+
 }  // namespace
 
 MadeDevice make_ranging_device(const DeviceContext& context) {
   switch (context.interface) {
     case PLAYER_LASER_CODE:
       return std::make_unique<LaserDevice>(context);
+    case PLAYER_RANGER_CODE:
+      return std::make_unique<RangerDevice>(context);
+    case PLAYER_SONAR_CODE:
+      return std::make_unique<SonarDevice>(context);
+    case PLAYER_IR_CODE:
+      return std::make_unique<IrDevice>(context);
     default:
       return nullptr;
   }

@@ -24,6 +24,7 @@ namespace playerlike::wire {
 struct DeviceContext {
   Session& session;
   int interface = 0;  ///< Player's code
+  int index = 0;
   InterfaceBinding binding;
 };
 
@@ -107,11 +108,16 @@ template <typename Reading>
 [[nodiscard]] std::uint32_t whole_number(double value);
 /// @}
 
+/// A text of a message without its final zero byte.
+/// @param what  "the name of the object".
+/// @throws SessionError kBadArgument if it has control characters, since it may be shown.
+[[nodiscard]] std::string printable_text(const char* what, std::string_view bytes);
+
 /// Payload of messages without fields.
 [[nodiscard]] inline std::string empty_payload() { return {}; }
 
 /// Throws SessionError kBadArgument if a number is NaN or infinite. @param what  "a joint's speed".
-void require_finite(const char* what, double value);
+void require_number(const char* what, double value);
 
 /// @name Makers of devices, by family
 /// @return null if the family does not have the interface.

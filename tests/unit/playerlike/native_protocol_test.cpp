@@ -52,10 +52,10 @@ class FakePeer final : public Peer {
   }
   void set_in_flight(std::size_t requests) override { in_flight = requests; }
   void set_busy(bool now) override { busy = now; }
-  void set_encoding(Encoding encoding) override {
+  void set_framing(protocol::Framing framing) override {
     // Decode earlier messages in the previous encoding.
     while (const auto message = splitter_.next()) earlier_.emplace_back(*message);
-    splitter_.set_encoding(encoding);
+    splitter_.set_framing(framing);
   }
   [[nodiscard]] const std::string& name() const noexcept override { return name_; }
   void describe(const std::string& text) override { description = text; }
@@ -125,6 +125,9 @@ class FakeHub final : public Hub {
     }
     run();
   }
+  [[nodiscard]] const std::map<int, int>& player_ports() const noexcept override {
+    return player_ports_;
+  }
   int listen(int /*first*/, MakeHandler /*make*/) override { return 0; }
   void hand_over(Peer& peer, std::unique_ptr<Handler> handler) override {
     handlers[&peer] = std::move(handler);
@@ -156,6 +159,7 @@ class FakeHub final : public Hub {
 
  private:
   std::deque<Job> jobs_;
+  std::map<int, int> player_ports_;
   std::shared_ptr<Host> host_;
   ServerSettings settings_;
   Access access_;

@@ -11,23 +11,30 @@ namespace playerlike {
 
 /// Opens the session for a client's host name:
 /// - "localhost" and "127.0.0.1": the embedded simulation of this process. PLAYPEN_WORLD names its
-///   world file; without it, the default world is used. If PLAYPEN_WORLD is "tcp://HOST[:PORT]",
-///   that server is used instead;
+///   world file; without it, the default world is used. If PLAYPEN_WORLD is "tcp://HOST[:PORT]" or
+///   "player://HOST[:PORT]", that server is used instead;
 /// - "sim:FILE": an embedded simulation of that file;
-/// - "tcp://HOST[:PORT]" or "HOST:PORT": a server (`playpen serve`); the default TCP port is 4000.
-///   An IPv6 address is written in brackets. PLAYPEN_TOKEN contains the client's tokens, separated
-///   by commas; PLAYPEN_ENCODING is "cbor" (default) or "json";
-/// - any other "HOST": the server there. If PLAYPEN_WORLD is set, it means "localhost" instead,
-///   with a warning: this supports programs that name a real robot's host.
+/// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`); the default TCP port
+/// is
+///   4000. An IPv6 address is written in brackets. PLAYPEN_TOKEN contains the client's tokens,
+///   separated by commas; PLAYPEN_ENCODING is "cbor" (default) or "json";
+/// - "player://HOST[:PORT]": a Player server: a real robot, or `playpen serve --player-port`.
+///   Without a PORT, it is the client's `port` (6665 for MORSE's port 4000);
+/// - any other "HOST": the server there, of Player on the client's `port` if one greets there,
+///   otherwise of Playpen on port 4000; with MORSE's port, only the latter. If PLAYPEN_WORLD is
+///   set, it means "localhost" instead, with a warning: this supports programs that name a real
+///   robot's host.
 ///
 /// All clients with the same world file share one simulation, which exists until the program ends.
-/// @param port  Player port: a robot's port, or 4000 for all robots. Not the server's TCP port.
+/// @param port  Player port: a robot's port, or 4000 for all robots. Not the TCP port of a Playpen
+///              server, but that of a Player server.
 /// @throws SessionError, sim::ConfigError.
 [[nodiscard]] std::unique_ptr<Session> open_session(const std::string& host, int port);
 
 /// Opens a session with a real robot, for RunSettings::open_real_robot: with the server that
-/// "tcp://HOST[:PORT]" names.
-/// @param port  Player port of the robot at a Playpen server.
+/// "player://HOST[:PORT]" or "tcp://HOST[:PORT]" names.
+/// @param port  Player port of the robot at a Playpen server, and the default port of a Player
+///     server.
 /// @throws SessionError.
 [[nodiscard]] std::unique_ptr<Session> open_real_robot(const std::string& server, int port);
 

@@ -104,6 +104,8 @@ class Host : public std::enable_shared_from_this<Host> {
   [[nodiscard]] bool finished() const;
 
   [[nodiscard]] TimeStatistics time() const;
+  /// Current simulated time. Cheap, and needs no lock.
+  [[nodiscard]] sim::SimTime now_ns() const noexcept;
   /// Statistics of a robot up to now.
   /// @param robot  index of the robot in the world; it must exist.
   [[nodiscard]] sim::RobotStatistics statistics(int robot) const;

@@ -38,9 +38,9 @@ struct DeviceInfo {
 struct PlayerAddress {
   std::string interface;
   int index = 0;
-  std::string driver;               ///< name of the server's driver
-  DeviceId reading{-1, -1};         ///< device of the readings; none for the world's interfaces
-  std::optional<DeviceId> motion;   ///< motors of the address, for position2d
+  std::string driver;              ///< name of the server's driver
+  DeviceId reading{-1, -1};        ///< device of the readings; none for the world's interfaces
+  std::optional<DeviceId> motion;  ///< motors of the address, for position2d
 };
 
 /// Description of a robot for clients.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@
 namespace playerlike {
 
 /// Serves a simulation over TCP, with MORSE's protocol and Playpen's protocol on one port
-/// (docs/protocol.md).
+/// (docs/protocol.md), and with Player's protocol on a port for each robot (docs/player_wire.md).
 ///
 /// The server has one thread for all input and output; in lockstep this thread also steps the
 /// simulation. The simulation never waits for a socket.
@@ -23,12 +24,15 @@ class Server {
   /// @param host  the simulation; it must have all robots that settings.access names.
   /// @param log   receives messages about connections (kInfo) and errors; called from the server's
   ///              thread.
-  /// @throws sim::ConfigError server/port-taken, server/address, server/token-needed,
-  ///         access/unknown-robot.
+  /// @throws sim::ConfigError server/port-taken, server/port-range, server/address,
+  ///         server/token-needed, access/unknown-robot.
   Server(std::shared_ptr<Host> host, ServerSettings settings, sim::LogHook log = {});
   /// Throws the errors that the constructor would throw for these settings and robots, without side
   /// effects. It allows a check before a simulation is created.
-  static void check(const ServerSettings& settings, const std::vector<std::string>& robots);
+  /// @param robots       names of the robots.
+  /// @param robot_ports  their ports in the world, for ServerSettings::player_port.
+  static void check(const ServerSettings& settings, const std::vector<std::string>& robots,
+                    const std::vector<int>& robot_ports = {});
   /// Calls stop().
   ~Server();
   Server(const Server&) = delete;
@@ -38,6 +42,8 @@ class Server {
   [[nodiscard]] int port() const noexcept;
   /// Port of the clock synchronisation; 0 if it is off.
   [[nodiscard]] int sync_port() const noexcept;
+  /// TCP ports of Player's protocol by the robots' ports in the world; empty if it is off.
+  [[nodiscard]] const std::map<int, int>& player_ports() const noexcept;
   [[nodiscard]] std::size_t connections() const noexcept;
   /// Whether a client has requested the end (MORSE's `quit`), or the run is over and all clients
   /// have disconnected.

@@ -38,7 +38,10 @@ struct ServerSettings {
   int port = 4000;                 ///< port for services; 0: any free port
   int stream_port = 60000;         ///< first of MORSE's stream ports; 0: any free ports
   std::optional<int> sync_port;    ///< port of MORSE's clock synchronisation; 0: any free port
-  bool open = false;               ///< allows a non-loopback address without a token
+  /// Port of Player's protocol for the robots with the world's lowest Player port. Others have the
+  /// same distance to it as in the world. 0: any free ports; nullopt: no such ports.
+  std::optional<int> player_port;
+  bool open = false;  ///< allows a non-loopback address without a token
   AccessSettings access;
   ServerLimits limits;
 };

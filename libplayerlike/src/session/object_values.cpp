@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "devices/object_values.h"
+#include "session/object_values.h"
 
 #include <algorithm>
 #include <array>

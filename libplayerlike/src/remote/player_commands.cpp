@@ -1,0 +1,267 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "remote/player_commands.h"
+
+#include <vector>
+
+#include "protocol/player_xdr.h"
+
+namespace playerlike {
+namespace {
+
+template <typename Payload>
+PlayerCommand command_of(std::uint8_t subtype, const Payload& payload) {
+  return {false, subtype, player::encode(payload)};
+}
+
+template <typename Payload>
+PlayerCommand request_of(std::uint8_t subtype, const Payload& payload) {
+  return {true, subtype, player::encode(payload)};
+}
+
+std::uint8_t flag(bool value) { return value ? 1 : 0; }
+float narrow(double value) { return static_cast<float>(value); }
+
+std::vector<float> narrow(const std::vector<double>& values) {
+  std::vector<float> narrowed;
+  narrowed.reserve(values.size());
+  for (const double value : values) narrowed.push_back(narrow(value));
+  return narrowed;
+}
+
+player::Pose2d pose_of(const sim::Pose& pose) { return {pose.x_m, pose.y_m, pose.yaw_rad}; }
+
+/// Converts each type of command; none that the interface does not know.
+struct Converter {
+  using Converted = std::optional<PlayerCommand>;
+
+  unsigned interface;
+
+  [[nodiscard]] bool drives() const { return interface == PLAYER_POSITION2D_CODE; }
+
+  Converted operator()(const sim::TwistCommand& what) const {
+    if (!drives()) return std::nullopt;
+    player::Position2dCmdVel payload;
+    payload.vel = {what.twist.v_mps, what.twist.lateral_mps, what.twist.omega_radps};
+    payload.state = 1;
+    return command_of(PLAYER_POSITION2D_CMD_VEL, payload);
+  }
+  Converted operator()(const sim::HeadingCommand& what) const {
+    if (!drives()) return std::nullopt;
+    player::Position2dCmdVelHead payload;
+    payload.velocity = what.v_mps;
+    payload.angle = what.yaw_rad;
+    return command_of(PLAYER_POSITION2D_CMD_VEL_HEAD, payload);
+  }
+  Converted operator()(const sim::PositionCommand& what) const {
+    if (!drives()) return std::nullopt;
+    player::Position2dCmdPos payload;
+    payload.pos = pose_of(what.goal);
+    payload.vel = {what.max_speed_mps, 0.0, what.max_turn_rate_radps};
+    payload.state = 1;
+    return command_of(PLAYER_POSITION2D_CMD_POS, payload);
+  }
+  Converted operator()(const sim::CarCommand& what) const {
+    if (!drives()) return std::nullopt;
+    player::Position2dCmdCar payload;
+    payload.velocity = what.v_mps;
+    payload.angle = what.steering_rad;
+    return command_of(PLAYER_POSITION2D_CMD_CAR, payload);
+  }
+  Converted operator()(const sim::MotorEnableCommand& what) const {
+    if (!drives()) return std::nullopt;
+    player::Position2dPowerConfig payload;
+    payload.state = flag(what.enabled);
+    return request_of(PLAYER_POSITION2D_REQ_MOTOR_POWER, payload);
+  }
+  Converted operator()(const sim::SetPoseCommand& what) const {
+    if (interface == PLAYER_POSITION2D_CODE) {
+      player::Position2dSetOdomReq payload;
+      payload.pose = pose_of(what.pose);
+      return request_of(PLAYER_POSITION2D_REQ_SET_ODOM, payload);
+    }
+    if (interface == PLAYER_LOCALIZE_CODE) {
+      // The command has no covariance: 0.5 m and 15 degrees.
+      constexpr double kPosition_m2 = 0.25;
+      constexpr double kHeading_rad2 = 0.0685;
+      player::LocalizeSetPose payload;
+      payload.mean = pose_of(what.pose);
+      payload.cov = {kPosition_m2, kPosition_m2, kHeading_rad2, 0.0, 0.0, 0.0};
+      return request_of(PLAYER_LOCALIZE_REQ_SET_POSE, payload);
+    }
+    if (interface == PLAYER_IMU_CODE) {
+      player::ImuResetEulerConfig payload;
+      payload.orientation.pyaw = what.pose.yaw_rad;
+      return request_of(PLAYER_IMU_REQ_RESET_EULER, payload);
+    }
+    return std::nullopt;
+  }
+
+  Converted operator()(const sim::SayCommand& what) const {
+    if (interface != PLAYER_SPEECH_CODE) return std::nullopt;
+    player::SpeechCmd payload;
+    payload.string = player::text_bytes(what.text);
+    return command_of(PLAYER_SPEECH_CMD_SAY, payload);
+  }
+  Converted operator()(const sim::DigitalOutputCommand& what) const {
+    if (interface != PLAYER_DIO_CODE) return std::nullopt;
+    player::DioCmd payload;
+    payload.count = static_cast<std::uint32_t>(what.count);
+    payload.digout = what.bits;
+    return command_of(PLAYER_DIO_CMD_VALUES, payload);
+  }
+  Converted operator()(const sim::AnalogOutputCommand& what) const {
+    if (interface != PLAYER_AIO_CODE) return std::nullopt;
+    player::AioCmd payload;
+    payload.id = static_cast<std::uint32_t>(what.channel);
+    payload.voltage = narrow(what.voltage_v);
+    return command_of(PLAYER_AIO_CMD_STATE, payload);
+  }
+  Converted operator()(const sim::OpaqueCommand& what) const {
+    if (interface != PLAYER_OPAQUE_CODE) return std::nullopt;
+    player::OpaqueData payload;
+    payload.data = what.data;
+    return command_of(PLAYER_OPAQUE_CMD_DATA, payload);
+  }
+
+  /// A command to flash has both period and duty cycle; the session adds the one that is missing.
+  Converted operator()(const sim::LightCommand& what) const {
+    if (interface != PLAYER_BLINKENLIGHT_CODE) return std::nullopt;
+    if (what.colour) {
+      player::BlinkenlightCmdColor payload;
+      payload.color.red = what.colour->r;
+      payload.color.green = what.colour->g;
+      payload.color.blue = what.colour->b;
+      return command_of(PLAYER_BLINKENLIGHT_CMD_COLOR, payload);
+    }
+    if (what.period_s || what.duty_cycle) {
+      player::BlinkenlightCmdFlash payload;
+      payload.period = narrow(what.period_s.value_or(1.0));
+      payload.dutycycle = narrow(what.duty_cycle.value_or(0.5));
+      return command_of(PLAYER_BLINKENLIGHT_CMD_FLASH, payload);
+    }
+    player::BlinkenlightCmdPower payload;
+    payload.enable = flag(what.enabled.value_or(true));
+    return command_of(PLAYER_BLINKENLIGHT_CMD_POWER, payload);
+  }
+
+  Converted operator()(const sim::GripCommand& what) const {
+    if (interface != PLAYER_GRIPPER_CODE) return std::nullopt;
+    using Action = sim::GripCommand::Action;
+    const std::uint8_t subtype = what.action == Action::kOpen       ? PLAYER_GRIPPER_CMD_OPEN
+                                 : what.action == Action::kClose    ? PLAYER_GRIPPER_CMD_CLOSE
+                                 : what.action == Action::kStore    ? PLAYER_GRIPPER_CMD_STORE
+                                 : what.action == Action::kRetrieve ? PLAYER_GRIPPER_CMD_RETRIEVE
+                                                                    : PLAYER_GRIPPER_CMD_STOP;
+    return command_of(subtype, player::Empty{});
+  }
+
+  Converted operator()(const sim::PointCommand& what) const {
+    if (interface != PLAYER_PTZ_CODE) return std::nullopt;
+    player::PtzCmd payload;
+    payload.pan = narrow(what.pan_rad);
+    payload.tilt = narrow(what.tilt_rad);
+    payload.zoom = narrow(what.view_rad);
+    payload.panspeed = narrow(what.pan_speed_radps);
+    payload.tiltspeed = narrow(what.tilt_speed_radps);
+    return command_of(PLAYER_PTZ_CMD_STATE, payload);
+  }
+  /// Player has no zoom speed.
+  Converted operator()(const sim::PanCommand& what) const {
+    if (interface != PLAYER_PTZ_CODE) return std::nullopt;
+    player::PtzCmd payload;
+    payload.panspeed = narrow(what.pan_speed_radps);
+    payload.tiltspeed = narrow(what.tilt_speed_radps);
+    return command_of(PLAYER_PTZ_CMD_STATE, payload);
+  }
+
+  Converted operator()(const sim::JointCommand& what) const {
+    if (interface != PLAYER_ACTARRAY_CODE) return std::nullopt;
+    using Mode = sim::JointCommand::Mode;
+    const double value = what.values.empty() ? 0.0 : what.values.front();
+    const bool is_multi = what.values.size() > 1;
+    switch (what.mode) {
+      case Mode::kPosition: {
+        if (is_multi) {
+          player::ActarrayMultiPositionCmd payload;
+          payload.positions = narrow(what.values);
+          return command_of(PLAYER_ACTARRAY_CMD_MULTI_POS, payload);
+        }
+        player::ActarrayPositionCmd payload;
+        payload.joint = what.joint;
+        payload.position = narrow(value);
+        return command_of(PLAYER_ACTARRAY_CMD_POS, payload);
+      }
+      case Mode::kSpeed: {
+        if (is_multi) {
+          player::ActarrayMultiSpeedCmd payload;
+          payload.speeds = narrow(what.values);
+          return command_of(PLAYER_ACTARRAY_CMD_MULTI_SPEED, payload);
+        }
+        player::ActarraySpeedCmd payload;
+        payload.joint = what.joint;
+        payload.speed = narrow(value);
+        return command_of(PLAYER_ACTARRAY_CMD_SPEED, payload);
+      }
+      case Mode::kCurrent: {
+        if (is_multi) {
+          player::ActarrayMultiCurrentCmd payload;
+          payload.currents = narrow(what.values);
+          return command_of(PLAYER_ACTARRAY_CMD_MULTI_CURRENT, payload);
+        }
+        player::ActarrayCurrentCmd payload;
+        payload.joint = what.joint;
+        payload.current = narrow(value);
+        return command_of(PLAYER_ACTARRAY_CMD_CURRENT, payload);
+      }
+      case Mode::kHome:
+        break;
+    }
+    player::ActarrayHomeCmd payload;
+    payload.joint = what.joint;
+    return command_of(PLAYER_ACTARRAY_CMD_HOME, payload);
+  }
+  Converted operator()(const sim::JointSettingCommand& what) const {
+    if (interface != PLAYER_ACTARRAY_CODE) return std::nullopt;
+    using Setting = sim::JointSettingCommand::Setting;
+    switch (what.setting) {
+      case Setting::kPower: {
+        player::ActarrayPowerConfig payload;
+        payload.value = flag(what.value != 0.0);
+        return request_of(PLAYER_ACTARRAY_REQ_POWER, payload);
+      }
+      case Setting::kBrakes: {
+        player::ActarrayBrakesConfig payload;
+        payload.value = flag(what.value != 0.0);
+        return request_of(PLAYER_ACTARRAY_REQ_BRAKES, payload);
+      }
+      case Setting::kSpeed: {
+        player::ActarraySpeedConfig payload;
+        payload.joint = what.joint;
+        payload.speed = narrow(what.value);
+        return request_of(PLAYER_ACTARRAY_REQ_SPEED, payload);
+      }
+      case Setting::kAcceleration:
+        break;
+    }
+    player::ActarrayAccelConfig payload;
+    payload.joint = what.joint;
+    payload.accel = narrow(what.value);
+    return request_of(PLAYER_ACTARRAY_REQ_ACCEL, payload);
+  }
+
+  // Player has neither waypoints nor teleports of a robot.
+  Converted operator()(const sim::GotoCommand& /*what*/) const { return std::nullopt; }
+  Converted operator()(const sim::StopCommand& /*what*/) const { return std::nullopt; }
+  Converted operator()(const sim::ResumeCommand& /*what*/) const { return std::nullopt; }
+  Converted operator()(const sim::PlaceCommand& /*what*/) const { return std::nullopt; }
+  Converted operator()(const sim::TranslateCommand& /*what*/) const { return std::nullopt; }
+  Converted operator()(const sim::RotateCommand& /*what*/) const { return std::nullopt; }
+};
+
+}  // namespace
+
+std::optional<PlayerCommand> to_player(unsigned interface, const sim::Command& command) {
+  return std::visit(Converter{interface}, command);
+}
+
+}  // namespace playerlike

@@ -1,0 +1,484 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "remote/player_readings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "protocol/player_xdr.h"
+#include "session/range_settings.h"
+#include "sim/devices/actarray.h"
+#include "sim/devices/aio.h"
+#include "sim/devices/battery.h"
+#include "sim/devices/blinkenlight.h"
+#include "sim/devices/blobfinder.h"
+#include "sim/devices/bumper.h"
+#include "sim/devices/camera.h"
+#include "sim/devices/dio.h"
+#include "sim/devices/fiducial.h"
+#include "sim/devices/gps.h"
+#include "sim/devices/gripper.h"
+#include "sim/devices/imu.h"
+#include "sim/devices/laser.h"
+#include "sim/devices/localization.h"
+#include "sim/devices/opaque.h"
+#include "sim/devices/ptz.h"
+#include "sim/devices/rangers.h"
+#include "sim/devices/wifi.h"
+
+namespace playerlike {
+namespace {
+
+using Made = std::shared_ptr<sim::Reading>;
+using player::decode;
+
+/// A copy of the last reading for a message with a part of its values; a new one before the first.
+template <typename R>
+std::shared_ptr<R> next_of(const sim::SharedReading& last) {
+  const auto* before = dynamic_cast<const R*>(last.get());
+  return before == nullptr ? std::make_shared<R>() : std::make_shared<R>(*before);
+}
+
+std::vector<double> doubles(const std::vector<float>& values) {
+  return {values.begin(), values.end()};
+}
+
+/// The numbers of a message are unsigned; readings count with int.
+int as_int(std::uint32_t value) { return static_cast<int>(std::min(value, 0x7fffffffU)); }
+
+sim::Pose pose_of(const player::Pose2d& pose) { return {pose.px, pose.py, pose.pa}; }
+
+// --- Positions
+
+Made position(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_POSITION2D_DATA_STATE) return nullptr;
+  const auto data = decode<player::Position2dData>(payload);
+  const auto reading = std::make_shared<sim::PoseReading>();
+  reading->pose = pose_of(data.pos);
+  reading->twist.v_mps = data.vel.px;
+  reading->twist.lateral_mps = data.vel.py;
+  reading->twist.omega_radps = data.vel.pa;
+  reading->stalled = data.stall != 0;
+  return reading;
+}
+
+/// The pose is that of the most likely hypothesis.
+Made localization(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_LOCALIZE_DATA_HYPOTHS) return nullptr;
+  const auto data = decode<player::LocalizeData>(payload);
+  const auto best =
+      std::max_element(data.hypoths.begin(), data.hypoths.end(),
+                       [](const player::LocalizeHypoth& a, const player::LocalizeHypoth& b) {
+                         return a.alpha < b.alpha;
+                       });
+  if (best == data.hypoths.end()) return nullptr;
+  const auto reading = std::make_shared<sim::PoseReading>();
+  reading->pose = pose_of(best->mean);
+  return reading;
+}
+
+// --- Ranges
+
+Made scan_of(const player::LaserData& data) {
+  const auto reading = std::make_shared<sim::LaserReading>();
+  reading->ranges_m = doubles(data.ranges);
+  reading->angle_min_rad = double{data.min_angle};
+  reading->resolution_rad = double{data.resolution};
+  reading->range_max_m = double{data.max_range};
+  return reading;
+}
+
+Made scan(std::uint8_t subtype, std::string_view payload) {
+  if (subtype == PLAYER_LASER_DATA_SCAN) return scan_of(decode<player::LaserData>(payload));
+  if (subtype == PLAYER_LASER_DATA_SCANPOSE) {
+    return scan_of(decode<player::LaserDataScanpose>(payload).scan);
+  }
+  return nullptr;  // beams at any angles, or intensities
+}
+
+Made ring(std::vector<double> ranges_m, const DeviceInfo& device) {
+  const auto reading = std::make_shared<sim::RangerReading>();
+  reading->ranges_m = std::move(ranges_m);
+  reading->range_max_m = setting_of(device.properties, "range_max");
+  reading->field_of_view_rad = setting_of(device.properties, "field_of_view");
+  for (const Mounting& mounting : element_mountings(device.properties)) {
+    reading->X_BS.push_back({mounting.x_m, mounting.y_m, mounting.yaw_rad});
+  }
+  return reading;
+}
+
+Made ranger_scan(std::vector<double> ranges_m, const DeviceInfo& device) {
+  if (device.type != "laser") return ring(std::move(ranges_m), device);
+  const ScannerSettings scanner = scanner_settings(device.properties);
+  const auto reading = std::make_shared<sim::LaserReading>();
+  reading->ranges_m = std::move(ranges_m);
+  reading->angle_min_rad = scanner.least_rad;
+  reading->resolution_rad = scanner.native_rad;
+  reading->range_max_m = scanner.range_max_m;
+  return reading;
+}
+
+Made ranger(std::uint8_t subtype, std::string_view payload, const DeviceInfo& device) {
+  if (subtype == PLAYER_RANGER_DATA_RANGE) {
+    return ranger_scan(decode<player::RangerDataRange>(payload).ranges, device);
+  }
+  if (subtype == PLAYER_RANGER_DATA_RANGESTAMPED) {
+    return ranger_scan(decode<player::RangerDataRangestamped>(payload).data.ranges, device);
+  }
+  return nullptr;
+}
+
+// --- The robot's state
+
+Made battery(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_POWER_DATA_STATE) return nullptr;
+  const auto data = decode<player::PowerData>(payload);
+  const auto reading = std::make_shared<sim::BatteryReading>();
+  reading->voltage_v = double{data.volts};
+  reading->charge_percent = double{data.percent};
+  reading->energy_wh = double{data.joules} / 3600.0;
+  reading->power_w = double{data.watts};
+  reading->status =
+      data.charging > 0 ? sim::BatteryStatus::kCharging : sim::BatteryStatus::kDischarging;
+  return reading;
+}
+
+Made gps(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_GPS_DATA_STATE) return nullptr;
+  const auto data = decode<player::GpsData>(payload);
+  constexpr double kAngle_rad = 1e-7 * std::numbers::pi / 180.0;
+  const auto reading = std::make_shared<sim::GpsReading>();
+  reading->latitude_rad = data.latitude * kAngle_rad;
+  reading->longitude_rad = data.longitude * kAngle_rad;
+  reading->altitude_m = data.altitude * 1e-3;
+  reading->speed_mps = data.speed;
+  reading->course_rad = data.course;
+  // Player's client library takes the UTM coordinates for centimetres.
+  reading->utm_easting_m = data.utm_e * 0.01;
+  reading->utm_northing_m = data.utm_n * 0.01;
+  reading->satellites = as_int(data.num_sats);
+  reading->quality = as_int(data.quality);
+  return reading;
+}
+
+void set_calibrated(const player::ImuDataCalib& data, sim::ImuReading& reading) {
+  reading.acceleration_mps2 = {double{data.accel_x}, double{data.accel_y}, double{data.accel_z}};
+  reading.rate_radps = {double{data.gyro_x}, double{data.gyro_y}, double{data.gyro_z}};
+  reading.field_ut = {double{data.magn_x}, double{data.magn_y}, double{data.magn_z}};
+}
+
+Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
+  const auto reading = next_of<sim::ImuReading>(last);
+  switch (subtype) {
+    case PLAYER_IMU_DATA_STATE:
+      reading->yaw_rad = decode<player::ImuDataState>(payload).pose.pyaw;
+      return reading;
+    case PLAYER_IMU_DATA_CALIB:
+      set_calibrated(decode<player::ImuDataCalib>(payload), *reading);
+      return reading;
+    case PLAYER_IMU_DATA_QUAT: {
+      const auto data = decode<player::ImuDataQuat>(payload);
+      set_calibrated(data.calib_data, *reading);
+      const double w = double{data.q0};
+      const double x = double{data.q1};
+      const double y = double{data.q2};
+      const double z = double{data.q3};
+      reading->yaw_rad = std::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
+      return reading;
+    }
+    case PLAYER_IMU_DATA_EULER: {
+      const auto data = decode<player::ImuDataEuler>(payload);
+      set_calibrated(data.calib_data, *reading);
+      reading->yaw_rad = data.orientation.pyaw;
+      return reading;
+    }
+    case PLAYER_IMU_DATA_FULLSTATE:
+      reading->yaw_rad = decode<player::ImuDataFullstate>(payload).pose.pyaw;
+      return reading;
+    default:
+      return nullptr;
+  }
+}
+
+Made bumpers(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_BUMPER_DATA_STATE) return nullptr;
+  const auto reading = std::make_shared<sim::BumperReading>();
+  reading->pressed = decode<player::BumperData>(payload).bumpers;
+  for (std::uint8_t& pressed : reading->pressed) pressed = pressed != 0 ? 1 : 0;
+  return reading;
+}
+
+Made gripper(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_GRIPPER_DATA_STATE) return nullptr;
+  const auto data = decode<player::GripperData>(payload);
+  // The bits of Player's drivers for Pioneers.
+  constexpr std::uint32_t kOuterBeam = 0x04;
+  constexpr std::uint32_t kInnerBeam = 0x08;
+  const auto reading = std::make_shared<sim::GripperReading>();
+  reading->state = data.state == PLAYER_GRIPPER_STATE_OPEN     ? sim::GripperState::kOpen
+                   : data.state == PLAYER_GRIPPER_STATE_CLOSED ? sim::GripperState::kClosed
+                   : data.state == PLAYER_GRIPPER_STATE_MOVING ? sim::GripperState::kMoving
+                                                               : sim::GripperState::kError;
+  reading->outer_beam = (data.beams & kOuterBeam) != 0;
+  reading->inner_beam = (data.beams & kInnerBeam) != 0;
+  reading->stored = data.stored;
+  return reading;
+}
+
+sim::JointState joint_state(std::uint8_t state) {
+  switch (state) {
+    case PLAYER_ACTARRAY_ACTSTATE_MOVING:
+      return sim::JointState::kMoving;
+    case PLAYER_ACTARRAY_ACTSTATE_BRAKED:
+      return sim::JointState::kBraked;
+    case PLAYER_ACTARRAY_ACTSTATE_STALLED:
+      return sim::JointState::kStalled;
+    default:
+      return sim::JointState::kIdle;
+  }
+}
+
+Made arm(std::uint8_t subtype, std::string_view payload, const DeviceInfo& device) {
+  if (subtype != PLAYER_ACTARRAY_DATA_STATE) return nullptr;
+  const auto data = decode<player::ActarrayData>(payload);
+  const auto reading = std::make_shared<sim::ActArrayReading>();
+  for (const player::ActarrayActuator& actuator : data.actuators) {
+    sim::JointReading joint;
+    joint.state = joint_state(actuator.state);
+    joint.position = double{actuator.position};
+    joint.speed = double{actuator.speed};
+    joint.acceleration = double{actuator.acceleration};
+    joint.current_a = double{actuator.current};
+    joint.speed_setting =
+        setting_of(device.properties, "speed_" + std::to_string(reading->joints.size()));
+    reading->joints.push_back(joint);
+  }
+  reading->is_powered = data.motor_state != 0;
+  return reading;
+}
+
+Made camera_head(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_PTZ_DATA_STATE) return nullptr;
+  const auto data = decode<player::PtzData>(payload);
+  const auto reading = std::make_shared<sim::PtzReading>();
+  reading->pan_rad = double{data.pan};
+  reading->tilt_rad = double{data.tilt};
+  reading->view_rad = double{data.zoom};
+  reading->pan_speed_radps = double{data.panspeed};
+  reading->tilt_speed_radps = double{data.tiltspeed};
+  reading->moving = data.status != 0;
+  return reading;
+}
+
+// --- What is seen
+
+Made fiducials(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_FIDUCIAL_DATA_SCAN) return nullptr;
+  const auto reading = std::make_shared<sim::FiducialReading>();
+  for (const player::FiducialItem& item : decode<player::FiducialData>(payload).fiducials) {
+    reading->marks.push_back({item.id, {item.pose.px, item.pose.py, item.pose.pyaw}});
+  }
+  return reading;
+}
+
+Made blobs(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_BLOBFINDER_DATA_BLOBS) return nullptr;
+  const auto data = decode<player::BlobfinderData>(payload);
+  const auto reading = std::make_shared<sim::BlobfinderReading>();
+  reading->width = as_int(data.width);
+  reading->height = as_int(data.height);
+  for (const player::BlobfinderBlob& seen : data.blobs) {
+    sim::BlobfinderReading::Blob blob;
+    blob.colour = {static_cast<std::uint8_t>(seen.color >> 16U),
+                   static_cast<std::uint8_t>(seen.color >> 8U),
+                   static_cast<std::uint8_t>(seen.color), 255};
+    blob.area = as_int(seen.area);
+    blob.x = as_int(seen.x);
+    blob.y = as_int(seen.y);
+    blob.left = as_int(seen.left);
+    blob.right = as_int(seen.right);
+    blob.top = as_int(seen.top);
+    blob.bottom = as_int(seen.bottom);
+    blob.range_m = double{seen.range};
+    reading->blobs.push_back(blob);
+  }
+  return reading;
+}
+
+[[noreturn]] void refuse_image(const player::CameraData& data) {
+  throw protocol::ProtocolError("player/payload", "an image of " + std::to_string(data.width) +
+                                                      " x " + std::to_string(data.height) +
+                                                      " pixels has " +
+                                                      std::to_string(data.image.size()) + " bytes");
+}
+
+/// Images become RGB with 8 bits per channel. Compressed ones are skipped.
+Made image(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_CAMERA_DATA_STATE) return nullptr;
+  auto data = decode<player::CameraData>(payload);
+  if (data.compression != PLAYER_CAMERA_COMPRESS_RAW) return nullptr;
+  const bool is_wide =
+      data.format == PLAYER_CAMERA_FORMAT_MONO16 || data.format == PLAYER_CAMERA_FORMAT_RGB565;
+  const std::uint64_t bytes_per_pixel = data.format == PLAYER_CAMERA_FORMAT_RGB888 ? 3
+                                        : is_wide                                  ? 2
+                                                                                   : 1;
+  constexpr std::uint32_t kMostSide = 1U << 16U;
+  if (data.width > kMostSide || data.height > kMostSide ||
+      std::uint64_t{data.width} * data.height * bytes_per_pixel != data.image.size()) {
+    refuse_image(data);
+  }
+  const auto reading = std::make_shared<sim::CameraReading>();
+  reading->width = as_int(data.width);
+  reading->height = as_int(data.height);
+  if (data.format == PLAYER_CAMERA_FORMAT_RGB888) {
+    reading->pixels = std::move(data.image);
+    return reading;
+  }
+  reading->pixels.reserve(data.image.size() / bytes_per_pixel * 3);
+  for (std::size_t i = 0; i < data.image.size(); i += bytes_per_pixel) {
+    if (data.format == PLAYER_CAMERA_FORMAT_RGB565) {
+      // As Player's drivers write it: little-endian, red in the highest bits.
+      const auto bits = static_cast<unsigned>(data.image[i] | data.image[i + 1] << 8U);
+      reading->pixels.push_back(static_cast<std::uint8_t>((bits >> 11U & 31U) * 255U / 31U));
+      reading->pixels.push_back(static_cast<std::uint8_t>((bits >> 5U & 63U) * 255U / 63U));
+      reading->pixels.push_back(static_cast<std::uint8_t>((bits & 31U) * 255U / 31U));
+    } else {
+      const std::uint8_t light = data.image[i + (is_wide ? 1 : 0)];  // the higher byte
+      reading->pixels.insert(reading->pixels.end(), 3, light);
+    }
+  }
+  return reading;
+}
+
+// --- Signals
+
+Made voltages(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
+  if (subtype != PLAYER_AIO_DATA_STATE) return nullptr;
+  const auto reading = next_of<sim::AioReading>(last);
+  reading->inputs_v = doubles(decode<player::AioData>(payload).voltages);
+  return reading;
+}
+
+Made digital_inputs(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_DIO_DATA_VALUES) return nullptr;
+  const auto data = decode<player::DioData>(payload);
+  constexpr std::uint32_t kMostLines = 32;
+  const auto reading = std::make_shared<sim::DioReading>();
+  reading->input_count = as_int(std::min(data.count, kMostLines));
+  reading->inputs = data.bits;
+  return reading;
+}
+
+std::string text_of(const std::vector<std::uint8_t>& bytes) {
+  return player::text_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+Made links(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_WIFI_DATA_STATE) return nullptr;
+  const auto data = decode<player::WifiData>(payload);
+  const auto reading = std::make_shared<sim::WifiReading>();
+  for (const player::WifiLink& link : data.links) {
+    sim::WifiReading::Link shown;
+    shown.name = text_of(link.essid);
+    shown.mac = text_of(link.mac);
+    shown.ip = text_of(link.ip);
+    shown.access_point = link.mode == PLAYER_WIFI_MODE_MASTER;
+    shown.level_dbm = static_cast<std::int32_t>(link.level);
+    reading->links.push_back(std::move(shown));
+  }
+  if (!data.links.empty()) {
+    reading->floor_dbm = static_cast<std::int32_t>(data.links.front().noise);
+    reading->channel_mhz = data.links.front().freq;
+  }
+  return reading;
+}
+
+Made opaque(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
+  if (subtype != PLAYER_OPAQUE_DATA_STATE) return nullptr;
+  const auto reading = next_of<sim::OpaqueReading>(last);
+  reading->data = decode<player::OpaqueData>(payload).data;
+  ++reading->number;
+  return reading;
+}
+
+Made light(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_BLINKENLIGHT_DATA_STATE) return nullptr;
+  const auto data = decode<player::BlinkenlightData>(payload);
+  const auto reading = std::make_shared<sim::BlinkenlightReading>();
+  reading->enabled = data.enable != 0;
+  reading->colour = {data.color.red, data.color.green, data.color.blue, 255};
+  reading->period_s = double{data.period};
+  reading->duty_cycle = double{data.dutycycle};
+  reading->lit = reading->enabled;
+  return reading;
+}
+
+Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,
+             const DeviceInfo& device, const sim::SharedReading& last) {
+  switch (interface) {
+    case PLAYER_POSITION2D_CODE:
+      return position(subtype, payload);
+    case PLAYER_LOCALIZE_CODE:
+      return localization(subtype, payload);
+    case PLAYER_LASER_CODE:
+      return scan(subtype, payload);
+    case PLAYER_RANGER_CODE:
+      return ranger(subtype, payload, device);
+    case PLAYER_SONAR_CODE:
+      if (subtype != PLAYER_SONAR_DATA_RANGES) return nullptr;
+      return ring(doubles(decode<player::SonarData>(payload).ranges), device);
+    case PLAYER_IR_CODE:
+      if (subtype != PLAYER_IR_DATA_RANGES) return nullptr;
+      return ring(doubles(decode<player::IrData>(payload).ranges), device);
+    case PLAYER_POWER_CODE:
+      return battery(subtype, payload);
+    case PLAYER_GPS_CODE:
+      return gps(subtype, payload);
+    case PLAYER_IMU_CODE:
+      return imu(subtype, payload, last);
+    case PLAYER_FIDUCIAL_CODE:
+      return fiducials(subtype, payload);
+    case PLAYER_BUMPER_CODE:
+      return bumpers(subtype, payload);
+    case PLAYER_PTZ_CODE:
+      return camera_head(subtype, payload);
+    case PLAYER_GRIPPER_CODE:
+      return gripper(subtype, payload);
+    case PLAYER_AIO_CODE:
+      return voltages(subtype, payload, last);
+    case PLAYER_DIO_CODE:
+      return digital_inputs(subtype, payload);
+    case PLAYER_WIFI_CODE:
+      return links(subtype, payload);
+    case PLAYER_BLOBFINDER_CODE:
+      return blobs(subtype, payload);
+    case PLAYER_CAMERA_CODE:
+      return image(subtype, payload);
+    case PLAYER_ACTARRAY_CODE:
+      return arm(subtype, payload, device);
+    case PLAYER_OPAQUE_CODE:
+      return opaque(subtype, payload, last);
+    case PLAYER_BLINKENLIGHT_CODE:
+      return light(subtype, payload);
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace
+
+sim::SharedReading PlayerReadings::convert(std::uint8_t subtype, double time_s,
+                                           std::string_view payload, const DeviceInfo& device) {
+  const Made made = made_of(interface_, subtype, payload, device, last_);
+  if (made == nullptr) return nullptr;
+  constexpr double kLatest_s = 9e9;  // nanoseconds fit 64 bits until the year 2255
+  if (time_s >= 0.0 && time_s <= kLatest_s) time_ns_ = sim::from_seconds(time_s);
+  made->time_ns = time_ns_;
+  made->sequence = ++sequence_;
+  last_ = made;
+  return made;
+}
+
+}  // namespace playerlike

@@ -1,0 +1,531 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "server/player_connection.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "libplayerinterface/player_constants.h"
+#include "playerlike/server/server_settings.h"
+#include "proxies/interfaces.h"
+#include "sim/core/time.h"
+
+namespace playerlike::server {
+namespace {
+
+using player::Devaddr;
+using protocol::ProtocolError;
+
+// More rules are refused; real clients have one for each device at most.
+constexpr std::size_t kMaxRules = 256;
+constexpr int kMaxNotes = 20;
+
+bool same_device(const Devaddr& a, const Devaddr& b) {
+  return a.interf == b.interf && a.index == b.index;
+}
+
+bool matches(std::int32_t rule, std::int32_t value) { return rule == -1 || rule == value; }
+
+std::string device_text(const Devaddr& address) {
+  const char* const name = PlayerCc::interface_name(address.interf);
+  return (name == nullptr ? "interface " + std::to_string(address.interf) : std::string(name)) +
+         ':' + std::to_string(address.index);
+}
+
+}  // namespace
+
+PlayerConnection::PlayerConnection(Peer& peer, Hub& hub, int robot_port, int tcp_port)
+    : peer_(peer),
+      hub_(hub),
+      robot_port_(robot_port),
+      tcp_port_(tcp_port),
+      host_(peer.own_ipv4()),
+      self_(std::make_shared<PlayerConnection*>(this)),
+      rights_(hub.access().rights({}, robot_port)),
+      guard_(hub.host(), rights_, robot_port),
+      wait_(hub, robot_port, /*follower=*/false, [this] { on_wait_end(); }),
+      session_(wait_.session(), guard_) {
+  peer_.set_framing(protocol::Framing::kPlayer);
+  peer_.acknowledge_at_once();
+  peer_.describe("player, port " + std::to_string(tcp_port_));
+  // Player queues all data until a client says otherwise.
+  session_.request(ReplaceRequest{std::nullopt, false});
+  peer_.send(player::banner());
+}
+
+PlayerConnection::~PlayerConnection() = default;
+
+void PlayerConnection::on_message(std::string_view bytes) {
+  try {
+    handle(player::parse_message(bytes));
+  } catch (...) {
+    flush();
+    throw;
+  }
+  flush();
+}
+
+std::string PlayerConnection::farewell(const ProtocolError& error) {
+  // Player's protocol has no message for it; the log has the reason.
+  static_cast<void>(error);
+  return "";
+}
+
+void PlayerConnection::handle(const player::Message& message) {
+  const player::Msghdr& header = message.header;
+  const Devaddr address = own_address(header.addr.interf, header.addr.index);
+  switch (header.type) {
+    case PLAYER_MSGTYPE_REQ:
+      break;
+    case PLAYER_MSGTYPE_CMD:
+      if (OpenDevice* const to = find(address)) command(*to, message);
+      return;
+    case PLAYER_MSGTYPE_DATA:
+    case PLAYER_MSGTYPE_RESP_ACK:
+    case PLAYER_MSGTYPE_SYNCH:
+    case PLAYER_MSGTYPE_RESP_NACK:
+      return note("ignored a message of type " + std::to_string(header.type) +
+                  ", which only servers send");
+    default:
+      throw ProtocolError("player/type", "expected a message of type 1 to 6, found type " +
+                                             std::to_string(header.type));
+  }
+  if (header.addr.interf == PLAYER_PLAYER_CODE) {
+    if (header.subtype == PLAYER_PLAYER_REQ_AUTH) return authenticate(message.payload);
+    if (header.subtype == PLAYER_PLAYER_REQ_DATA) return request_data();
+    Answer answer;
+    try {
+      answer = answer_player(message);
+    } catch (const ProtocolError& error) {
+      note("refused request " + std::to_string(header.subtype) + " of player: " + error.what());
+    }
+    respond(address, header.subtype, answer);
+    // A device that was opened or the mode may have begun rounds of PUSH.
+    return begin_to_wait();
+  }
+  OpenDevice* const to = find(address);
+  respond(address, header.subtype, to == nullptr ? Answer{} : request(*to, message));
+}
+
+// --- The interface player
+
+PlayerConnection::Answer PlayerConnection::answer_player(const player::Message& message) {
+  switch (message.header.subtype) {
+    case PLAYER_PLAYER_REQ_DATAMODE:
+      return set_mode(message.payload);
+    case PLAYER_PLAYER_REQ_ADD_REPLACE_RULE:
+      return add_rule(message.payload);
+    default:
+      break;
+  }
+  // Whoever may not connect learns nothing about the world.
+  if (message.header.subtype == PLAYER_PLAYER_REQ_DEV) return open_or_close(message.payload);
+  if (!rights_.connect) return {};
+  switch (message.header.subtype) {
+    case PLAYER_PLAYER_REQ_DEVLIST:
+      return list_devices();
+    case PLAYER_PLAYER_REQ_DRIVERINFO:
+      return describe_driver(message.payload);
+    case PLAYER_PLAYER_REQ_NAMESERVICE:
+      return find_robot(message.payload);
+    default:
+      return {};
+  }
+}
+
+PlayerConnection::Answer PlayerConnection::list_devices() {
+  player::DeviceDevlist list;
+  for (const InterfaceAddress& item : list_interfaces(session_.robots(), robot_port_)) {
+    const auto code = PlayerCc::interface_code(item.interface);
+    if (!code) continue;
+    const Devaddr address =
+        own_address(static_cast<unsigned>(*code), static_cast<unsigned>(item.index));
+    if (!driver_of(address)) continue;
+    if (list.devices.size() < PLAYER_MAX_DEVICES) list.devices.push_back(address);
+  }
+  return {true, player::encode(list)};
+}
+
+PlayerConnection::Answer PlayerConnection::describe_driver(std::string_view payload) {
+  auto info = player::decode<player::DeviceDriverinfo>(payload);
+  info.addr = own_address(info.addr.interf, info.addr.index);
+  const auto driver = driver_of(info.addr);
+  if (!driver) return {};
+  info.driver_name = player::text_bytes(*driver);
+  return {true, player::encode(info)};
+}
+
+PlayerConnection::Answer PlayerConnection::open_or_close(std::string_view payload) {
+  auto answer = player::decode<player::DeviceReq>(payload);
+  answer.addr = own_address(answer.addr.interf, answer.addr.index);
+  const int mode = std::exchange(answer.access, PLAYER_ERROR_MODE);
+  answer.driver_name.clear();
+  const auto refusal = [&] { return Answer{false, player::encode(answer)}; };
+  if (!rights_.connect) return refusal();
+  OpenDevice* device = find(answer.addr);
+  if (mode == PLAYER_OPEN_MODE && device != nullptr) {
+    ++device->count;
+    answer.access = PLAYER_OPEN_MODE;
+  } else {
+    auto made = device == nullptr ? make(answer.addr) : nullptr;
+    if (device == nullptr && made == nullptr) return refusal();
+    answer.driver_name = player::text_bytes(device == nullptr ? made->driver() : device->driver);
+    if (mode == PLAYER_OPEN_MODE) {
+      try {
+        open(answer.addr, std::move(made));
+      } catch (const std::exception& error) {
+        note(device_text(answer.addr) + " was not opened: " + error.what());
+        answer.driver_name.clear();
+        return refusal();
+      }
+      answer.access = PLAYER_OPEN_MODE;
+    } else if (mode == PLAYER_CLOSE_MODE && device != nullptr) {
+      if (--device->count == 0) close(*device);
+      answer.access = PLAYER_CLOSE_MODE;
+    }
+    // Otherwise the access remains "error", as Player answers.
+    return {true, player::encode(answer)};
+  }
+  answer.driver_name = player::text_bytes(device->driver);
+  return {true, player::encode(answer)};
+}
+
+PlayerConnection::Answer PlayerConnection::set_mode(std::string_view payload) {
+  const int mode = player::decode<player::DeviceDatamodeReq>(payload).mode;
+  if (mode != PLAYER_DATAMODE_PUSH && mode != PLAYER_DATAMODE_PULL) return {};
+  const bool pull = mode == PLAYER_DATAMODE_PULL;
+  if (pull == pull_) return {true, ""};
+  pull_ = pull;
+  requested_ = false;
+  if (waiting_ && pull_) {
+    wait_.client()->cancel();
+    waiting_ = false;
+  }
+  peer_.set_in_flight(0);
+  return {true, ""};
+}
+
+PlayerConnection::Answer PlayerConnection::add_rule(std::string_view payload) {
+  const auto rule = player::decode<player::AddReplaceRuleReq>(payload);
+  if (rule.replace < PLAYER_PLAYER_MSG_REPLACE_RULE_ACCEPT ||
+      rule.replace > PLAYER_PLAYER_MSG_REPLACE_RULE_IGNORE) {
+    return {};
+  }
+  const auto same = std::find_if(rules_.begin(), rules_.end(), [&](const auto& known) {
+    return known.interf == rule.interf && known.index == rule.index && known.type == rule.type &&
+           known.subtype == rule.subtype;
+  });
+  if (same != rules_.end()) {
+    same->replace = rule.replace;
+  } else if (rules_.size() < kMaxRules) {
+    rules_.push_back(rule);
+  } else {
+    return {};
+  }
+  apply_rules();
+  return {true, ""};
+}
+
+PlayerConnection::Answer PlayerConnection::find_robot(std::string_view payload) {
+  auto asked = player::decode<player::DeviceNameserviceReq>(payload);
+  const std::string name =
+      player::text_of({reinterpret_cast<const char*>(asked.name.data()), asked.name.size()});
+  for (const RobotInfo& robot : session_.robots()) {
+    const auto port = hub_.player_ports().find(robot.port);
+    if (robot.name != name || port == hub_.player_ports().end()) continue;
+    asked.port = static_cast<std::uint16_t>(port->second);
+    return {true, player::encode(asked)};
+  }
+  return {};
+}
+
+void PlayerConnection::authenticate(std::string_view payload) {
+  const auto answer = [this](bool accepted) {
+    respond(own_address(PLAYER_PLAYER_CODE, 0), PLAYER_PLAYER_REQ_AUTH, {accepted, ""});
+    flush();
+  };
+  std::string token;
+  try {
+    const auto key = player::decode<player::DeviceAuthReq>(payload).auth_key;
+    token = player::text_of({reinterpret_cast<const char*>(key.data()), key.size()});
+  } catch (const ProtocolError&) {
+    return answer(false);
+  }
+  if (tokens_.size() >= kMaxTokens) return answer(false);
+  const Hub::TokenVerdict verdict = hub_.check_tokens(peer_, {token});
+  hub_.answer_after(verdict.delay, peer_, self_, [this, answer, token, wrong = verdict.wrong] {
+    if (!wrong) {
+      tokens_.push_back(token);
+      rights_ = hub_.access().rights(tokens_, robot_port_);
+    }
+    answer(!wrong);
+  });
+}
+
+void PlayerConnection::request_data() {
+  respond(own_address(PLAYER_PLAYER_CODE, 0), PLAYER_PLAYER_REQ_DATA, {rights_.connect, ""});
+  if (!pull_ || !rights_.connect) return;
+  requested_ = true;
+  begin_to_wait();
+}
+
+// --- Devices
+
+std::unique_ptr<wire::PlayerDevice> PlayerConnection::make(const Devaddr& address) {
+  const char* const name = PlayerCc::interface_name(address.interf);
+  if (name == nullptr) return nullptr;
+  try {
+    return wire::make_player_device(session_, robot_port_, name, address.index);
+  } catch (const SessionError&) {
+    return nullptr;  // no such device
+  }
+}
+
+// A driver's device has a thread, so it is made only for clients that open it.
+std::optional<std::string> PlayerConnection::driver_of(const Devaddr& address) {
+  if (const OpenDevice* const device = find(address)) return device->driver;
+  const char* const name = PlayerCc::interface_name(address.interf);
+  if (name == nullptr) return std::nullopt;
+  try {
+    const auto& robots = session_.robots();
+    if (find_interface(robots, robot_port_, name, address.index).driver != nullptr) return "snd";
+  } catch (const SessionError&) {
+    return std::nullopt;
+  }
+  const auto device = make(address);
+  return device == nullptr ? std::nullopt : std::optional(device->driver());
+}
+
+PlayerConnection::OpenDevice* PlayerConnection::find(const Devaddr& address) {
+  const auto it = std::find_if(open_.begin(), open_.end(), [&](const OpenDevice& device) {
+    return same_device(device.address, address);
+  });
+  return it == open_.end() ? nullptr : &*it;
+}
+
+void PlayerConnection::open(const Devaddr& address, std::unique_ptr<wire::PlayerDevice> device) {
+  OpenDevice opened;
+  opened.address = address;
+  opened.driver = device->driver();
+  const InterfaceBinding binding = find_interface(
+      session_.robots(), robot_port_, PlayerCc::interface_name(address.interf), address.index);
+  if (!binding.is_world()) opened.belongs_to = binding.reading;
+  const std::vector<DeviceId> sources = device->sources();
+  opened.device = std::move(device);
+  try {
+    for (const DeviceId source : sources) {
+      session_.request(SubscribeRequest{source});
+      opened.sources.push_back(source);
+    }
+  } catch (...) {
+    for (const DeviceId source : opened.sources) session_.request(UnsubscribeRequest{source});
+    throw;
+  }
+  open_.push_back(std::move(opened));
+  apply_rules();
+}
+
+void PlayerConnection::close(OpenDevice& device) {
+  for (const DeviceId source : device.sources) session_.request(UnsubscribeRequest{source});
+  open_.remove_if([&](const OpenDevice& other) { return &other == &device; });
+}
+
+void PlayerConnection::note(const std::string& text) {
+  if (++notes_ <= kMaxNotes) hub_.log(sim::LogLevel::kInfo, peer_.name() + ": " + text);
+}
+
+template <typename Action>
+void PlayerConnection::guarded(OpenDevice& device, Action action) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    if (!std::exchange(device.has_failed, true)) {
+      note(device_text(device.address) + ": " + error.what() +
+           " (further errors of this device are not logged)");
+    }
+  }
+}
+
+void PlayerConnection::command(OpenDevice& to, const player::Message& message) {
+  guarded(to, [&] {
+    // Drivers act without further checks, see GuardedSession.
+    if (to.belongs_to) guard_.check_command(*to.belongs_to);
+    to.device->command(message.header.subtype, message.payload);
+  });
+}
+
+PlayerConnection::Answer PlayerConnection::request(OpenDevice& to, const player::Message& message) {
+  Answer answer;
+  guarded(to, [&] {
+    std::optional<std::string> payload =
+        to.device->request(message.header.subtype, message.payload);
+    answer.accepted = payload.has_value();
+    if (payload) answer.payload = std::move(*payload);
+  });
+  return answer;
+}
+
+// --- Rules
+
+// As in Player, the first rule that matches counts.
+int PlayerConnection::rule(const Devaddr& address, int subtype) const {
+  for (const player::AddReplaceRuleReq& rule : rules_) {
+    if (matches(rule.interf, address.interf) && matches(rule.index, address.index) &&
+        matches(rule.type, PLAYER_MSGTYPE_DATA) &&
+        (subtype == -1 || matches(rule.subtype, subtype))) {
+      return rule.replace;
+    }
+  }
+  return PLAYER_PLAYER_MSG_REPLACE_RULE_ACCEPT;
+}
+
+// The host replaces readings by device; if devices of Player share a source, its readings are
+// queued for the one that wants them all.
+void PlayerConnection::apply_rules() {
+  for (const OpenDevice& device : open_) {
+    for (const DeviceId source : device.sources) {
+      const bool wants_all = std::any_of(open_.begin(), open_.end(), [&](const OpenDevice& other) {
+        const auto& sources = other.sources;
+        return std::find(sources.begin(), sources.end(), source) != sources.end() &&
+               rule(other.address, -1) == PLAYER_PLAYER_MSG_REPLACE_RULE_ACCEPT;
+      });
+      session_.request(ReplaceRequest{source, !wants_all});
+    }
+  }
+}
+
+// --- Rounds
+
+namespace {
+
+/// Calls a function for each reading.
+template <typename Function>
+class EachReading final : public ReadingSink {
+ public:
+  explicit EachReading(Function function) : function_(std::move(function)) {}
+  void on_reading(DeviceId device, const sim::SharedReading& reading) override {
+    function_(device, *reading);
+  }
+
+ private:
+  Function function_;
+};
+
+}  // namespace
+
+void PlayerConnection::data(std::uint8_t subtype, std::string payload) {
+  if (!rules_.empty() &&
+      rule(current_->address, subtype) == PLAYER_PLAYER_MSG_REPLACE_RULE_IGNORE) {
+    return;
+  }
+  append(current_->address, PLAYER_MSGTYPE_DATA, subtype, data_time_s_, payload);
+}
+
+bool PlayerConnection::wants_round() const {
+  if (!rights_.connect) return false;
+  // In lockstep a client that has taken part holds time until it waits again.
+  return pull_ ? requested_ : !open_.empty() || has_joined_;
+}
+
+ThreadId PlayerConnection::thread_id() {
+  if (thread_id_ != 0) return thread_id_;
+  if (hub_.host().time().mode == sim::TimeMode::kPaced) return thread_id_ = new_thread_id();
+  // A program of one thread may read several connections in turn, so those of a process count as
+  // one thread. No client can choose such a name for its process in `hello`.
+  const std::optional<int> process = peer_.local_process();
+  thread_id_ =
+      process ? hub_.thread_id("\nplayer " + std::to_string(*process), 0) : new_thread_id();
+  return thread_id_;
+}
+
+void PlayerConnection::begin_to_wait() {
+  if (waiting_ || !wants_round()) return;
+  const ThreadId who = thread_id();
+  has_joined_ = true;
+  waiting_ = true;
+  const Outcome outcome = wait_.begin([&] { return wait_.client()->begin_wait(who); });
+  if (outcome == Outcome::kWaiting) {
+    if (pull_) peer_.set_in_flight(1);
+    return;
+  }
+  finish_round(outcome);
+}
+
+void PlayerConnection::on_wait_end() {
+  if (!waiting_) return;
+  const Outcome outcome = wait_.client()->outcome();
+  if (outcome != Outcome::kWaiting) finish_round(outcome);
+}
+
+void PlayerConnection::finish_round(Outcome outcome) {
+  waiting_ = false;
+  if (pull_) {
+    peer_.set_in_flight(0);
+  } else {
+    flush();  // answers must not be lost with data
+  }
+  if (outcome == Outcome::kFinished) {
+    flush();
+    hub_.log(sim::LogLevel::kInfo, peer_.name() + ": the simulated run is over");
+    return peer_.close("");
+  }
+  if (outcome != Outcome::kData) return;
+  requested_ = false;
+  EachReading readings([this](DeviceId source, const sim::Reading& reading) {
+    data_time_s_ = sim::to_seconds(reading.time_ns);
+    for (OpenDevice& device : open_) {
+      if (std::find(device.sources.begin(), device.sources.end(), source) == device.sources.end()) {
+        continue;
+      }
+      current_ = &device;
+      guarded(device, [&] { device.device->on_reading(source, reading, *this); });
+    }
+  });
+  session_.take(readings);
+  data_time_s_ = now_s();
+  for (OpenDevice& device : open_) {
+    current_ = &device;
+    guarded(device, [&] { device.device->on_round(*this); });
+  }
+  if (pull_) {
+    append(own_address(PLAYER_PLAYER_CODE, 0), PLAYER_MSGTYPE_SYNCH, PLAYER_PLAYER_SYNCH_OK,
+           now_s(), "");
+    return flush();
+  }
+  if (!out_.empty()) {
+    // Data of PUSH may be lost if the client does not read them.
+    peer_.send_record(std::make_shared<const std::string>(std::exchange(out_, {})));
+  }
+  hub_.post([this, weak = std::weak_ptr(self_)] {
+    if (!weak.expired()) begin_to_wait();
+  });
+}
+
+// --- Output
+
+Devaddr PlayerConnection::own_address(unsigned interface, unsigned index) const {
+  return {host_, static_cast<std::uint32_t>(tcp_port_), static_cast<std::uint16_t>(interface),
+          static_cast<std::uint16_t>(index)};
+}
+
+double PlayerConnection::now_s() const { return sim::to_seconds(hub_.host().now_ns()); }
+
+void PlayerConnection::append(const Devaddr& address, int type, int subtype, double time_s,
+                              std::string_view payload) {
+  player::Msghdr header;
+  header.addr = address;
+  header.type = static_cast<std::uint8_t>(type);
+  header.subtype = static_cast<std::uint8_t>(subtype);
+  header.timestamp = time_s;
+  player::append_message(out_, header, payload);
+}
+
+void PlayerConnection::respond(const Devaddr& address, int subtype, const Answer& answer) {
+  append(address, answer.accepted ? PLAYER_MSGTYPE_RESP_ACK : PLAYER_MSGTYPE_RESP_NACK, subtype,
+         now_s(), answer.payload);
+}
+
+void PlayerConnection::flush() {
+  if (!out_.empty()) peer_.send(std::exchange(out_, {}));
+}
+
+}  // namespace playerlike::server

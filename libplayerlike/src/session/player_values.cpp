@@ -1,0 +1,108 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "session/player_values.h"
+
+#include <algorithm>
+
+#include "sim/core/utf8.h"
+
+namespace playerlike {
+
+std::uint8_t gripper_state_code(sim::GripperState state) {
+  switch (state) {
+    case sim::GripperState::kOpen:
+      return PLAYER_GRIPPER_STATE_OPEN;
+    case sim::GripperState::kClosed:
+      return PLAYER_GRIPPER_STATE_CLOSED;
+    case sim::GripperState::kMoving:
+      return PLAYER_GRIPPER_STATE_MOVING;
+    case sim::GripperState::kError:
+      break;
+  }
+  return PLAYER_GRIPPER_STATE_ERROR;
+}
+
+std::optional<sim::GripCommand::Action> grip_action(int command) noexcept {
+  using Action = sim::GripCommand::Action;
+  switch (command) {
+    case PLAYER_GRIPPER_CMD_OPEN:
+      return Action::kOpen;
+    case PLAYER_GRIPPER_CMD_CLOSE:
+      return Action::kClose;
+    case PLAYER_GRIPPER_CMD_STOP:
+      return Action::kStop;
+    case PLAYER_GRIPPER_CMD_STORE:
+      return Action::kStore;
+    case PLAYER_GRIPPER_CMD_RETRIEVE:
+      return Action::kRetrieve;
+    default:
+      return std::nullopt;
+  }
+}
+
+double joint_setting(const DeviceSettings& settings, const char* name, std::size_t joint) {
+  return setting_of(settings, std::string(name) + '_' + std::to_string(joint));
+}
+
+std::uint8_t joint_state_code(sim::JointState state) {
+  switch (state) {
+    case sim::JointState::kIdle:
+      return PLAYER_ACTARRAY_ACTSTATE_IDLE;
+    case sim::JointState::kMoving:
+      return PLAYER_ACTARRAY_ACTSTATE_MOVING;
+    case sim::JointState::kBraked:
+      return PLAYER_ACTARRAY_ACTSTATE_BRAKED;
+    case sim::JointState::kStalled:
+      break;
+  }
+  return PLAYER_ACTARRAY_ACTSTATE_STALLED;
+}
+
+AxisVector axis_vector(double axis) {
+  switch (static_cast<sim::JointAxis>(static_cast<int>(axis))) {
+    case sim::JointAxis::kX:
+      return {1.0, 0.0, 0.0};
+    case sim::JointAxis::kY:
+      return {0.0, 1.0, 0.0};
+    case sim::JointAxis::kMinusX:
+      return {-1.0, 0.0, 0.0};
+    case sim::JointAxis::kMinusY:
+      return {0.0, -1.0, 0.0};
+    case sim::JointAxis::kMinusZ:
+      return {0.0, 0.0, -1.0};
+    case sim::JointAxis::kZ:
+      break;
+  }
+  return {0.0, 0.0, 1.0};
+}
+
+std::vector<std::int8_t> map_cells(const sim::OccupancyMap& map) {
+  const auto cell = [](float occupancy) -> std::int8_t {
+    if (occupancy > 0.5F) return kMapDataRange;
+    return occupancy < 0.5F ? static_cast<std::int8_t>(-kMapDataRange) : std::int8_t{0};
+  };
+  std::vector<std::int8_t> cells(map.cells.size());
+  // The first row is the top row here, and the bottom row in Player.
+  for (int row = 0; row < map.height; ++row) {
+    const auto from = map.cells.begin() + static_cast<std::ptrdiff_t>(row) * map.width;
+    const std::ptrdiff_t y = map.height - 1 - row;
+    std::transform(from, from + map.width, cells.begin() + y * map.width, cell);
+  }
+  return cells;
+}
+
+std::string sayable(std::string_view text) {
+  std::string said;
+  while (!text.empty()) {
+    const std::size_t length = sim::utf8_length(text);
+    const auto first = static_cast<unsigned char>(text.front());
+    const bool printable = length > 1 || (length == 1 && first >= 0x20 && first != 0x7f);
+    const bool space = first == '\n' || first == '\t' || first == '\r';
+    const std::string_view next = printable ? text.substr(0, length) : space ? " " : "?";
+    if (said.size() + next.size() > sim::kMaxSpeech) break;
+    said += next;
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return said;
+}
+
+}  // namespace playerlike

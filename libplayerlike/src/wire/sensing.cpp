@@ -1,0 +1,318 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Sensors without commands: blobfinder, bumper, camera, fiducial, gps, imu, power and wifi.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "libplayerinterface/player_constants.h"
+#include "session/player_values.h"
+#include "sim/devices/battery.h"
+#include "sim/devices/bumper.h"
+#include "sim/devices/camera.h"
+#include "sim/devices/compass.h"
+#include "sim/devices/gps.h"
+#include "sim/devices/wifi.h"
+#include "wire/robot_device.h"
+
+namespace playerlike::wire {
+namespace {
+
+class Blobfinder final : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* seen = reading_as<sim::BlobfinderReading>(reading);
+    if (seen == nullptr) return;
+    player::BlobfinderData data;
+    data.width = static_cast<std::uint32_t>(seen->width);
+    data.height = static_cast<std::uint32_t>(seen->height);
+    for (const auto& blob : seen->blobs) {
+      data.blobs.push_back(blob_of<player::BlobfinderBlob>(blob));
+    }
+    sink.data(PLAYER_BLOBFINDER_DATA_BLOBS, player::encode(data));
+  }
+};
+
+class Bumper final : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* felt = reading_as<sim::BumperReading>(reading);
+    if (felt == nullptr) return;
+    sink.data(PLAYER_BUMPER_DATA_STATE, player::encode(player::BumperData{felt->pressed}));
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view /*payload*/) override {
+    if (subtype != PLAYER_BUMPER_REQ_GET_GEOM) return std::nullopt;
+    player::BumperGeom geometry;
+    for (const Mounting& segment : element_mountings(*settings())) {
+      const std::string number = std::to_string(geometry.bumper_def.size());
+      geometry.bumper_def.push_back({pose_3d(segment),
+                                     static_cast<float>(setting("length_" + number)),
+                                     static_cast<float>(setting("radius_" + number))});
+    }
+    return player::encode(geometry);
+  }
+};
+
+class Camera final : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* picture = reading_as<sim::CameraReading>(reading);
+    if (picture == nullptr) return;
+    picture_.width = static_cast<std::uint32_t>(picture->width);
+    picture_.height = static_cast<std::uint32_t>(picture->height);
+    picture_.bpp = 24;
+    picture_.format = PLAYER_CAMERA_FORMAT_RGB888;
+    picture_.fdiv = 1;
+    picture_.compression = PLAYER_CAMERA_COMPRESS_RAW;
+    picture_.image.assign(picture->pixels.begin(), picture->pixels.end());
+    sink.data(PLAYER_CAMERA_DATA_STATE, encoded());
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view /*payload*/) override {
+    if (subtype != PLAYER_CAMERA_REQ_GET_IMAGE || picture_.image.empty()) return std::nullopt;
+    return encoded();
+  }
+
+ private:
+  [[nodiscard]] std::string encoded() const {
+    constexpr std::size_t kOtherFields = 36;
+    std::string payload;
+    payload.reserve(kOtherFields + picture_.image.size());
+    player::append(payload, picture_);
+    return payload;
+  }
+
+  player::CameraData picture_;  // the newest one
+};
+
+class Fiducial final : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* seen = reading_as<sim::FiducialReading>(reading);
+    if (seen == nullptr) return;
+    player::FiducialData data;
+    for (const auto& mark : seen->marks) {
+      data.fiducials.push_back(fiducial_item<player::FiducialItem>(mark, *settings()));
+    }
+    sink.data(PLAYER_FIDUCIAL_DATA_SCAN, player::encode(data));
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view /*payload*/) override {
+    switch (subtype) {
+      case PLAYER_FIDUCIAL_REQ_GET_GEOM:
+        return player::encode(player::FiducialGeom{pose_3d(mounting_of(*settings())), {}, {}});
+      case PLAYER_FIDUCIAL_REQ_GET_FOV:
+        return player::encode(player::FiducialFov{0.0F, static_cast<float>(setting("range_max")),
+                                                  static_cast<float>(setting("field_of_view"))});
+      default:
+        return std::nullopt;
+    }
+  }
+};
+
+class Gps final : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* fix = reading_as<sim::GpsReading>(reading);
+    if (fix == nullptr) return;
+    constexpr double kDegrees = 180.0 / std::numbers::pi;
+    // Clients divide the UTM coordinates by 100 and the dilutions of precision by 10.
+    constexpr double kUtmUnits = 100.0;
+    constexpr std::uint32_t kOneDop = 10;
+    const bool has_fix = fix->quality > 0;
+    player::GpsData data;
+    data.time_sec = static_cast<std::uint32_t>(fix->time_ns / sim::kNanosecondsPerSecond);
+    data.time_usec = static_cast<std::uint32_t>(fix->time_ns % sim::kNanosecondsPerSecond / 1000);
+    data.latitude = static_cast<std::int32_t>(std::lround(1e7 * kDegrees * fix->latitude_rad));
+    data.longitude = static_cast<std::int32_t>(std::lround(1e7 * kDegrees * fix->longitude_rad));
+    data.altitude =
+        static_cast<std::int32_t>(std::lround(std::clamp(1e3 * fix->altitude_m, -2e9, 2e9)));
+    data.speed = fix->speed_mps;
+    data.course = fix->course_rad;
+    data.utm_e = kUtmUnits * fix->utm_easting_m;
+    data.utm_n = kUtmUnits * fix->utm_northing_m;
+    data.quality = static_cast<std::uint32_t>(fix->quality);
+    data.num_sats = static_cast<std::uint32_t>(fix->satellites);
+    data.hdop = has_fix ? kOneDop : 0;
+    data.vdop = has_fix ? kOneDop : 0;
+    data.err_horz = has_fix ? setting("noise") : 0.0;
+    data.err_vert = has_fix ? setting("noise_vertical") : 0.0;
+    sink.data(PLAYER_GPS_DATA_STATE, player::encode(data));
+  }
+};
+
+/// ImuProxy's counterpart: an inertial unit, or a compass, which measures the heading only.
+class Imu final : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    if (const auto* compass = reading_as<sim::CompassReading>(reading)) {
+      send_data(compass->heading_rad, {}, false, sink);
+    } else if (const auto* unit = reading_as<sim::ImuReading>(reading)) {
+      send_data(unit->yaw_rad, imu_values<player::ImuDataCalib>(*unit), true, sink);
+    }
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
+    switch (subtype) {
+      case PLAYER_IMU_REQ_SET_DATATYPE: {
+        const int wish = player::decode<player::ImuDatatypeConfig>(payload).value;
+        if (wish < PLAYER_IMU_DATA_STATE || wish > PLAYER_IMU_DATA_FULLSTATE) return std::nullopt;
+        data_type_ = wish;
+        return empty_payload();
+      }
+      case PLAYER_IMU_REQ_RESET_ORIENTATION:
+        static_cast<void>(player::decode<player::ImuResetOrientationConfig>(payload));
+        set_yaw(0.0);
+        return empty_payload();
+      case PLAYER_IMU_REQ_RESET_EULER:
+        set_yaw(player::decode<player::ImuResetEulerConfig>(payload).orientation.pyaw);
+        return empty_payload();
+      default:
+        return std::nullopt;
+    }
+  }
+
+ private:
+  void set_yaw(double yaw_rad) const {
+    require_number("the yaw angle", yaw_rad);
+    send(sim::SetPoseCommand{{0.0, 0.0, sim::normalize_angle(yaw_rad)}});
+  }
+
+  // Until a client selects one kind of data, it gets pose and measured values.
+  void send_data(double yaw_rad, const player::ImuDataCalib& values, bool has_values,
+                 DataSink& sink) const {
+    const player::Pose3d pose{0.0, 0.0, 0.0, 0.0, 0.0, yaw_rad};
+    switch (data_type_) {
+      case PLAYER_IMU_DATA_QUAT:
+        return sink.data(PLAYER_IMU_DATA_QUAT,
+                         player::encode(player::ImuDataQuat{
+                             values, static_cast<float>(std::cos(0.5 * yaw_rad)), 0.0F, 0.0F,
+                             static_cast<float>(std::sin(0.5 * yaw_rad))}));
+      case PLAYER_IMU_DATA_EULER:
+        return sink.data(PLAYER_IMU_DATA_EULER,
+                         player::encode(player::ImuDataEuler{values, {0.0, 0.0, yaw_rad}}));
+      case PLAYER_IMU_DATA_FULLSTATE: {
+        const auto wide = [](float value) { return static_cast<double>(value); };
+        return sink.data(
+            PLAYER_IMU_DATA_FULLSTATE,
+            player::encode(player::ImuDataFullstate{
+                pose,
+                {0.0, 0.0, 0.0, wide(values.gyro_x), wide(values.gyro_y), wide(values.gyro_z)},
+                {wide(values.accel_x), wide(values.accel_y), wide(values.accel_z), 0.0, 0.0,
+                 0.0}}));
+      }
+      default:
+        break;
+    }
+    if (data_type_ != PLAYER_IMU_DATA_CALIB) {
+      sink.data(PLAYER_IMU_DATA_STATE, player::encode(player::ImuDataState{pose}));
+    }
+    if (data_type_ == PLAYER_IMU_DATA_CALIB || (data_type_ == 0 && has_values)) {
+      sink.data(PLAYER_IMU_DATA_CALIB, player::encode(values));
+    }
+  }
+
+  int data_type_ = 0;  // PLAYER_IMU_DATA_...; 0: the client has not selected one
+};
+
+class Power final : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* battery = reading_as<sim::BatteryReading>(reading);
+    if (battery == nullptr) return;
+    constexpr double kJoulesPerWattHour = 3600.0;
+    player::PowerData data;
+    data.valid = PLAYER_POWER_MASK_VOLTS | PLAYER_POWER_MASK_WATTS | PLAYER_POWER_MASK_JOULES |
+                 PLAYER_POWER_MASK_PERCENT | PLAYER_POWER_MASK_CHARGING;
+    data.volts = static_cast<float>(battery->voltage_v);
+    data.percent = static_cast<float>(battery->charge_percent);
+    data.joules = static_cast<float>(battery->energy_wh * kJoulesPerWattHour);
+    data.watts = static_cast<float>(battery->power_w);
+    data.charging = battery->status == sim::BatteryStatus::kCharging ? 1 : 0;
+    sink.data(PLAYER_POWER_DATA_STATE, player::encode(data));
+  }
+};
+
+class Wifi final : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* heard = reading_as<sim::WifiReading>(reading);
+    if (heard == nullptr) return;
+    // Levels are negative numbers: clients take them from the unsigned fields.
+    const auto level = [](double dbm) {
+      return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(dbm)));
+    };
+    player::WifiData data;
+    for (const auto& station : heard->links) {
+      player::WifiLink& link = data.links.emplace_back();
+      link.mac = short_text(station.mac);
+      link.ip = short_text(station.ip);
+      link.essid = short_text(station.name);
+      link.mode = station.access_point ? PLAYER_WIFI_MODE_MASTER : PLAYER_WIFI_MODE_ADHOC;
+      link.freq = whole_number(heard->channel_mhz);
+      link.qual = static_cast<std::uint32_t>(sim::link_quality(station.level_dbm));
+      link.level = level(station.level_dbm);
+      link.noise = level(heard->floor_dbm);
+    }
+    data.mode = PLAYER_WIFI_MODE_ADHOC;
+    data.qual_type = PLAYER_WIFI_QUAL_DBM;
+    data.maxqual = 100;  // in percent, unlike the levels
+    sink.data(PLAYER_WIFI_DATA_STATE, player::encode(data));
+  }
+
+ private:
+  // The bytes of a text with a final zero byte; the protocol has room for 32.
+  [[nodiscard]] static std::vector<std::uint8_t> short_text(std::string_view text) {
+    constexpr std::size_t kRoom = 32;
+    const std::string bytes = player::text_bytes(text.substr(0, kRoom - 1));
+    return {bytes.begin(), bytes.end()};
+  }
+};
+
+}  // namespace
+
+MadeDevice make_sensing_device(const DeviceContext& context) {
+  switch (context.interface) {
+    case PLAYER_BLOBFINDER_CODE:
+      return std::make_unique<Blobfinder>(context);
+    case PLAYER_BUMPER_CODE:
+      return std::make_unique<Bumper>(context);
+    case PLAYER_CAMERA_CODE:
+      return std::make_unique<Camera>(context);
+    case PLAYER_FIDUCIAL_CODE:
+      return std::make_unique<Fiducial>(context);
+    case PLAYER_GPS_CODE:
+      return std::make_unique<Gps>(context);
+    case PLAYER_IMU_CODE:
+      return std::make_unique<Imu>(context);
+    case PLAYER_POWER_CODE:
+      return std::make_unique<Power>(context);
+    case PLAYER_WIFI_CODE:
+      return std::make_unique<Wifi>(context);
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace playerlike::wire
