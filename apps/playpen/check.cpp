@@ -8,6 +8,7 @@
 
 #include "command_line.h"
 #include "grade/evaluation.h"
+#include "playerlike/host/run_settings.h"
 #include "playerlike/messages/messages.h"
 #include "playerlike/messages/snd_settings.h"
 #include "shipped.h"
@@ -79,6 +80,7 @@ sim::WorldDescription read_world(const std::string& file) {
   sim::WorldDescription world = sim::load_world(file);
   playerlike::check_drivers(world);
   playerlike::check_interfaces(world);
+  playerlike::RunSettings().apply_to(world);
   const sim::Simulation wired(world);
   return world;
 }

@@ -19,6 +19,7 @@ const std::vector<EnvironmentVariable>& environment_variables() {
        false},
       {"PLAYPEN_OUT", "The folder for results.", true},
       {"PLAYPEN_PROGRESS", "If it is 1, a line on the terminal shows the progress.", true},
+      {"PLAYPEN_REAL", "The real robots that robots of the world mirror.", true},
       {"PLAYPEN_REALISM", "The level of realism: ideal, course or real.", true},
       {"PLAYPEN_RECORD", "The film to record.", true},
       {"PLAYPEN_RECORD_FPS", "Frames a second of the film.", true},

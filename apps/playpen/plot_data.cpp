@@ -61,18 +61,27 @@ Track& track_of(RunData& run, std::string_view robot) {
   return run.tracks.back();
 }
 
+// Number of columns of a header; 0: it is no header of a trajectory. Columns of mirrored robots may
+// follow the usual ones.
+std::size_t columns_of(std::string_view header) {
+  if (!header.starts_with(kHeader)) return 0;
+  const std::string_view rest = header.substr(kHeader.size());
+  if (!rest.empty() && rest.front() != ',') return 0;
+  return 1 + static_cast<std::size_t>(std::count(header.begin(), header.end(), ','));
+}
+
 // Appends a row to the tracks. @return whether the row is valid.
-bool add_row(RunData& run, std::string_view row) {
+bool add_row(RunData& run, std::string_view row, std::size_t columns) {
   constexpr std::size_t kColumns = 8;
   std::array<std::string_view, kColumns> words;
   std::size_t count = 0;
   for (std::size_t begin = 0; begin <= row.size(); ++count) {
-    if (count == kColumns) return false;
+    if (count == columns) return false;
     const std::size_t end = std::min(row.find(',', begin), row.size());
-    words.at(count) = row.substr(begin, end - begin);
+    if (count < kColumns) words.at(count) = row.substr(begin, end - begin);
     begin = end + 1;
   }
-  if (count != kColumns || words[1].empty()) return false;
+  if (count != columns || words[1].empty()) return false;
   std::array<double, kColumns> numbers{};
   for (const std::size_t i : std::initializer_list<std::size_t>{0, 2, 3, 4, 5, 6, 7}) {
     if (!read_number(words.at(i), numbers.at(i))) return false;
@@ -93,6 +102,7 @@ bool add_row(RunData& run, std::string_view row) {
 void read_trajectory(const fs::path& file, RunData& run) {
   const std::string text = text_of(file);
   std::size_t line = 0;
+  std::size_t columns = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view row = std::string_view(text).substr(begin, end - begin);
@@ -101,8 +111,9 @@ void read_trajectory(const fs::path& file, RunData& run) {
     begin = end + 1;
     ++line;
     if (line == 1) {
-      if (row != kHeader) refuse_row(file, line, row);
-    } else if (is_whole && !add_row(run, row)) {
+      columns = columns_of(row);
+      if (columns == 0) refuse_row(file, line, row);
+    } else if (is_whole && !add_row(run, row, columns)) {
       refuse_row(file, line, row);
     }
   }

@@ -138,6 +138,19 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
       ->expected(1)
       ->take_all()
       ->trigger_on_parse();
+  add_parsed(command, "--real",
+             "Let a robot of the world mirror the real one at this server [the world's]; can be "
+             "repeated",
+             "ROBOT=SERVER", playerlike::kRealRobotChoiceExpected,
+             [&settings](const std::string& text) {
+               playerlike::RealRobotChoice choice;
+               const bool good = playerlike::parse_real_robot(text, choice);
+               if (good) settings.real_robots.push_back(std::move(choice));
+               return good;
+             })
+      ->expected(1)
+      ->take_all()
+      ->trigger_on_parse();
 }
 
 CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
 #include "playerlike/host/program.h"
 #include "playerlike/process/log.h"
@@ -95,6 +96,7 @@ playerlike::RunSettings with_environment(const playerlike::RunSettings& settings
     }
   }
   playerlike::RunSettings result = playerlike::RunSettings::from_environment();
+  result.open_real_robot = playerlike::open_real_robot;
   result.start_at_once = settings.start_at_once;  // not affected by the environment
   return result;
 }

@@ -18,7 +18,7 @@ if [[ -n $given ]]; then
   bin=$given
 else
   cmake --preset dev >/dev/null
-  cmake --build build/dev --target playpen docs_thirteen docs_layers docs_living_arena docs_moving docs_snd_snd_goals \
+  cmake --build build/dev --target playpen docs_thirteen docs_layers docs_living_arena docs_moving docs_mirror docs_snd_snd_goals \
     docs_speech_speech docs_blinkenlight_blinkenlight docs_camera_camera docs_gripper_gripper \
     docs_actarray_actarray \
     compat_four_ports compat_roomba_maze \
@@ -57,6 +57,18 @@ take living_arena/snapshots/scene_000012.800s.png arena_controller_waiting
 
 run worlds/examples/moving.json moving --duration 7 --hide fans -- "$bin/docs_moving"
 take moving/scene.png moving
+
+# A server plays the real robot.
+"$bin/playpen" serve "$images/mirror_real.json" --seed 4 --port 0 --quiet --out "$out/mirror_real" \
+  >"$out/mirror_server.log" &
+server=$!
+trap 'kill "$server" 2>/dev/null || true' EXIT
+until grep -q '^listening' "$out/mirror_server.log"; do sleep 0.1; done
+address=$(sed -n 's/^listening on \([^ ,]*\).*/\1/p' "$out/mirror_server.log")
+run "$images/mirror.json" mirror --duration 9 --real "r1=tcp://$address" -- "$bin/docs_mirror"
+kill "$server"
+trap - EXIT
+take mirror/scene.png mirror
 
 run worlds/tasks/par_intro.json intro --duration 120 -- "$bin/par_intro_solution_wall"
 take intro/scene.png wall_follower

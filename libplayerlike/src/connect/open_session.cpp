@@ -85,6 +85,7 @@ std::shared_ptr<Host> host_of(const std::string& file) {
         settings.output_folder += "/world" + std::to_string(registry.results + 1);
       }
     }
+    settings.open_real_robot = open_real_robot;
     prepare_drawing(settings);
     // A program has one virtual clock, which belongs to the first world.
     const bool virtual_time_wanted = settings.virtual_time && registry.results == 0;
@@ -143,6 +144,11 @@ std::unique_ptr<Session> connect_to_server(const std::string& server, int port) 
 // MORSE's port is no Player server's, so programs that name it mean Player's default port.
 int player_tcp_port(int port) { return port == kMorsePort ? kPlayerPort : port; }
 
+// The server that "player://HOST[:PORT]" names for a client's port.
+ServerAddress player_server(const std::string& text, int port) {
+  return parse_server_address(text, player_tcp_port(port));
+}
+
 // The address of PLAYPEN_WORLD stands for all ports that a program names: its port is that of the
 // robot on Player's default port, and other robots have the same distance to it.
 ServerAddress player_server_of_world(const std::string& world, int port) {
@@ -157,12 +163,16 @@ ServerAddress player_server_of_world(const std::string& world, int port) {
                          ": that would be TCP port " + std::to_string(server.tcp_port));
 }
 
-std::unique_ptr<Session> connect_to_player(ServerAddress server, int port) {
-  use_real_time();
+std::unique_ptr<Session> open_player_session(ServerAddress server, int port) {
   PlayerSettings settings;
   settings.server = std::move(server);
   settings.tokens = SocketSettings::from_environment(settings.server, port).tokens;
   return std::make_unique<PlayerSession>(std::move(settings));
+}
+
+std::unique_ptr<Session> connect_to_player(ServerAddress server, int port) {
+  use_real_time();
+  return open_player_session(std::move(server), port);
 }
 
 // For a host without a protocol: a Player server speaks first, a Playpen server does not.
@@ -282,7 +292,7 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
     return host_of(file)->connect(port);
   }
   if (host.starts_with(kPlayerPrefix)) {
-    return connect_to_player(parse_server_address(host, player_tcp_port(port)), port);
+    return connect_to_player(player_server(host, port), port);
   }
   const std::string file(variable("PLAYPEN_WORLD"));
   if (host != "localhost" && host != "127.0.0.1") {
@@ -295,6 +305,19 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
   }
   if (file.starts_with(kTcpPrefix)) return connect_to_server(file, port);
   return host_of(file)->connect(port);
+}
+
+std::unique_ptr<Session> open_real_robot(const std::string& server, int port) {
+  const virtual_time::Inside inside;
+  if (server.starts_with(kPlayerPrefix)) {
+    return open_player_session(player_server(server, port), port);
+  }
+  if (!server.starts_with(kTcpPrefix)) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "a real robot is named " + std::string(sim::kRealServerExpected));
+  }
+  return std::make_unique<SocketSession>(
+      SocketSettings::from_environment(parse_server_address(server), port));
 }
 
 void close_embedded_hosts() {

@@ -16,8 +16,8 @@ bool subscribed_before(const Client::Subscription& s, DeviceId id) {
 }  // namespace
 
 Clients::Clients(const sim::Simulation& simulation, const std::vector<RobotInfo>& robots,
-                 bool by_creator)
-    : simulation_(simulation), by_creator_(by_creator) {
+                 bool by_creator, const Mirror* mirror)
+    : simulation_(simulation), by_creator_(by_creator), mirror_(mirror) {
   for (const RobotInfo& robot : robots) subscribers_.emplace_back(robot.devices.size());
 }
 
@@ -112,9 +112,20 @@ void Clients::distribute(const std::map<int, RunLog>& logs) {
       }
     }
   }
+  const auto is_replayed = [&](const Client& client) {
+    return std::find(replayed.begin(), replayed.end(), client.port) != replayed.end();
+  };
+  if (mirror_ != nullptr) {
+    for (const auto& [device, reading] : mirror_->readings()) {
+      for (Client* client : subscribers(device)) {
+        if (!is_replayed(*client)) give(reading, *find(*client, device), *client);
+      }
+    }
+  }
   for (const DeviceId& updated : simulation_.updated()) {
+    if (mirror_ != nullptr && mirror_->replaces(updated)) continue;
     for (Client* client : subscribers(updated)) {
-      if (std::find(replayed.begin(), replayed.end(), client->port) != replayed.end()) continue;
+      if (is_replayed(*client)) continue;
       Client::Subscription& s = *find(*client, updated);
       if (s.replace) {
         client->has_data = true;
@@ -125,6 +136,28 @@ void Clients::distribute(const std::map<int, RunLog>& logs) {
       give(reading(updated), s, *client);
     }
   }
+}
+
+void Clients::note_loss(const Mirror::Loss& loss) {
+  for (const auto& client : clients_) {
+    const auto& all = client->subscriptions;
+    if (std::any_of(all.begin(), all.end(), [&](const Client::Subscription& s) {
+          return s.device.robot == loss.robot && mirror_->replaces(s.device);
+        })) {
+      client->lost_robot = loss.text;
+    }
+  }
+}
+
+std::string Clients::reason_not_to_wait(const Client& client) const {
+  if (mirror_ == nullptr || client.has_data) return "";
+  std::string reason;
+  for (const Client::Subscription& s : client.subscriptions) {
+    const std::string& loss = mirror_->loss_of(s.device);
+    if (loss.empty()) return "";
+    reason = loss;
+  }
+  return reason;
 }
 
 std::vector<std::pair<DeviceId, sim::SharedReading>> Clients::take(Client& client) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/client.h"
+#include "host/mirror.h"
 #include "host/run_log.h"
 #include "sim/simulation/simulation.h"
 
@@ -25,7 +26,9 @@ class Clients {
   /// Both arguments must outlive this object.
   /// @param by_creator  virtual time: within a group, clients are in the order in which the threads
   ///                    that connect them were started.
-  Clients(const sim::Simulation& simulation, const std::vector<RobotInfo>& robots, bool by_creator);
+  /// @param mirror  whose readings replace those of the simulation; null: there is none.
+  Clients(const sim::Simulation& simulation, const std::vector<RobotInfo>& robots, bool by_creator,
+          const Mirror* mirror = nullptr);
 
   [[nodiscard]] auto begin() const { return clients_.begin(); }
   [[nodiscard]] auto end() const { return clients_.end(); }
@@ -42,6 +45,11 @@ class Clients {
   /// Gives the readings of a step to the subscribed clients.
   /// @param logs  by port; a log that is replayed replaces the devices of its port.
   void distribute(const std::map<int, RunLog>& logs);
+  /// Notes the loss of a real robot for each client that has subscribed to its readings.
+  void note_loss(const Mirror::Loss& loss);
+  /// Why a client would wait in vain: all readings that it has subscribed to come from real robots
+  /// whose connections are lost. Empty: it would not.
+  [[nodiscard]] std::string reason_not_to_wait(const Client& client) const;
   /// Takes a client's unread readings, in order of device.
   std::vector<std::pair<DeviceId, sim::SharedReading>> take(Client& client);
 
@@ -57,6 +65,7 @@ class Clients {
 
   const sim::Simulation& simulation_;
   const bool by_creator_;
+  const Mirror* const mirror_;
   std::vector<std::shared_ptr<Client>> clients_;
   int next_number_ = 0;
   std::size_t unsubscribed_ = 0;                                ///< clients without subscriptions

@@ -42,14 +42,15 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
              simulation_.world().simulation.time_mode == sim::TimeMode::kLockstep),
       mutex_(turns_ ? Turns::instance().mutex() : own_mutex_),
       client_files_(settings_.client_files_limit, settings_.all_files_limit),
-      clients_(simulation_, robots_, turns_),
+      mirror_(Mirror::open(simulation_, robots_, settings_.open_real_robot, warn_)),
+      clients_(simulation_, robots_, turns_, mirror_.get()),
       lockstep_(clients_, simulation_.world().simulation.start_gate_clients,
                 settings_.silence_limit_s, warn_),
       pace_(sim::to_seconds(step_ns_), simulation_.world().simulation.time_factor),
-      inputs_(simulation_, warn_),
+      inputs_(simulation_, warn_, mirror_.get()),
       stalled_time_warning_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
       results_(
-          settings_, simulation_, [this] { return time_locked(); }, warn_),
+          settings_, simulation_, [this] { return time_locked(); }, warn_, mirror_.get()),
       clock_(std::make_unique<VirtualClock>(*this)),
       mode_chosen_(simulation_.world().simulation.time_mode_given) {}
 
@@ -220,7 +221,7 @@ bool Host::Core::may_advance(bool all_known_waiting) {
 }
 
 bool Host::Core::wait_is_over(const Client& client) const {
-  return over() || (client.wants_data && client.has_data) ||
+  return over() || (client.wants_data && client.has_data) || !client.lost_robot.empty() ||
          (client.wake_ns && simulation_.now_ns() >= *client.wake_ns);
 }
 
@@ -263,7 +264,9 @@ void Host::Core::wait_for_others(Lock& lock, const Client& client) {
 
 void Host::Core::wait(Client& client) {
   Lock lock = lock_for_stepping();
+  if (client.lost_robot.empty()) client.lost_robot = clients_.reason_not_to_wait(client);
   wait_until(lock, client, /*wants_data=*/true, std::nullopt);
+  tell_of_loss(client);
   if (client.has_data) return;
   end_reported_ = true;
   if (settings_.quiet_end && ++reads_after_end_ > kReadsAfterEnd) {
@@ -271,6 +274,11 @@ void Host::Core::wait(Client& client) {
     end_program_quietly();
   }
   throw SessionError(SessionError::Code::kFinished, "the simulated run is over");
+}
+
+void Host::Core::tell_of_loss(Client& client) {
+  if (client.lost_robot.empty() || over()) return;
+  throw SessionError(SessionError::Code::kDisconnected, std::exchange(client.lost_robot, {}));
 }
 
 int Host::Core::take(Client& client, ReadingSink& sink) {
@@ -287,16 +295,17 @@ int Host::Core::take(Client& client, ReadingSink& sink) {
 bool Host::Core::peek(Client& client, std::chrono::milliseconds timeout) {
   Lock lock = lock_for_stepping();
   client.require_open();
-  if (client.has_data || over()) return true;
+  if (client.has_data || over() || !client.lost_robot.empty()) return true;
   if (paced()) {
     adopt(client, this_thread_id());
     client.wants_data = true;
     client.wake_ns.reset();
     client.waiting = true;
-    changed_.wait_for(lock, timeout,
-                      [&] { return client.has_data || over() || client.closed.load(); });
+    changed_.wait_for(lock, timeout, [&] {
+      return client.has_data || over() || client.closed.load() || !client.lost_robot.empty();
+    });
     client.waiting = false;
-    return client.has_data || over();
+    return client.has_data || over() || !client.lost_robot.empty();
   }
   if (timeout.count() == 0 && ++client.zero_peeks < 2) return false;
   wait_until(lock, client, /*wants_data=*/true, end_of_peek(timeout));
@@ -322,6 +331,7 @@ EventClient::Outcome Host::Core::begin(Client& client, ThreadId thread_id, bool 
   adopt(client, thread_id);
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
+  client.lost_robot = wants_data ? clients_.reason_not_to_wait(client) : "";
   client.waiting = !wait_is_over(client);
   if (client.waiting) changed_.notify_all();
   return outcome(client);
@@ -361,6 +371,7 @@ EventClient::Outcome Host::Core::outcome(const Client& client) const {
   using Outcome = EventClient::Outcome;
   if (client.waiting) return Outcome::kWaiting;
   if (client.wants_data && client.has_data) return Outcome::kData;
+  if (client.wants_data && !client.lost_robot.empty()) return Outcome::kFinished;
   if (client.wake_ns && simulation_.now_ns() >= *client.wake_ns && !over()) return Outcome::kTime;
   if (client.wants_data || client.wake_ns) return over() ? Outcome::kFinished : Outcome::kIdle;
   return Outcome::kIdle;
@@ -424,9 +435,11 @@ void Host::Core::publish_blackboard() {
 bool Host::Core::advance() {
   const auto now = WallClock::now();
   if (progress_.note_step(now)) stalled_time_warning_.dismiss_alarm();
+  if (mirror_) mirror_->before_step();
   inputs_.before_step(clients_);
   publish_blackboard();
   simulation_.step();
+  if (mirror_) note_losses();
   now_ns_.store(simulation_.now_ns(), std::memory_order_release);
   pace_.count_step();
   results_.observe();
@@ -434,12 +447,20 @@ bool Host::Core::advance() {
   const bool finished = simulation_.finished();
   if (finished) progress_.note_end();
   if (settings_.progress && simulation_.steps() % 64 == 0) progress_.show(time_locked(), false);
-  if (finished || (settings_.quiet_end && interrupted() != 0)) {
+  if (finished || results_.real_robot_lost || (settings_.quiet_end && interrupted() != 0)) {
     end_run();
   } else {
     results_.keep(now);
   }
   return release_waiters();
+}
+
+void Host::Core::note_losses() {
+  for (const Mirror::Loss& loss : mirror_->after_step()) {
+    warn_(loss.text + (loss.ends_run ? "; the run ends" : "; the run continues without it"));
+    if (loss.ends_run) results_.real_robot_lost = true;
+    clients_.note_loss(loss);
+  }
 }
 
 // A thread whose wait is over no longer counts as waiting, even before it wakes up.
@@ -470,6 +491,7 @@ bool Host::Core::release_waiters() {
 
 std::optional<std::string> Host::Core::set_time_factor(double factor) {
   const Lock lock = lock_with_priority();
+  if (mirror_) return "time has no speed of its own: a robot mirrors a real one";
   if (!paced()) {
     return "time has no speed in lockstep: it goes on when all clients wait";
   }
@@ -548,6 +570,7 @@ void Host::Core::pace() {
 }
 
 void Host::Core::wait_while_paused(Lock& lock) {
+  if (mirror_) mirror_->halt();
   while (pace_.paused() && !stop_pacing_ && !over()) {
     changed_.wait_for(lock, std::chrono::milliseconds(50));
     // No step follows that would notice the signal.
@@ -580,6 +603,7 @@ void Host::Core::finish() noexcept {
 
 void Host::Core::end_run() {
   ended_ = true;
+  if (mirror_) mirror_->stop();
   results_.begin_end();
   // Threads outside of the lockstep may have drawn since the last step.
   for (const auto& client : clients_) inputs_.apply_drawings(*client);

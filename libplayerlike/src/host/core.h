@@ -19,6 +19,7 @@
 #include "host/clients.h"
 #include "host/inputs.h"
 #include "host/lockstep.h"
+#include "host/mirror.h"
 #include "host/pace.h"
 #include "host/progress.h"
 #include "host/results.h"
@@ -174,9 +175,13 @@ class Host::Core {
 
   /// Makes a step. @return the result of release_waiters().
   bool advance();
+  /// Lets clients know of connections to real robots that were lost in this step.
+  void note_losses();
   /// Ends the waits that are over. @return whether a client may have stopped waiting.
   bool release_waiters();
   void end_run();
+  /// Tells the client that a real robot is lost, if it does not know yet. @throws SessionError.
+  void tell_of_loss(Client& client);
   [[nodiscard]] TimeStatistics time_locked() const;
   /// Reasons why another run may differ.
   [[nodiscard]] std::vector<std::string> unrepeatable() const;
@@ -205,6 +210,7 @@ class Host::Core {
   ClientFiles client_files_;
   SavedStates saved_states_;
   Blackboard blackboard_;
+  std::unique_ptr<Mirror> mirror_;  ///< null: the world has no real robots
 
   Clients clients_;
   Lockstep lockstep_;

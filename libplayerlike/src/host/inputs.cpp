@@ -5,6 +5,8 @@
 #include <span>
 #include <variant>
 
+#include "host/mirror.h"
+
 namespace playerlike {
 namespace {
 
@@ -26,13 +28,19 @@ bool replaces_earlier_ones(const sim::Command& command) {
 
 }  // namespace
 
-bool Inputs::add(Client& client, DeviceId device, const sim::Command& command) {
-  auto& all = client.commands;
-  if (replaces_earlier_ones(command) && !all.empty() && all.back().first == device &&
-      all.back().second.index() == command.index()) {
-    all.back().second = command;
+bool replaces_last(std::vector<std::pair<DeviceId, sim::Command>>& queue, DeviceId device,
+                   const sim::Command& command) {
+  if (!replaces_earlier_ones(command) || queue.empty() || !(queue.back().first == device) ||
+      queue.back().second.index() != command.index()) {
     return false;
   }
+  queue.back().second = command;
+  return true;
+}
+
+bool Inputs::add(Client& client, DeviceId device, const sim::Command& command) {
+  auto& all = client.commands;
+  if (replaces_last(all, device, command)) return false;
   all.emplace_back(device, command);
   commands_wait_.store(true, std::memory_order_relaxed);
   return all.size() > kCommandLimit;
@@ -50,10 +58,15 @@ void Inputs::apply(Client& client) {
   const std::lock_guard input(client.input_mutex);
   for (const auto& [device, command] : client.commands) {
     if (hand) hand->note_command(device, command);
-    if (const auto refusal = simulation_.apply(device, command)) warn_(*refusal);
+    execute(device, command);
   }
   client.commands.clear();
   apply_drawings(client);
+}
+
+void Inputs::execute(DeviceId device, const sim::Command& command) {
+  if (mirror_ != nullptr && mirror_->take_command(device, command)) return;
+  if (const auto refusal = simulation_.apply(device, command)) warn_(*refusal);
 }
 
 // Drops drawings on layers of other clients, with one check for each run of drawings on one layer.

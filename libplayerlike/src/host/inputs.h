@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "host/clients.h"
@@ -11,13 +12,21 @@
 
 namespace playerlike {
 
+class Mirror;
+
+/// Replaces the last queued command if the new one is for the same device and makes it void.
+/// Relative movements and counted commands replace nothing. @return whether it did.
+[[nodiscard]] bool replaces_last(std::vector<std::pair<DeviceId, sim::Command>>& queue,
+                                 DeviceId device, const sim::Command& command);
+
 /// The clients' commands and drawings, and how they are applied to the simulation: commands before
 /// each step, drawings then or earlier. The host's mutex guards it unless stated otherwise.
 class Inputs {
  public:
   /// @param simulation  must outlive this object.
-  Inputs(sim::Simulation& simulation, Warn warn)
-      : simulation_(simulation), warn_(std::move(warn)) {}
+  /// @param mirror  takes the commands for robots that mirror real ones; null: there are none.
+  explicit Inputs(sim::Simulation& simulation, Warn warn, Mirror* mirror = nullptr)
+      : simulation_(simulation), mirror_(mirror), warn_(std::move(warn)) {}
 
   /// Stores a command for the next step; the caller holds the client's input mutex, not the host's.
   /// Of successive commands to one device that replace each other, only the last is stored. @return
@@ -27,6 +36,8 @@ class Inputs {
   /// Applies the clients' commands for the next step, then the user's commands from the window.
   void before_step(const Clients& clients);
   void apply(Client& client);
+  /// Executes a command in the simulation, or sends it to the real robot that the device mirrors.
+  void execute(DeviceId device, const sim::Command& command);
   void apply_drawings(Client& client);
   /// Allocates a client's draw queue.
   void reserve_drawings(Client& client);
@@ -40,6 +51,7 @@ class Inputs {
 
  private:
   sim::Simulation& simulation_;
+  Mirror* const mirror_;
   const Warn warn_;
   std::atomic<bool> commands_wait_{false};  ///< a client has sent commands since the last step
   bool somebody_draws_ = false;             ///< a client has had a draw queue

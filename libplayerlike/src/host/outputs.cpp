@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "host/arena.h"
+#include "host/mirror.h"
 #include "host/picture_sizes.h"
 #include "host/recorder.h"
 #include "playerlike/host/results.h"
@@ -219,6 +220,7 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder&
       {"said", said}};
   add_events(simulation, recorder.goals().goals(), whole);
   add_arena(simulation, whole);
+  if (recorder.mirror() != nullptr) whole["mirror"] = recorder.mirror()->report();
   // `playpen plot` reads the scene from this file.
   std::error_code error;
   const fs::path file = fs::absolute(simulation.world().file, error);
@@ -311,6 +313,9 @@ nlohmann::ordered_json to_json(const RunEnd& end) {
       break;
     case RunEnd::By::kWindow:
       by = "window";
+      break;
+    case RunEnd::By::kRealRobot:
+      by = "real robot";
       break;
     case RunEnd::By::kSignal:
       by = "signal";

@@ -30,13 +30,14 @@ void remove_snapshots(const std::string& folder);
 /// How a run ended, for its report.
 struct RunEnd {
   enum class By {
-    kNothing,   ///< the run continues; in reports that are written during the run
-    kDuration,  ///< the simulated duration is over
-    kVerdict,   ///< the arena controller ended the run
-    kProgram,   ///< the program ended, or stopped using the simulation
-    kRequest,   ///< a signal requested the end
-    kWindow,    ///< the user closed the window
-    kSignal,    ///< a signal ended the program: it crashed or was killed
+    kNothing,    ///< the run continues; in reports that are written during the run
+    kDuration,   ///< the simulated duration is over
+    kVerdict,    ///< the arena controller ended the run
+    kProgram,    ///< the program ended, or stopped using the simulation
+    kRequest,    ///< a signal requested the end
+    kWindow,     ///< the user closed the window
+    kRealRobot,  ///< the connection to a real robot was lost
+    kSignal,     ///< a signal ended the program: it crashed or was killed
   };
   By by = By::kNothing;
   std::optional<int> status = {};  ///< exit status of the program, if that ended the run

@@ -317,6 +317,11 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
     interfaces += (interfaces.empty() ? "" : ",") + choice.text();
   }
   changes["PLAYPEN_INTERFACES"] = interfaces.empty() ? std::nullopt : std::optional(interfaces);
+  std::string real_robots;
+  for (const RealRobotChoice& choice : settings.real_robots) {
+    real_robots += (real_robots.empty() ? "" : ",") + choice.text();
+  }
+  changes["PLAYPEN_REAL"] = text_unless_empty(real_robots);
   changes["PLAYPEN_SEED"] =
       settings.seed ? std::optional(std::to_string(*settings.seed)) : std::nullopt;
   changes["PLAYPEN_DURATION"] =

@@ -21,14 +21,16 @@ constexpr sim::SimTime kRowPeriod_ns = sim::kNanosecondsPerSecond / 10;
 
 }  // namespace
 
-Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulation)
-    : active_(!settings.output_folder.empty() || !settings.film.empty()) {
+Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulation,
+                   const Mirror* mirror)
+    : mirror_(mirror), active_(!settings.output_folder.empty() || !settings.film.empty()) {
   const fs::path folder(settings.output_folder);
   if (!settings.output_folder.empty()) {
     trajectory_file_ = (folder / "trajectory.csv").string();
     trajectory_.open(trajectory_file_, std::ios::trunc);
     if (!trajectory_) throw std::runtime_error("cannot write " + trajectory_file_);
-    trajectory_ << "time,robot,x,y,yaw,v,omega,stalled\n";
+    trajectory_ << "time,robot,x,y,yaw,v,omega,stalled"
+                << (mirror_ != nullptr ? Mirror::column_names() : "") << '\n';
   }
   std::unique_ptr<sim::render::FilmWriter> film;
   if (!settings.film.empty()) {
@@ -108,12 +110,15 @@ void Recorder::write_rows(const sim::Simulation& simulation) {
     const sim::BodyState& body = simulation.body(i);
     // The world reader refuses commas in robot names.
     std::string line = time + ',' + simulation.world().robots[static_cast<std::size_t>(i)].name;
-    for (const double value : {body.X_WB.x_m, body.X_WB.y_m, body.X_WB.yaw_rad, body.twist.v_mps,
-                               body.twist.omega_radps}) {
+    sim::Twist twist = body.twist;
+    if (mirror_ != nullptr) twist = mirror_->twist_of(static_cast<std::size_t>(i)).value_or(twist);
+    for (const double value :
+         {body.X_WB.x_m, body.X_WB.y_m, body.X_WB.yaw_rad, twist.v_mps, twist.omega_radps}) {
       line += ',' + sim::fixed_text(value, 6);
     }
-    line += body.stalled ? ",1\n" : ",0\n";
-    trajectory_ << line;
+    line += body.stalled ? ",1" : ",0";
+    if (mirror_ != nullptr) line += mirror_->columns(static_cast<std::size_t>(i));
+    trajectory_ << line << '\n';
   }
 }
 
@@ -130,6 +135,7 @@ sim::SceneSnapshot Recorder::scene(const sim::Simulation& simulation) const {
         {collision.robot, collision.place, sim::to_seconds(collision.time_ns)});
   }
   snapshot.goals = goals_.marks();
+  if (mirror_ != nullptr) mirror_->show(snapshot);
   return snapshot;
 }
 

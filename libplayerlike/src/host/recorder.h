@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/goal_book.h"
+#include "host/mirror.h"
 #include "host/picture_thread.h"
 #include "playerlike/host/run_settings.h"
 #include "sim/simulation/simulation.h"
@@ -27,10 +28,13 @@ namespace playerlike {
 class Recorder {
  public:
   /// @throws std::runtime_error if a file or folder cannot be created.
-  Recorder(const RunSettings& settings, const sim::Simulation& simulation);
+  /// @param mirror  of the real robots; null: there are none.
+  Recorder(const RunSettings& settings, const sim::Simulation& simulation,
+           const Mirror* mirror = nullptr);
 
   void observe(const sim::Simulation& simulation);
 
+  [[nodiscard]] const Mirror* mirror() const noexcept { return mirror_; }
   /// The path of a robot; see kMostTrailPoints.
   [[nodiscard]] const std::vector<sim::Vec2>& trail(std::size_t robot) const {
     return trails_[robot].points;
@@ -78,6 +82,7 @@ class Recorder {
   };
   [[nodiscard]] std::string picture_file(sim::SimTime now_ns) const;
 
+  const Mirror* mirror_;
   bool active_ = false;
   std::string trajectory_file_;
   std::ofstream trajectory_;

@@ -18,10 +18,14 @@ constexpr std::chrono::milliseconds kLooksPeriod(50);
 }  // namespace
 
 Results::Results(const RunSettings& settings, sim::Simulation& simulation,
-                 std::function<TimeStatistics()> time, Warn warn)
-    : settings_(settings), simulation_(simulation), time_(std::move(time)), warn_(std::move(warn)) {
+                 std::function<TimeStatistics()> time, Warn warn, const Mirror* mirror)
+    : settings_(settings),
+      simulation_(simulation),
+      time_(std::move(time)),
+      warn_(std::move(warn)),
+      mirror_(mirror) {
   if (!settings.output_folder.empty()) std::filesystem::create_directories(settings.output_folder);
-  recorder_ = std::make_unique<Recorder>(settings, simulation);
+  recorder_ = std::make_unique<Recorder>(settings, simulation, mirror);
   kept_ = KeptWriter::open(settings.kept_run);
   if (kept_ && !settings.output_folder.empty()) {
     kept_->keep_looks(report_text(simulation_, *recorder_, {}, RunEnd{}), simulation_);
@@ -33,7 +37,7 @@ Results::Results(const RunSettings& settings, sim::Simulation& simulation,
 void Results::observe() {
   recorder_->observe(simulation_);
   for (auto& [port, log] : logs) {
-    if (const auto problem = log.observe(simulation_)) warn_(*problem);
+    if (const auto problem = log.observe(simulation_, mirror_)) warn_(*problem);
   }
 }
 
@@ -108,6 +112,7 @@ RunEnd Results::reason_of_end() const {
   if (simulation_.finished()) return {.by = RunEnd::By::kDuration};
   const int request = end_request != 0 ? end_request : settings_.quiet_end ? interrupted() : 0;
   if (request != 0) return {.by = RunEnd::By::kRequest, .signal = request};
+  if (real_robot_lost) return {.by = RunEnd::By::kRealRobot};
   if (window_closed) return {.by = RunEnd::By::kWindow};
   return {.by = RunEnd::By::kProgram, .status = program_status};
 }

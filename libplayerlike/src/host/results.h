@@ -22,9 +22,10 @@ class Results {
  public:
   /// @param settings, simulation  must outlive this object.
   /// @param time  returns the run's statistics.
+  /// @param mirror  of the real robots; null: there are none.
   /// @throws std::runtime_error if the output folder cannot be created.
   Results(const RunSettings& settings, sim::Simulation& simulation,
-          std::function<TimeStatistics()> time, Warn warn);
+          std::function<TimeStatistics()> time, Warn warn, const Mirror* mirror = nullptr);
 
   /// Must be called after each step.
   void observe();
@@ -47,6 +48,7 @@ class Results {
   // Why the run ends, for the report.
   int end_request = 0;  ///< the signal that requested the end; 0: none
   bool window_closed = false;
+  bool real_robot_lost = false;  ///< and the world says that this ends the run
   std::optional<int> program_status;
 
  private:
@@ -59,6 +61,7 @@ class Results {
   sim::Simulation& simulation_;
   const std::function<TimeStatistics()> time_;
   const Warn warn_;
+  const Mirror* const mirror_;
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<KeptWriter> kept_;                ///< null unless the settings name a file
   WallClock::time_point last_looks_{};              ///< when keep_looks() was last called

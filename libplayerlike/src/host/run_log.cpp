@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "host/mirror.h"
 #include "host/outputs.h"
 #include "protocol/codec.h"
 #include "sim/core/file.h"
@@ -208,7 +209,8 @@ RunLog::Loaded RunLog::read_file(const std::string& path, int port,
   return loaded;
 }
 
-std::optional<std::string> RunLog::observe(const sim::Simulation& simulation) {
+std::optional<std::string> RunLog::observe(const sim::Simulation& simulation,
+                                           const Mirror* mirror) {
   due_.clear();
   replaying_step_ = status_.running && status_.replay;
   if (!status_.running) return std::nullopt;
@@ -217,7 +219,7 @@ std::optional<std::string> RunLog::observe(const sim::Simulation& simulation) {
     find_due(simulation.now_ns());
     return std::nullopt;
   }
-  write(simulation);
+  write(simulation, mirror);
   files_->note(-port_, path(), written_);
   if (out_ && files_->may_grow(written_)) return std::nullopt;
   const bool full = out_.good();
@@ -228,19 +230,27 @@ std::optional<std::string> RunLog::observe(const sim::Simulation& simulation) {
               : "the log " + path() + " cannot be written any more";
 }
 
-void RunLog::write(const sim::Simulation& simulation) {
+void RunLog::write(const sim::Simulation& simulation, const Mirror* mirror) {
   for (const DeviceId id : simulation.updated()) {
-    const RobotInfo& robot = (*robots_)[static_cast<std::size_t>(id.robot)];
-    if (port_ != kMorsePort && robot.port != port_) continue;
-    const DeviceInfo& device = robot.devices[static_cast<std::size_t>(id.device)];
-    const auto& sensor = *simulation.device(id.robot, id.device).sensor();
-    json line = protocol::encode_reading(id, device.type, sensor.reading(), Encoding::kJson);
-    line["robot"] = robot.name;
-    line["device"] = device.name;
-    const std::string text = line.dump();
-    out_ << text << '\n';
-    written_ += text.size() + 1;
+    if (mirror != nullptr && mirror->replaces(id)) continue;
+    const sim::Reading& reading = simulation.device(id.robot, id.device).sensor()->reading();
+    write(id, reading, reading.time_ns);
   }
+  if (mirror == nullptr) return;
+  for (const auto& [id, reading] : mirror->readings()) write(id, *reading, simulation.now_ns());
+}
+
+void RunLog::write(DeviceId id, const sim::Reading& reading, sim::SimTime time_ns) {
+  const RobotInfo& robot = (*robots_)[static_cast<std::size_t>(id.robot)];
+  if (port_ != kMorsePort && robot.port != port_) return;
+  const DeviceInfo& device = robot.devices[static_cast<std::size_t>(id.device)];
+  json line = protocol::encode_reading(id, device.type, reading, Encoding::kJson);
+  line["t"] = time_ns;
+  line["robot"] = robot.name;
+  line["device"] = device.name;
+  const std::string text = line.dump();
+  out_ << text << '\n';
+  written_ += text.size() + 1;
 }
 
 void RunLog::find_due(sim::SimTime now_ns) {

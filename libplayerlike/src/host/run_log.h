@@ -16,6 +16,8 @@
 
 namespace playerlike {
 
+class Mirror;
+
 /// The log of a port: writes the readings of the port's robots to a file, or replays such a file in
 /// place of their devices. The files are JSON lines; docs/log.md describes them.
 class RunLog {
@@ -53,8 +55,11 @@ class RunLog {
   LogStatus control(const LogRequest& changes, const sim::Simulation& simulation, Loaded* loaded);
 
   /// Called after each step: writes the step's readings, or finds the readings that are due.
+  /// @param mirror  whose readings replace those of the simulation; null: there is none. They get
+  ///                the time of the step.
   /// @return an error, once; it stops the log.
-  std::optional<std::string> observe(const sim::Simulation& simulation);
+  std::optional<std::string> observe(const sim::Simulation& simulation,
+                                     const Mirror* mirror = nullptr);
 
   /// Whether readings now come from due() instead of the devices.
   [[nodiscard]] bool replaying() const noexcept { return replaying_step_; }
@@ -69,7 +74,8 @@ class RunLog {
   [[nodiscard]] std::string path() const;
   [[nodiscard]] std::string path_of(const std::string& file) const;
   void start(const sim::Simulation& simulation, Loaded* loaded);
-  void write(const sim::Simulation& simulation);
+  void write(const sim::Simulation& simulation, const Mirror* mirror);
+  void write(DeviceId id, const sim::Reading& reading, sim::SimTime time_ns);
   void find_due(sim::SimTime now_ns);
 
   std::string folder_;

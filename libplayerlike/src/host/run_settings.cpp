@@ -102,6 +102,9 @@ auto into(Target& target, bool (*parse)(const std::string&, T&)) {
 constexpr const char* kInterfaceChoicesExpected =
     "choices of the form [ROBOT.]INTERFACE:INDEX=DEVICE, separated by commas";
 
+constexpr const char* kRealRobotChoicesExpected =
+    "choices of the form ROBOT=SERVER, separated by commas";
+
 // Variables of the environment, and what is wrong with them.
 class Variables {
  public:
@@ -147,6 +150,13 @@ bool parse_clients(const std::string& text, int& clients) {
   if (!parse_whole(text, read) || read < 1 || read > 1000) return false;
   clients = read;
   return true;
+}
+
+bool parse_real_robot(const std::string& text, RealRobotChoice& choice) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos) return false;
+  choice = {text.substr(0, equals), text.substr(equals + 1)};
+  return sim::is_real_server(choice.server) && choice.server.find(',') == std::string::npos;
 }
 
 bool parse_film_fps(const std::string& text, double& frames_per_second) {
@@ -334,6 +344,14 @@ RunSettings RunSettings::from_environment() {
     }
     return true;
   });
+  variables.read("PLAYPEN_REAL", kRealRobotChoicesExpected, [&](const std::string& text) {
+    for (const std::string_view word : words_of(text)) {
+      RealRobotChoice choice;
+      if (!parse_real_robot(std::string(word), choice)) return false;
+      settings.real_robots.push_back(std::move(choice));
+    }
+    return true;
+  });
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
   settings.virtual_time = is_set("PLAYPEN_VIRTUAL_TIME");
@@ -374,6 +392,52 @@ void check_pictures(const sim::render::RenderOptions& pictures,
        crop_text(pictures), ""}});
 }
 
+// @throws sim::ConfigError run/real for each robot that the world lacks.
+void bind_real_robots(sim::WorldDescription& world, const std::vector<RealRobotChoice>& choices) {
+  std::vector<sim::ConfigIssue> issues;
+  for (const RealRobotChoice& choice : choices) {
+    std::vector<std::string> names;
+    std::string list;
+    bool found = false;
+    for (sim::RobotDescription& robot : world.robots) {
+      names.push_back(robot.name);
+      list += (list.empty() ? "" : ", ") + robot.name;
+      if (robot.name != choice.robot) continue;
+      found = true;
+      if (!robot.real) robot.real.emplace();
+      robot.real->server = choice.server;
+    }
+    if (found) continue;
+    const std::string near = sim::nearest_word(choice.robot, names);
+    issues.push_back({"run/real", "--real " + choice.text(), "",
+                      "a robot of the world: " + (list.empty() ? "none" : list),
+                      '"' + choice.robot + '"',
+                      near.empty() ? "" : "did you mean \"" + near + "\"?"});
+  }
+  if (!issues.empty()) throw sim::ConfigError(std::move(issues));
+}
+
+// A real robot lives in real time.
+// @throws sim::ConfigError run/real-time.
+void require_real_time(sim::WorldDescription& world) {
+  const auto mirroring = std::find_if(world.robots.begin(), world.robots.end(),
+                                      [](const sim::RobotDescription& r) { return r.real; });
+  if (mirroring == world.robots.end()) return;
+  sim::SimulationDescription& simulation = world.simulation;
+  if (!simulation.time_mode_given) {
+    simulation.time_mode = sim::TimeMode::kPaced;
+    simulation.time_factor = 1.0;
+    simulation.time_mode_given = true;
+  }
+  const bool lockstep = simulation.time_mode == sim::TimeMode::kLockstep;
+  if (!lockstep && simulation.time_factor == 1.0) return;
+  throw sim::ConfigError(std::vector<sim::ConfigIssue>{
+      {"run/real-time", world.file.empty() ? world.name : world.file, "/simulation/time",
+       "real time, since robot " + mirroring->name + " mirrors a real one",
+       lockstep ? "lockstep" : sim::rounded_text(simulation.time_factor, 6) + " times real time",
+       "leave out --time and \"time\", or choose \"real\""}});
+}
+
 }  // namespace
 
 void RunSettings::apply_to(sim::WorldDescription& world) const {
@@ -401,6 +465,8 @@ void RunSettings::apply_to(sim::WorldDescription& world) const {
     world.canvas.view_mode = *view_mode;
   }
   apply_interface_choices(world, interfaces);
+  bind_real_robots(world, real_robots);
+  require_real_time(world);
 }
 
 }  // namespace playerlike

@@ -106,7 +106,8 @@ double next_time_factor(double factor, bool faster) noexcept {
 
 std::string factor_text(double factor) { return "x " + sim::rounded_text(factor, 4); }
 
-HandDrive::HandDrive(const std::vector<RobotInfo>& robots) {
+HandDrive::HandDrive(const std::vector<RobotInfo>& robots, Execute execute)
+    : execute_(std::move(execute)) {
   for (const RobotInfo& robot : robots) {
     Motors motors{std::nullopt, robot.max_speed_mps, robot.max_turn_rate_radps};
     const auto motion = std::find_if(robot.devices.begin(), robot.devices.end(),
@@ -168,12 +169,17 @@ void HandDrive::before_step(sim::Simulation& simulation) {
   const double left = direction(ViewAction::kLeft, ViewAction::kRight);
   twist_.v_mps = approach(twist_.v_mps, ahead * speed, speed * dt_s / kFullSpeedAfter_s);
   twist_.omega_radps = approach(twist_.omega_radps, left * turn, turn * dt_s / kFullTurnAfter_s);
-  static_cast<void>(simulation.apply(device, sim::TwistCommand{twist_}));
+  execute(simulation, sim::TwistCommand{twist_});
+}
+
+void HandDrive::execute(sim::Simulation& simulation, const sim::Command& command) const {
+  if (execute_) return execute_(motors(), command);
+  static_cast<void>(simulation.apply(motors(), command));
 }
 
 void HandDrive::hand_back(sim::Simulation& simulation) {
   if (!program_command_) return;
-  static_cast<void>(simulation.apply(motors(), *program_command_));
+  execute(simulation, *program_command_);
   program_command_.reset();
   still_ns_ = 0;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,7 +47,11 @@ enum class ViewAction {
 /// by the host's mutex.
 class HandDrive {
  public:
-  explicit HandDrive(const std::vector<RobotInfo>& robots);
+  /// Executes a command.
+  using Execute = std::function<void(DeviceId, const sim::Command&)>;
+
+  /// @param execute  for the twists of the steering; empty: the simulation executes them.
+  explicit HandDrive(const std::vector<RobotInfo>& robots, Execute execute = {});
 
   /// Index of the chosen robot; -1: none.
   [[nodiscard]] int chosen() const noexcept { return chosen_; }
@@ -67,6 +72,7 @@ class HandDrive {
  private:
   [[nodiscard]] bool any_held() const noexcept;
   void hand_back(sim::Simulation& simulation);
+  void execute(sim::Simulation& simulation, const sim::Command& command) const;
   /// Motors of the chosen robot. @pre chosen_ >= 0
   [[nodiscard]] DeviceId motors() const {
     return *motors_[static_cast<std::size_t>(chosen_)].device;
@@ -77,6 +83,7 @@ class HandDrive {
     double max_speed_mps = 0.0;
     double max_turn_rate_radps = 0.0;
   };
+  const Execute execute_;
   std::vector<Motors> motors_;  ///< by robot
   int chosen_ = -1;
   std::array<bool, 4> held_{};                   ///< forward, backward, left, right

@@ -122,7 +122,10 @@ bool ViewerLink::handle(const view::ViewerMessage& message) {
     }
     case view::ViewerMessageKind::kShown:
       // Only a frame that was sent completely can be on the screen.
-      if (message.a == number_ && sent_ == outgoing_.size()) shown_ = number_;
+      if (message.a == number_ && sent_ == outgoing_.size() && shown_ != number_) {
+        shown_ = number_;
+        run_.on_shown();
+      }
       break;
     case view::ViewerMessageKind::kKey: {
       const std::string file = run_.on_key(message.a, (message.b & view::kPressed) != 0,

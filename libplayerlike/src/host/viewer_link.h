@@ -37,6 +37,8 @@ class ViewedRun {
   [[nodiscard]] virtual std::string on_key(std::uint32_t keysym, bool pressed, bool control) = 0;
   /// The window has lost the keyboard focus.
   virtual void on_keys_released() = 0;
+  /// The scene of the last call of view_scene() is on the screen.
+  virtual void on_shown() {}
   /// A picture was written; `problem` is the error, or "".
   virtual void on_saved(const std::string& file, const std::string& problem) = 0;
   /// The user closed the window: the run must end.

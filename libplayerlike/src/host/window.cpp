@@ -14,7 +14,11 @@
 namespace playerlike {
 
 Host::Core::Window::Window(Core& core, int socket)
-    : core_(core), hand_(core.inputs_.hand.emplace(core.robots_)) {
+    : core_(core),
+      hand_(core.inputs_.hand.emplace(core.robots_,
+                                      [this](DeviceId device, const sim::Command& command) {
+                                        core_.inputs_.execute(device, command);
+                                      })) {
   link_ = std::make_unique<ViewerLink>(socket, *this);
 }
 
@@ -28,6 +32,7 @@ ViewScene Host::Core::Window::view_scene() {
   const Lock lock = core_.lock_with_priority();
   ViewScene view;
   view.scene = core_.results_.scene();
+  if (core_.mirror_) core_.mirror_->note_scene_taken();
   view.finished = core_.over();
   view.paused = core_.pace_.paused();
   if (hand_.chosen() >= 0) {
@@ -101,6 +106,7 @@ void Host::Core::Window::change_view_mode(int by) {
 
 void Host::Core::Window::change_speed(bool faster) {
   if (!core_.paced()) return tell("lockstep: time goes as fast as the program");
+  if (core_.mirror_) return tell("a real robot sets the speed of time");
   const double factor = next_time_factor(core_.pace_.factor(), faster);
   if (factor == core_.pace_.factor()) {
     return tell(std::string("no ") + (faster ? "faster" : "slower") + " than " +
@@ -129,6 +135,12 @@ std::string Host::Core::Window::next_picture_file() {
     file = std::filesystem::path(core_.settings_.output_folder) / name.data();
   } while (std::filesystem::exists(file, ignored));
   return file.string();
+}
+
+void Host::Core::Window::on_shown() {
+  if (!core_.mirror_) return;
+  const Lock lock = core_.lock_with_priority();
+  core_.mirror_->note_scene_shown();
 }
 
 void Host::Core::Window::on_keys_released() {

@@ -20,6 +20,7 @@ class Host::Core::Window final : public ViewedRun {
 
   ViewScene view_scene() override;
   std::string on_key(std::uint32_t keysym, bool pressed, bool control) override;
+  void on_shown() override;
   void on_keys_released() override;
   void on_saved(const std::string& file, const std::string& problem) override;
   void on_closed() override;

@@ -64,6 +64,19 @@ void Laser::measure(const StepContext& context) {
   reading.X_WB = context.body.X_WB;
 }
 
+LaserReading Laser::ideal_scan(const StepContext& context) const {
+  LaserReading scan;
+  scan.time_ns = context.now_ns;
+  scan.ranges_m.assign(static_cast<std::size_t>(params_.beam_count), 0.0);
+  scan.angle_min_rad = geometry_.angle_min_rad();
+  scan.resolution_rad = params_.resolution_rad;
+  scan.range_max_m = params_.range_max_m;
+  scan.X_WB = context.body.X_WB;
+  context.physics.scan(geometry_, scan.X_WB * params_.X_BL, params_.height_m, context.robot,
+                       may_be_inside_, scan.ranges_m);
+  return scan;
+}
+
 void Laser::mix_pixels(std::vector<double>& ranges_m) {
   // The edge is that of the true ranges, also if the beam before it was mixed.
   double before_m = ranges_m.front();

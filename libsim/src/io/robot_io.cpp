@@ -233,6 +233,44 @@ std::map<std::string, std::vector<std::string>> read_interfaces(
   return interfaces;
 }
 
+std::optional<RealRobotDescription> read_real_robot(Reader& robot) {
+  std::optional<Reader> reader = robot.object("real");
+  if (!reader) return std::nullopt;
+  RealRobotDescription real;
+  if (reader->require("server", kRealServerExpected)) {
+    real.server = reader->string("server", "");
+    if (!is_real_server(real.server)) {
+      reader->issue("world/bad-real-server", kRealServerExpected, in_quotes(real.server), "",
+                    "server");
+    }
+  }
+  real.port = static_cast<int>(reader->integer("port", real.port, 1, 65535));
+  if (reader->choice("drive", "real", {"real", "both"}) == "both") {
+    real.drive = RealRobotDescription::Drive::kBoth;
+  }
+  if (reader->choice("on_lost", "continue", {"continue", "end"}) == "end") {
+    real.on_lost = RealRobotDescription::OnLost::kEnd;
+  }
+  if (reader->has("pose")) {
+    const std::string text = reader->string("pose", "position2d:0");
+    const std::size_t colon = text.find(':');
+    const std::string interface = text.substr(0, colon);
+    const std::string index = colon == std::string::npos ? "" : text.substr(colon + 1);
+    const bool is_number = !index.empty() && index.size() <= 5 &&
+                           index.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number && (interface == "position2d" || interface == "localize")) {
+      real.pose_interface = interface;
+      real.pose_index = std::stoi(index);
+    } else {
+      reader->issue("world/bad-real-pose", "\"position2d:INDEX\" or \"localize:INDEX\"",
+                    in_quotes(text), "", "pose");
+    }
+  }
+  real.X_WF = reader->pose("offset", real.X_WF);
+  reader->finish();
+  return real;
+}
+
 std::optional<RobotModel> read_model(Reader& robot, const std::string& name,
                                      Reader::Document& world,
                                      const std::vector<DeviceType>& types) {

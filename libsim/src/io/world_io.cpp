@@ -423,6 +423,7 @@ class WorldReader {
       }
     }
     robot.fiducial = read_fiducial(reader);
+    robot.real = read_real_robot(reader);
     robot.interfaces = read_interfaces(reader, robot.devices, model.interfaces);
     for (Reader& driver : reader.array("drivers", 100)) {
       if (driver.expect_object()) robot.drivers.push_back(read_driver(driver));

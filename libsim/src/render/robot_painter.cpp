@@ -324,6 +324,27 @@ class RobotPainter {
     draw_arms(robot);
   }
 
+  // Draws the outline and the nose of a ghost over a half transparent body.
+  void draw_ghost(const RobotSnapshot& ghost) {
+    if (!has_place(ghost, layout_)) return;
+    const Colour colour = opaque(ghost.colour);
+    const Colour dark = mix(colour, palette::kWheel, 0.5);
+    double front_m = 0.0;
+    std::vector<Vec2> body;
+    for (const Vec2& corner : ghost.footprint) {
+      body.push_back(layout_(ghost.X_WB * corner));
+      front_m = std::max(front_m, corner.x());
+    }
+    Shape area;
+    area.add_piece(body);
+    painter_.fill(area, colour, 0.3);
+    Shape lines;
+    lines.add_line(body, layout_.line_px(1.5), true);
+    lines.add_line({layout_(ghost.X_WB.position()), layout_(ghost.X_WB * Vec2(front_m, 0.0))},
+                   layout_.line_px(2.0));
+    painter_.fill(lines, dark, 0.7);
+  }
+
  private:
   // Points along the far end of a cone, from its right to its left side; one point for a ray.
   static std::vector<Vec2> rim_of(const ConeSnapshot& cone) {
@@ -533,6 +554,7 @@ void draw_seen_surfaces(const SceneSnapshot& scene, const Layout& layout, Painte
 
 void draw_robots(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {
   RobotPainter robots(scene, layout, painter);
+  for (const RobotSnapshot& ghost : scene.ghosts) robots.draw_ghost(ghost);
   for (const RobotSnapshot& robot : scene.robots) robots.draw_robot(robot);
 }
 

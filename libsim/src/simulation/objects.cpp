@@ -149,6 +149,22 @@ std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_
   return std::nullopt;
 }
 
+std::optional<std::string> Simulation::follow_real(int robot, const Pose& X_WB) {
+  const auto i = static_cast<std::size_t>(robot);
+  const RobotDescription& description = impl_->world.robots.at(i);
+  if (!description.real) return "robot " + description.name + " mirrors no real robot";
+  if (!io::is_valid_pose(X_WB)) return "a pose takes finite numbers";
+  if (robot_dynamics(robot)) {
+    impl_->physics->set_suspended(robot, true);
+    impl_->robots[i].last_position = X_WB.position();
+  }
+  impl_->physics->set_pose(robot, X_WB);
+  impl_->move_loads();
+  for (const auto& device : impl_->robots[i].devices) device->placed(X_WB);
+  impl_->invalidate_clearances();
+  return std::nullopt;
+}
+
 std::optional<std::string> Simulation::set_object_dynamics(const std::string& name, bool on) {
   if (const auto robot = find_robot(name)) return set_robot_dynamics(*robot, on);
   const std::optional<int> obstacle = impl_->find_obstacle(name);

@@ -254,6 +254,7 @@ void Simulation::Impl::note_due_times(std::size_t i) {
 
 void Simulation::Impl::record_collisions() {
   for (const PhysicsWorld::Contact& contact : physics->new_contacts()) {
+    if (world.robots[static_cast<std::size_t>(contact.robot)].real) continue;
     RobotStatistics& s = robots[static_cast<std::size_t>(contact.robot)].statistics;
     ++s.collisions;
     s.least_clearance_m = 0.0;
@@ -436,6 +437,13 @@ std::optional<int> Simulation::find_robot(const std::string& name) const {
 
 const std::vector<Simulation::DeviceId>& Simulation::updated() const noexcept {
   return impl_->updated;
+}
+
+std::optional<LaserReading> Simulation::ideal_scan(DeviceId laser) const {
+  const auto* const device = dynamic_cast<const Laser*>(&impl_->device(laser));
+  if (device == nullptr) return std::nullopt;
+  return device->ideal_scan({impl_->now_ns, impl_->physics->body(laser.robot), *impl_->physics,
+                             laser.robot, impl_->world});
 }
 
 std::optional<std::string> Simulation::apply(DeviceId id, const Command& command) {

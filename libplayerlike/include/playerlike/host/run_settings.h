@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +14,21 @@
 #include "sim/world/description.h"
 
 namespace playerlike {
+
+class Session;
+
+/// Connects to a real robot: opens a session with a server ("player://..." or "tcp://...") and,
+/// at a Playpen server, a robot's Player port. It throws SessionError if that fails.
+using OpenRealRobot = std::function<std::unique_ptr<Session>(const std::string& server, int port)>;
+
+/// Binds a robot of the world to a real one. It overrides the server in the world.
+struct RealRobotChoice {
+  std::string robot;   ///< name
+  std::string server;  ///< as sim::RealRobotDescription::server
+
+  /// Returns the choice as text: "r1=player://host:6665".
+  [[nodiscard]] std::string text() const { return robot + '=' + server; }
+};
 
 /// Selects the device with an interface and index. It overrides the world's order.
 struct InterfaceChoice {
@@ -48,9 +65,12 @@ struct RunSettings {
                                             ///< folder's snapshots/ [s], 0.001..1e9
   std::optional<int> clients;  ///< start gate, 1..1000: time starts when this number of clients has
                                ///< joined
-  std::optional<sim::ViewMode> view_mode;   ///< initial view mode; overrides the world's
-  std::optional<sim::Realism> realism;      ///< level of realism; overrides the world's
-  std::vector<InterfaceChoice> interfaces;  ///< override the world's order of devices
+  std::optional<sim::ViewMode> view_mode;    ///< initial view mode; overrides the world's
+  std::optional<sim::Realism> realism;       ///< level of realism; overrides the world's
+  std::vector<InterfaceChoice> interfaces;   ///< override the world's order of devices
+  std::vector<RealRobotChoice> real_robots;  ///< override the world's "real"
+  /// Connects to the real robots of the world; empty: a world with real robots is refused.
+  OpenRealRobot open_real_robot;
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
   std::optional<int> view_socket;
   bool start_at_once = false;  ///< paced time does not wait for the first client (unless the
@@ -80,15 +100,19 @@ struct RunSettings {
   /// PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground,
   /// mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
   /// descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
-  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE, PLAYPEN_INTERFACES (choices, separated by commas).
+  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE, PLAYPEN_INTERFACES and PLAYPEN_REAL (choices,
+  /// separated by commas).
   /// @throws sim::ConfigError naming the variable, the expected value and the actual value.
   [[nodiscard]] static RunSettings from_environment();
 
-  /// Applies seed, duration, time mode, clients, view mode, realism and interfaces to the world.
+  /// Applies seed, duration, time mode, clients, view mode, realism, interfaces and real robots to
+  /// the world. A world with real robots gets real time.
   /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode; run/follow
   ///         if the world does not contain the robot to follow; run/crop if the part to show does
   ///         not overlap the floor; run/interface for each choice of an interface that does not
-  ///         match the world's robots.
+  ///         match the world's robots;
+  ///         run/real for each choice of a real robot that does not; run/real-time if a world with
+  ///         real robots is to run in another time than real time.
   void apply_to(sim::WorldDescription& world) const;
 };
 
@@ -102,6 +126,9 @@ struct RunSettings {
 
 /// Parses "[ROBOT.]INTERFACE:INDEX=DEVICE". @return whether the text has this form.
 [[nodiscard]] bool parse_interface_choice(const std::string& text, InterfaceChoice& choice);
+
+/// Parses "ROBOT=SERVER". @return whether the text has this form.
+[[nodiscard]] bool parse_real_robot(const std::string& text, RealRobotChoice& choice);
 
 /// Assigns the chosen indices to devices. The other devices of the interface keep their order. A
 /// choice without a robot applies to each robot that has the device.
@@ -143,6 +170,9 @@ inline constexpr const char* kClientsExpected = "a whole number from 1 to 1000";
 /// Description of the values that parse_interface_choice() accepts, for messages.
 inline constexpr const char* kInterfaceChoiceExpected =
     "[ROBOT.]INTERFACE:INDEX=DEVICE, such as ranger:0=laser or r1.ranger:0=laser";
+/// Description of the values that parse_real_robot() accepts, for messages.
+inline constexpr const char* kRealRobotChoiceExpected =
+    "ROBOT=SERVER, such as r1=player://robot.example.org:6665 or r1=tcp://localhost:4000";
 /// Description of the values that parse_film_fps() accepts, for messages.
 inline constexpr const char* kFilmFpsExpected = "a number of frames a second from 1 to 240";
 /// Description of the values that parse_film_speed() accepts, for messages.

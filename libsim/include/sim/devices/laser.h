@@ -71,6 +71,8 @@ class Laser final : public SensorOf<LaserReading> {
   Laser(std::string name, const LaserParams& params, bool may_be_inside, RandomStream noise);
 
   [[nodiscard]] const LaserParams& params() const noexcept { return params_; }
+  /// The scan without noise from the robot's present pose.
+  [[nodiscard]] LaserReading ideal_scan(const StepContext& context) const;
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;
 

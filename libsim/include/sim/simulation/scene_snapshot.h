@@ -81,6 +81,7 @@ struct SceneSnapshot {
                                      ///< first; for legends
   ViewMode view_mode = ViewMode::kGround;
   std::vector<RobotSnapshot> robots;
+  std::vector<RobotSnapshot> ghosts;      ///< drawn half transparent; the caller adds them
   std::vector<CollisionMark> collisions;  ///< oldest first; the caller records them, like trails
   std::vector<GoalMark> goals;            ///< oldest first; the caller records them
   double time_s = 0.0;

@@ -13,6 +13,7 @@
 #include "sim/core/log.h"
 #include "sim/core/state_archive.h"
 #include "sim/devices/device.h"
+#include "sim/devices/laser.h"
 #include "sim/devices/pen.h"
 #include "sim/simulation/arena_event.h"
 #include "sim/simulation/arena_state.h"
@@ -178,6 +179,17 @@ class Simulation {
   /// @param fiducial  > 0, or 0: they do not see it.
   /// @return nothing on success, otherwise the reason.
   std::optional<std::string> set_object_fiducial(const std::string& name, int fiducial);
+
+  /// Puts a robot where its real counterpart is (RobotDescription::real), between two steps. From
+  /// the first call on, the robot moves in no other way, whatever its commands are. It may overlap
+  /// obstacles, and no collisions are counted for it. The first call adds no path length.
+  /// @return nothing on success, otherwise the reason: the world binds the robot to no real one, or
+  ///     the pose is invalid.
+  std::optional<std::string> follow_real(int robot, const Pose& X_WB);
+  /// Returns the scan that a laser would make without noise from its robot's present pose. The
+  /// simulation does not change.
+  /// @return nullopt if the device is no laser.
+  [[nodiscard]] std::optional<LaserReading> ideal_scan(DeviceId laser) const;
 
   /// The grid-maps: the canvas that all pens share, and the layers of clients above or below it.
   [[nodiscard]] LayerStack& layers() noexcept;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/core/colour.h"
@@ -176,6 +177,28 @@ struct DriverDescription {
   std::map<std::string, std::string> settings;
 };
 
+/// The real robot that a robot of the world mirrors: its commands go there, its readings come from
+/// there, and it stands where the real one is. libsim only stores this; the host of a run connects.
+struct RealRobotDescription {
+  /// Where the commands of programs go.
+  enum class Drive {
+    kReal,  ///< to the real robot only
+    kBoth,  ///< also to a simulated ghost, for comparison
+  };
+  /// What happens when the connection is lost. In both cases the robot stops.
+  enum class OnLost {
+    kContinue,  ///< the run continues without it
+    kEnd,       ///< the run ends
+  };
+  std::string server;  ///< "player://HOST[:PORT]" or "tcp://HOST[:PORT]"
+  int port = 0;        ///< its Player port at a "tcp://" server; 0: that of the world's robot
+  Drive drive = Drive::kReal;
+  std::string pose_interface = "position2d";  ///< "position2d" or "localize"
+  int pose_index = 0;  ///< of the device whose readings say where the real robot is
+  Pose X_WF;           ///< pose of that device's frame F in W
+  OnLost on_lost = OnLost::kContinue;
+};
+
 struct RobotModel;
 
 /// A robot at the start of the world: model, pose, devices and addresses for clients.
@@ -193,7 +216,19 @@ struct RobotDescription {
                    ///< devices not named here follow in the usual order
   std::vector<DriverDescription> drivers;
   int fiducial = 0;  ///< number that fiducial devices of other robots read; 0: they do not see it
+  std::optional<RealRobotDescription> real = {};  ///< none: the robot is simulated
 };
+
+/// Whether a text has the form of RealRobotDescription::server. The host part is not checked.
+[[nodiscard]] inline bool is_real_server(std::string_view text) {
+  for (const std::string_view prefix : {"player://", "tcp://"}) {
+    if (text.starts_with(prefix)) return text.size() > prefix.size();
+  }
+  return false;
+}
+
+/// Description of the texts that is_real_server() accepts, for messages.
+inline constexpr const char* kRealServerExpected = "player://HOST[:PORT] or tcp://HOST[:PORT]";
 
 /// How the grid-map is shown in pictures, films and windows.
 enum class ViewMode {
