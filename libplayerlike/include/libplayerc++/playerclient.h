@@ -33,8 +33,8 @@ struct CoreAccess;
 ///   PLAYPEN_WORLD names its world file; the default is the SyRoTek arena. If PLAYPEN_WORLD is
 ///   "tcp://HOST[:PORT]" or "player://HOST[:PORT]", it is that server.
 /// - "sim:FILE": a simulation of that world file in this process.
-/// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`); the default TCP port is
-///   4000.
+/// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`). Its default TCP
+///   port is 4000.
 /// - "player://HOST[:PORT]": a Player server, e.g. of a real robot; the default TCP port is that of
 ///   the client.
 /// - any other host name: the server there, of Player on the client's port or else of Playpen. If

@@ -15,10 +15,9 @@ namespace playerlike {
 ///   "player://HOST[:PORT]", that server is used instead. A Player server there has the robot on
 ///   port 6665 at PORT, and others at the same distance to it;
 /// - "sim:FILE": an embedded simulation of that file;
-/// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`); the default TCP port
-/// is
-///   4000. An IPv6 address is written in brackets. PLAYPEN_TOKEN contains the client's tokens,
-///   separated by commas; PLAYPEN_ENCODING is "cbor" (default) or "json";
+/// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`). Its default TCP
+///   port is 4000. An IPv6 address is written in brackets. PLAYPEN_TOKEN contains the client's
+///   tokens, separated by commas; PLAYPEN_ENCODING is "cbor" (default) or "json";
 /// - "player://HOST[:PORT]": a Player server: a real robot, or `playpen serve --player-port`.
 ///   Without a PORT, it is the client's `port` (6665 for MORSE's port 4000);
 /// - any other "HOST": the server there, of Player on the client's `port` if one greets there,
