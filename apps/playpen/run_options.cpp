@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "parsed_option.h"
 #include "sim/render/render.h"
@@ -13,6 +14,26 @@
 #include "sim/world/view_mode.h"
 
 namespace playpen {
+namespace {
+
+// Adds an option that can be repeated; each value is one choice.
+template <typename Choice>
+void add_choices(CLI::App& command, const char* name, const char* help, const char* form,
+                 const char* expected, bool (*parse)(const std::string&, Choice&),
+                 std::vector<Choice>& choices) {
+  add_parsed(command, name, help, form, expected,
+             [parse, &choices](const std::string& text) {
+               Choice choice;
+               const bool good = parse(text, choice);
+               if (good) choices.push_back(std::move(choice));
+               return good;
+             })
+      ->expected(1)
+      ->take_all()
+      ->trigger_on_parse();
+}
+
+}  // namespace
 
 void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::ViewMode>& mode) {
   CLI::Option* const option =
@@ -125,32 +146,16 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
              });
   add_view_mode(line, command, settings.view_mode);
   add_realism(line, command, settings.realism);
-  add_parsed(command, "--interface",
-             "Which device answers as INTERFACE:INDEX, of each robot that has it or of ROBOT "
-             "[the world's order]; can be repeated",
-             "[ROBOT.]INTERFACE:INDEX=DEVICE", playerlike::kInterfaceChoiceExpected,
-             [&settings](const std::string& text) {
-               playerlike::InterfaceChoice choice;
-               const bool good = playerlike::parse_interface_choice(text, choice);
-               if (good) settings.interfaces.push_back(std::move(choice));
-               return good;
-             })
-      ->expected(1)
-      ->take_all()
-      ->trigger_on_parse();
-  add_parsed(command, "--real",
-             "Let a robot of the world mirror the real one at this server [the world's]; can be "
-             "repeated",
-             "ROBOT=SERVER", playerlike::kRealRobotChoiceExpected,
-             [&settings](const std::string& text) {
-               playerlike::RealRobotChoice choice;
-               const bool good = playerlike::parse_real_robot(text, choice);
-               if (good) settings.real_robots.push_back(std::move(choice));
-               return good;
-             })
-      ->expected(1)
-      ->take_all()
-      ->trigger_on_parse();
+  add_choices(command, "--interface",
+              "Which device answers as INTERFACE:INDEX, of each robot that has it or of ROBOT "
+              "[the world's order]; can be repeated",
+              "[ROBOT.]INTERFACE:INDEX=DEVICE", playerlike::kInterfaceChoiceExpected,
+              playerlike::parse_interface_choice, settings.interfaces);
+  add_choices(command, "--real",
+              "Let a robot of the world mirror the real one at this server [the world's]; can be "
+              "repeated",
+              "ROBOT=SERVER", playerlike::kRealRobotChoiceExpected, playerlike::parse_real_robot,
+              settings.real_robots);
 }
 
 CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world) {

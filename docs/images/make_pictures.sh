@@ -65,7 +65,7 @@ server=$!
 trap 'kill "$server" 2>/dev/null || true' EXIT
 until grep -q '^listening' "$out/mirror_server.log"; do sleep 0.1; done
 address=$(sed -n 's/^listening on \([^ ,]*\).*/\1/p' "$out/mirror_server.log")
-run "$images/mirror.json" mirror --duration 9 --real "r1=tcp://$address" -- "$bin/docs_mirror"
+run "$images/mirror.json" mirror --duration 7 --real "r1=tcp://$address" -- "$bin/docs_mirror"
 kill "$server"
 trap - EXIT
 take mirror/scene.png mirror

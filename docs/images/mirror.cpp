@@ -10,7 +10,7 @@ int main() {
   try {
     for (;;) {
       client.Read();
-      position.SetSpeed(0.2, position.GetXPos() < 1.1 ? -0.25 : 0.35);
+      position.SetSpeed(0.2, position.GetXPos() < 1.0 ? -0.15 : 0.25);
     }
   } catch (const PlayerCc::PlayerError&) {
     return 0;  // the run is over

@@ -36,13 +36,22 @@ class Mirror : public testing::Test {
   void start_real_robot() {
     json world = json::parse(room_world());
     world["robots"][0]["pose"]["x"] = 0.7;
-    world["arena"]["obstacles"] = {{{"name", "box"}, {"center", {1.6, 1.0}}, {"size", {0.2, 0.2}}}};
+    world["arena"]["obstacles"] =
+        json::array({{{"name", "box"}, {"center", {1.6, 1.0}}, {"size", {0.2, 0.2}}}});
     const std::string file = folder_.write("real.json", world.dump());
     server_.emplace(std::vector<std::string>{PLAYPEN_COMMAND, "serve", file, "--out",
-                                             folder_ / "real", "--port", "0"});
-    ASSERT_TRUE(server_->read_until("\n")) << server_->finish().err;
-    const std::string& line = server_->output();
-    server_name_ = "tcp://127.0.0.1:" + std::to_string(std::stoi(line.substr(line.find(':') + 1)));
+                                             folder_ / "real", "--port", "0", "--player-port",
+                                             "0"});
+    ASSERT_TRUE(server_->read_until(": r1\n")) << server_->finish().err;
+    server_name_ = "tcp://" + address_after("listening on ");
+    player_name_ = "player://" + address_after("Player's protocol on ");
+  }
+  /// The server's address in a line of its output.
+  [[nodiscard]] std::string address_after(const std::string& text) const {
+    const std::string& output = server_->output();
+    const std::size_t begin = output.find(text) + text.size();
+    const std::size_t colon = output.find(':', begin);
+    return output.substr(begin, output.find_first_not_of("0123456789", colon + 1) - begin);
   }
   [[nodiscard]] std::string world_with(const json& real) {
     json world = json::parse(room_world());
@@ -54,18 +63,22 @@ class Mirror : public testing::Test {
 
   TemporaryFolder folder_;
   std::optional<Process> server_;
-  std::string server_name_;
+  std::string server_name_;  ///< in Playpen's protocol
+  std::string player_name_;  ///< in Player's
 };
 
-TEST_F(Mirror, AProgramDrivesTheRealRobotAndTheSimulationFollows) {
+class MirrorByProtocol : public Mirror, public testing::WithParamInterface<bool> {};
+
+TEST_P(MirrorByProtocol, AProgramDrivesTheRealRobotAndTheSimulationFollows) {
   start_real_robot();
-  const std::string world = world_with({{"server", server_name_}, {"drive", "both"}});
+  const std::string server = GetParam() ? player_name_ : server_name_;
+  const std::string world = world_with({{"server", server}, {"drive", "both"}});
   const ProcessResult run = playpen({"run", world, "--out", out(), "--record", folder_ / "film/",
                                      "--record-fps", "5", "--quiet", "--", PROGRAM});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("drove from 0.70 with 682 beams"));
   const json mirror = report().at("mirror").at(0);
-  EXPECT_EQ(mirror.at("server"), server_name_);
+  EXPECT_EQ(mirror.at("server"), server);
   EXPECT_EQ(mirror.at("connected"), true);
   EXPECT_GT(mirror.at("poses"), 10);
   EXPECT_GT(mirror.at("scans"), 10);
@@ -89,6 +102,10 @@ TEST_F(Mirror, AProgramDrivesTheRealRobotAndTheSimulationFollows) {
   const json real = json::parse(read_bytes(folder_ / "real/report.json"));
   EXPECT_GE(real.at("robots").at(0).at("path_length"), 0.3 - 1e-6);
 }
+
+INSTANTIATE_TEST_SUITE_P(Protocols, MirrorByProtocol, testing::Bool(), [](const auto& protocol) {
+  return protocol.param ? "Player" : "Playpen";
+});
 
 TEST_F(Mirror, AProgramIsToldWhenTheRealRobotIsLost) {
   start_real_robot();

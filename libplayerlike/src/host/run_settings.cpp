@@ -128,6 +128,20 @@ class Variables {
   std::vector<sim::ConfigIssue> issues_;
 };
 
+// Reads choices that are separated by commas.
+template <typename Choice>
+void read_choices(Variables& variables, const char* name, const char* expected,
+                  bool (*parse)(const std::string&, Choice&), std::vector<Choice>& choices) {
+  variables.read(name, expected, [&](const std::string& text) {
+    for (const std::string_view word : words_of(text)) {
+      Choice choice;
+      if (!parse(std::string(word), choice)) return false;
+      choices.push_back(std::move(choice));
+    }
+    return true;
+  });
+}
+
 }  // namespace
 
 bool parse_time_mode(const std::string& text, sim::TimeMode& mode, double& factor) {
@@ -336,22 +350,10 @@ RunSettings RunSettings::from_environment() {
   });
   settings.grading.nonce = environment("PLAYPEN_GRADE");
   variables.read("PLAYPEN_CLIENTS", kClientsExpected, into<int>(settings.clients, parse_clients));
-  variables.read("PLAYPEN_INTERFACES", kInterfaceChoicesExpected, [&](const std::string& text) {
-    for (const std::string_view word : words_of(text)) {
-      InterfaceChoice choice;
-      if (!parse_interface_choice(std::string(word), choice)) return false;
-      settings.interfaces.push_back(std::move(choice));
-    }
-    return true;
-  });
-  variables.read("PLAYPEN_REAL", kRealRobotChoicesExpected, [&](const std::string& text) {
-    for (const std::string_view word : words_of(text)) {
-      RealRobotChoice choice;
-      if (!parse_real_robot(std::string(word), choice)) return false;
-      settings.real_robots.push_back(std::move(choice));
-    }
-    return true;
-  });
+  read_choices(variables, "PLAYPEN_INTERFACES", kInterfaceChoicesExpected, parse_interface_choice,
+               settings.interfaces);
+  read_choices(variables, "PLAYPEN_REAL", kRealRobotChoicesExpected, parse_real_robot,
+               settings.real_robots);
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
   settings.virtual_time = is_set("PLAYPEN_VIRTUAL_TIME");

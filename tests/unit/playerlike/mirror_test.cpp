@@ -105,7 +105,6 @@ class MirrorTest : public testing::Test {
 };
 
 TEST_F(MirrorTest, AWorldWithoutRealRobotsHasNone) {
-  const sim::Simulation simulation(sim::load_world_text("{}"));
   sim::Simulation plain(sim::load_world_text("{}"));
   EXPECT_EQ(Mirror::open(plain, describe_robots(plain), opens(real_), {}), nullptr);
 }
@@ -308,7 +307,7 @@ TEST(Ghost, CollidesWithTheArena) {
 
 TEST(Ghost, BlocksRiseForItAsInTheWorld) {
   const char* const text = R"({"arena": {"size": [4, 4], "obstacles": [
-    {"name": "gate", "type": "dynamic", "x": 3, "y": 2, "size": [0.2, 1]}], "retracted": ["gate"]},
+    {"name": "gate", "type": "dynamic", "center": [3, 2], "size": [0.2, 1]}], "retracted": ["gate"]},
     "robots": [{"name": "r1", "pose": {"x": 1, "y": 2}}]})";
   sim::WorldDescription world = sim::load_world_text(text);
   Ghost ghost(world, 0);
@@ -457,9 +456,9 @@ TEST(MirroredRun, AProgramIsToldThatTheRealRobotIsLost) {
   std::vector<std::string> log;
   std::mutex log_mutex;
   const auto host = Host::create(sim::load_world_text(world_text()), settings_for(real),
-                                 [&](sim::LogLevel, const std::string& text) {
+                                 [&](sim::LogLevel, std::string_view text) {
                                    const std::lock_guard lock(log_mutex);
-                                   log.push_back(text);
+                                   log.emplace_back(text);
                                  });
   const auto session = host->connect(6665);
   const DeviceId pose = find_interface(session->robots(), 6665, "position2d", 0).reading;
@@ -472,7 +471,10 @@ TEST(MirroredRun, AProgramIsToldThatTheRealRobotIsLost) {
   is_told();
   is_told();  // there will be no further readings
   EXPECT_FALSE(host->finished()) << "the run continues without it";
-  EXPECT_THAT(log, Contains(HasSubstr("the run continues without it")));
+  {
+    const std::lock_guard lock(log_mutex);
+    EXPECT_THAT(log, Contains(HasSubstr("the run continues without it")));
+  }
   // A program without subscriptions reads empty rounds.
   session->request(UnsubscribeRequest{pose});
   session->wait();
@@ -483,13 +485,13 @@ TEST(MirroredRun, TheLossEndsTheRunIfTheWorldSaysSo) {
   const test_support::TemporaryFolder folder;
   const auto real = make_real_robot();
   RunSettings settings = settings_for(real);
-  settings.output_folder = folder.path();
+  settings.output_folder = folder / "out";
   const auto host =
       Host::create(sim::load_world_text(world_text(R"(, "on_lost": "end")")), settings);
   lose(*real);
   EXPECT_TRUE(eventually([&] { return host->finished(); }));
   host->finish();
-  std::ifstream file(folder.path() + "/report.json");
+  std::ifstream file(folder / "out/report.json");
   const auto report = nlohmann::json::parse(file);
   EXPECT_EQ(report["ended"]["by"], "real robot");
   ASSERT_THAT(report["mirror"], SizeIs(1));
@@ -502,13 +504,22 @@ TEST(MirroredRun, TrajectoriesHaveTheGhostAndTheDifferences) {
   const test_support::TemporaryFolder folder;
   const auto real = make_real_robot();
   RunSettings settings = settings_for(real);
-  settings.output_folder = folder.path();
+  settings.output_folder = folder / "out";
   const auto host =
       Host::create(sim::load_world_text(world_text(R"(, "drive": "both")")), settings);
   real->add_round({{test::kPose, test::pose_reading(1.0, {2.0, 3.0, 0.0})}});
-  EXPECT_TRUE(eventually([&] { return host->time().sim_time_ns > sim::from_seconds(0.3); }));
+  sim::SimTime followed_ns = 0;
+  EXPECT_TRUE(eventually([&] {
+    host->with_simulation([&](sim::Simulation& simulation) {
+      if (simulation.body(0).X_WB.x_m == 2.0) followed_ns = simulation.now_ns();
+    });
+    return followed_ns > 0;
+  }));
+  // There is a row every 0.1 s.
+  EXPECT_TRUE(
+      eventually([&] { return host->time().sim_time_ns > followed_ns + sim::from_seconds(0.2); }));
   host->finish();
-  std::ifstream file(folder.path() + "/trajectory.csv");
+  std::ifstream file(folder / "out/trajectory.csv");
   std::string line;
   std::getline(file, line);
   EXPECT_EQ(line,
