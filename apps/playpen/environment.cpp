@@ -42,7 +42,9 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"PLAYPEN_VIEW", "The number of the descriptor that leads to the live window.", true},
       {"PLAYPEN_VIEW_MODE", "How the canvas is shown: ground, mini-map or full-screen.", true},
       {"PLAYPEN_VIRTUAL_TIME", "If it is 1, sleeps of the program are simulated time.", true},
-      {"PLAYPEN_WORLD", "The world that \"localhost\" means: a file, or tcp://HOST[:PORT].", true},
+      {"PLAYPEN_WORLD",
+       "The world that \"localhost\" means: a file, tcp://HOST[:PORT] or player://HOST[:PORT].",
+       true},
   };
   return *variables;
 }

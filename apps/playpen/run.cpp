@@ -120,7 +120,7 @@ int verdict(const RunRequest& request, const sim::WorldDescription& world,
 }  // namespace
 
 int run(RunRequest request) {
-  if (request.world.starts_with("tcp://")) {
+  if (request.world.starts_with("tcp://") || request.world.starts_with("player://")) {
     throw std::runtime_error(
         "playpen run makes a simulation of its own; for the one of a server, "
         "start the program itself: PLAYPEN_WORLD=" +

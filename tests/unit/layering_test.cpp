@@ -143,10 +143,10 @@ std::string playerlike_folder(std::string_view path) {
 /// include. They are the layers of docs/architecture.md, each above those that it names.
 const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
   static const std::map<std::string, std::set<std::string>> kArrows = {
-      {"messages", {}},
+      {"messages", {"libplayerinterface"}},
       {"view", {}},
       {"process", {"messages"}},
-      {"protocol", {"messages"}},
+      {"protocol", {"messages", "libplayerinterface"}},
       {"session", {"messages", "libplayerinterface"}},
       {"virtual_time", {"process"}},
       {"host", {"messages", "process", "protocol", "session", "view", "virtual_time"}},

@@ -38,20 +38,25 @@ std::string require_reply(PlayerLink& link, std::uint8_t subtype, std::string_vi
                          (reply ? " refuses " : " does not answer ") + what);
 }
 
-/// Calls read(); an error in the server's bytes ends the connection.
+}  // namespace
+
+// --- Bytes that cannot be understood
+
+void PlayerSession::refuse_bytes(PlayerLink& link, const std::string& why) {
+  const std::string text = "the server at " + link.address().text() +
+                           " has sent what is no message of Player 3.1: " + why;
+  link.close(text);
+  throw SessionError(SessionError::Code::kDisconnected, text);
+}
+
 template <typename Read>
-auto understood_by(PlayerLink& link, Read read) -> decltype(read()) {
+auto PlayerSession::understood_by(PlayerLink& link, Read read) -> decltype(read()) {
   try {
     return read();
   } catch (const protocol::ProtocolError& e) {
-    const std::string why = "the server at " + link.address().text() +
-                            " has sent what is no message of Player 3.1: " + e.what();
-    link.close(why);
-    throw SessionError(SessionError::Code::kDisconnected, why);
+    refuse_bytes(link, e.what());
   }
 }
-
-}  // namespace
 
 // --- Connecting
 
@@ -360,6 +365,13 @@ std::string PlayerSession::ask(PlayerLink& link, const Address& address, std::ui
                         ": its driver does not support it, or not with these values");
   }
   return reply->payload;
+}
+
+std::string PlayerSession::ask(Address& address, std::uint8_t subtype, std::string_view payload) {
+  return with_link([&](PlayerLink& link) {
+    open(link, address);
+    return ask(link, address, subtype, payload);
+  });
 }
 
 void PlayerSession::send(DeviceId device, const sim::Command& command) {

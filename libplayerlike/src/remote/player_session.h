@@ -99,6 +99,9 @@ class PlayerSession final : public Session, private PlayerLink::Receiver {
   void require_open() const;
   [[nodiscard]] std::shared_ptr<PlayerLink> link() const;
   [[nodiscard]] std::shared_ptr<PlayerLink> connect();
+  /// Calls read(); an error in the server's bytes ends the connection.
+  template <typename Read>
+  static auto understood_by(PlayerLink& link, Read read) -> decltype(read());
   /// Calls use(link); repeats it after a reconnection if the connection is lost.
   template <typename Use>
   auto with_link(Use use);
@@ -125,6 +128,11 @@ class PlayerSession final : public Session, private PlayerLink::Receiver {
   /// for NACK and if there is no answer in time.
   std::string ask(PlayerLink& link, const Address& address, std::uint8_t subtype,
                   std::string_view payload);
+
+  /// As above, to an address that is opened before, and again after a reconnection.
+  std::string ask(Address& address, std::uint8_t subtype, std::string_view payload);
+  /// Ends the connection, since an answer cannot be understood. @throws SessionError kDisconnected.
+  [[noreturn]] static void refuse_bytes(PlayerLink& link, const std::string& why);
 
   void subscribe(DeviceId device);
   void unsubscribe(DeviceId device);

@@ -113,16 +113,17 @@ std::string PlayerWorld::ask(unsigned interface, std::uint8_t subtype, const std
     const char* name = player_interface_name(static_cast<int>(interface));
     static_cast<void>(find_interface(session_.robots(), session_.port(), name, 0));
   }
-  return session_.with_link([&](PlayerLink& link) {
-    session_.open(link, *address);
-    return session_.ask(link, *address, subtype, payload);
-  });
+  return session_.ask(*address, subtype, payload);
 }
 
 template <typename Payload>
 Payload PlayerWorld::ask_for(unsigned interface, std::uint8_t subtype, const std::string& payload) {
   const std::string answer = ask(interface, subtype, payload);
-  return session_.with_link([&](PlayerLink&) { return player::decode<Payload>(answer); });
+  try {
+    return player::decode<Payload>(answer);
+  } catch (const protocol::ProtocolError& e) {
+    PlayerSession::refuse_bytes(*session_.link(), e.what());
+  }
 }
 
 // --- Objects

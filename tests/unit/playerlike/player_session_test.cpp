@@ -10,11 +10,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "libplayerc++/playerc++.h"
+#include "libplayerc/playerc.h"
 #include "patient_host.h"
 #include "playerlike/connect/open_session.h"
 #include "playerlike/server/server.h"
@@ -816,32 +818,146 @@ TEST(PlayerSession, OpensASecondSessionForDrivers) {
   EXPECT_THAT(error_of([&] { session->wait(); }), HasSubstr("the connection is closed"));
 }
 
+// --- Host names
+
+/// Sets PLAYPEN_WORLD for a scope.
+class WorldVariable {
+ public:
+  explicit WorldVariable(const std::string& world) { setenv("PLAYPEN_WORLD", world.c_str(), 1); }
+  WorldVariable(const WorldVariable&) = delete;
+  WorldVariable& operator=(const WorldVariable&) = delete;
+  ~WorldVariable() { unsetenv("PLAYPEN_WORLD"); }
+};
+
+TEST(PlayerHosts, GreetWithoutAProtocolInTheirName) {
+  unsetenv("PLAYPEN_WORLD");
+  ScriptedPlayerServer server(with_laser());
+  // Another name of this machine stands for a robot's.
+  PlayerClient client("127.1", static_cast<uint32_t>(server.port()));
+  EXPECT_NO_THROW(PlayerCc::LaserProxy(&client, 0));
+  EXPECT_EQ(client.GetPort(), static_cast<uint32_t>(server.port()));
+}
+
+TEST(PlayerHosts, StandForLocalhost) {
+  ScriptedPlayerServer server(with_laser());
+  const WorldVariable world(server.host());
+  PlayerClient client("localhost", 6665);
+  EXPECT_NO_THROW(PlayerCc::LaserProxy(&client, 0));
+}
+
+TEST(PlayerHosts, DecideWhateverTheWorldIs) {
+  ScriptedPlayerServer server(with_laser());
+  const WorldVariable world("no_such_world.json");
+  PlayerClient client(server.host(), 6665);
+  EXPECT_NO_THROW(PlayerCc::LaserProxy(&client, 0));
+}
+
+TEST(PlayerHosts, HaveTheClientsPortByDefault) {
+  EXPECT_EQ(parse_server_address("player://robot", 6666).text(), "robot:6666");
+  EXPECT_EQ(parse_server_address("player://robot:7000", 6666).text(), "robot:7000");
+  EXPECT_EQ(parse_server_address("player://[::1]:7000", 6666).text(), "[::1]:7000");
+  EXPECT_THAT(error_of([] { static_cast<void>(parse_server_address("player://", 6665)); }),
+              HasSubstr("the host is missing"));
+}
+
 // --- Both our ends
 
 sim::WorldDescription room() {
   return sim::load_world_text(R"({"name": "room", "arena": {"size": [20, 4]}, "robots": [
-      {"name": "r1", "pose": {"x": 1, "y": 1}, "devices": {"pose": null}}]})");
+      {"name": "r1", "pose": {"x": 1, "y": 1}, "devices": {"infrared": {}, "battery": {}}}]})");
 }
 
+/// A simulation with a Player server on any free port.
+struct Served {
+  Served() : host(test::patient_host(room())) {
+    ServerSettings settings;
+    settings.port = 0;
+    settings.player_port = 0;
+    server = std::make_unique<Server>(host, settings);
+  }
+  [[nodiscard]] std::string name() const {
+    return "player://127.0.0.1:" + std::to_string(server->player_ports().at(6665));
+  }
+
+  std::shared_ptr<Host> host;
+  std::unique_ptr<Server> server;
+};
+
 TEST(PlayerSession, DrivesARobotOfPlaypensPlayerServer) {
-  const auto host = test::patient_host(room());
-  ServerSettings settings;
-  settings.port = 0;
-  settings.player_port = 0;
-  Server server(host, settings);
-  const int port = server.player_ports().at(6665);
-  PlayerClient client("player://127.0.0.1:" + std::to_string(port), 6665);
-  PlayerCc::Position2dProxy position(&client, 0);
-  PlayerCc::LaserProxy laser(&client, 0);
-  PlayerCc::PowerProxy power(&client, 0);
-  client.Read();
-  EXPECT_EQ(laser.GetCount(), 682U);
-  position.SetMotorEnable(true);
-  position.SetSpeed(0.3, 0.0);
-  for (int i = 0; i < 200 && position.GetXPos() < 0.2; ++i) client.Read();
-  EXPECT_GE(position.GetXPos(), 0.2);
-  EXPECT_NEAR(position.GetYPos(), 0.0, 1e-3);
-  EXPECT_GT(power.GetCharge(), 0.0);
+  const Served served;
+  EXPECT_EQ(error_of([&] {
+              PlayerClient client(served.name(), 6665);
+              PlayerCc::Position2dProxy position(&client, 0);
+              PlayerCc::LaserProxy laser(&client, 0);
+              PlayerCc::PowerProxy power(&client, 0);
+              do {
+                client.Read();
+              } while (!laser.IsFresh() || !power.IsFresh());
+              EXPECT_EQ(laser.GetCount(), 682U);
+              EXPECT_GT(power.GetCharge(), 0.0);
+              EXPECT_GT(position.GetSize().sl, 0.1);
+              const double start_m = position.GetXPos();
+              position.SetMotorEnable(true);
+              position.SetSpeed(0.3, 0.0);
+              for (int i = 0; i < 1000 && position.GetXPos() < start_m + 0.2; ++i) client.Read();
+              EXPECT_GE(position.GetXPos(), start_m + 0.2);
+              EXPECT_NEAR(position.GetXSpeed(), 0.3, 0.05);
+            }),
+            "no error");
+}
+
+TEST(PlayerSession, ReachesTheWorldOfPlaypensPlayerServer) {
+  const Served served;
+  EXPECT_EQ(error_of([&] {
+              PlayerClient client(served.name(), 6665);
+              PlayerCc::SimulationProxy simulation(&client, 0);
+              std::string name = "r1";
+              double x = 0.0;
+              double y = 0.0;
+              double yaw = 0.0;
+              simulation.GetPose2d(name.data(), x, y, yaw);
+              EXPECT_DOUBLE_EQ(x, 1.0);
+              simulation.SetPose2d(name.data(), 3.0, 2.0, 0.5);
+              simulation.GetPose2d(name.data(), x, y, yaw);
+              EXPECT_DOUBLE_EQ(x, 3.0);
+              EXPECT_DOUBLE_EQ(yaw, 0.5);
+              std::string property = "color";
+              float colour[4] = {0.0F, 0.0F, 1.0F, 1.0F};
+              simulation.SetProperty(name.data(), property.data(), colour, sizeof colour);
+              float now[4] = {};
+              simulation.GetProperty(name.data(), property.data(), now, sizeof now);
+              EXPECT_FLOAT_EQ(now[2], 1.0F);
+              EXPECT_FLOAT_EQ(now[0], 0.0F);
+              PlayerCc::MapProxy map(&client, 0);
+              map.RequestMap();
+              EXPECT_NEAR(map.GetWidth() * map.GetResolution(), 20.0, map.GetResolution());
+              EXPECT_EQ(map.GetCell(5, 5), -1);  // free
+              PlayerCc::BlackBoardProxy board(&client, 0);
+            }),
+            "no error");
+}
+
+TEST(PlayerSession, ServesTheCLibrary) {
+  const Served served;
+  playerc_client_t* const client = playerc_client_create(nullptr, served.name().c_str(), 6665);
+  ASSERT_EQ(playerc_client_connect(client), 0) << playerc_error_str();
+  playerc_laser_t* const laser = playerc_laser_create(client, 0);
+  ASSERT_EQ(playerc_laser_subscribe(laser, PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_NE(playerc_client_read(client), nullptr) << playerc_error_str();
+  EXPECT_EQ(laser->scan_count, 682);
+  playerc_laser_unsubscribe(laser);
+  playerc_laser_destroy(laser);
+  playerc_client_disconnect(client);
+  playerc_client_destroy(client);
+}
+
+TEST(PlayerSession, LearnsThatPlaypensPlayerServerHasNoSuchDevice) {
+  const Served served;
+  EXPECT_THAT(error_of([&] {
+                PlayerClient client(served.name(), 6665);
+                const PlayerCc::GripperProxy gripper(&client, 0);
+              }),
+              HasSubstr("there is no device gripper:0"));
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST(ServerAddresses, ThatAreNoneAreRefusedByWhatIsWrong) {
         Case{"tcp://:4000", "the host is missing"}, Case{"tcp://lab:", "the port must be"},
         Case{"lab:0", "the port must be"}, Case{"lab:65536", "the port must be"},
         Case{"lab:40x", "the port must be"}, Case{"tcp://lab:4000/", "the port must be"},
-        Case{"http://lab", "only tcp:// is known"}, Case{"tcp://::1", "in brackets"},
+        Case{"http://lab", "only tcp:// and player:// are known"}, Case{"tcp://::1", "in brackets"},
         Case{"tcp://[::1", "not closed"}, Case{"[::1]4000", "a colon and a port"},
         Case{"my lab", "a name or an address"}, Case{"lab/x", "a name or an address"}}) {
     const SessionError error = error_of([&] { static_cast<void>(open_session(c.text, 6665)); });
