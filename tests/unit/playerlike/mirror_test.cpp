@@ -215,6 +215,15 @@ TEST_F(MirrorTest, TheRealRobotIsStoppedAtTheEnd) {
   EXPECT_TRUE(report()["connected"]) << "the end of the run is no loss";
 }
 
+TEST_F(MirrorTest, APauseStopsTheRealRobot) {
+  open(world_text());
+  EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.25, 0.0, 0.0}}));
+  EXPECT_TRUE(eventually([this] { return !sent().empty(); }));
+  mirror_->halt();
+  EXPECT_TRUE(eventually([this] { return sent().size() == 2; }));
+  EXPECT_EQ(std::get<sim::TwistCommand>(sent()[1].second).twist, sim::Twist{});
+}
+
 TEST_F(MirrorTest, ALostConnectionIsReportedOnceAndCommandsEnd) {
   open(world_text());
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
@@ -478,6 +487,20 @@ TEST(MirroredRun, AProgramIsToldThatTheRealRobotIsLost) {
   // A program without subscriptions reads empty rounds.
   session->request(UnsubscribeRequest{pose});
   session->wait();
+  host->finish();
+}
+
+TEST(MirroredRun, ForClientsOfAServerTheLossIsTheEnd) {
+  const auto real = make_real_robot();
+  const auto host = Host::create(sim::load_world_text(world_text()), settings_for(real));
+  const auto client = host->connect_events(6665, [] {});
+  const DeviceId pose = find_interface(host->robots(), 6665, "position2d", 0).reading;
+  client->session().request(SubscribeRequest{pose});
+  EXPECT_EQ(client->begin_wait(this_thread_id()), EventClient::Outcome::kWaiting);
+  lose(*real);
+  EXPECT_TRUE(eventually([&] { return client->outcome() == EventClient::Outcome::kFinished; }));
+  EXPECT_EQ(client->begin_wait(this_thread_id()), EventClient::Outcome::kFinished);
+  EXPECT_FALSE(host->finished());
   host->finish();
 }
 
