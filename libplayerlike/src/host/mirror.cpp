@@ -212,7 +212,7 @@ void Mirror::Robot::warn_of_simulated(const std::vector<RobotInfo>& robots) cons
 
 std::unique_ptr<Mirror> Mirror::open(sim::Simulation& simulation,
                                      const std::vector<RobotInfo>& robots,
-                                     const OpenRealRobot& open, Warn warn) {
+                                     const OpenRealRobot& open, const Warn& warn) {
   const auto& described = simulation.world().robots;
   if (std::none_of(described.begin(), described.end(), [](const auto& r) { return r.real; })) {
     return nullptr;

@@ -42,7 +42,7 @@ class Mirror {
   ///         device that tells its pose.
   [[nodiscard]] static std::unique_ptr<Mirror> open(sim::Simulation& simulation,
                                                     const std::vector<RobotInfo>& robots,
-                                                    const OpenRealRobot& open, Warn warn);
+                                                    const OpenRealRobot& open, const Warn& warn);
   Mirror(const Mirror&) = delete;
   Mirror& operator=(const Mirror&) = delete;
   /// Stops the real robots.

@@ -38,6 +38,15 @@ std::string require_reply(PlayerLink& link, std::uint8_t subtype, std::string_vi
                          (reply ? " refuses " : " does not answer ") + what);
 }
 
+/// Stands for the simulation behind a server.
+const void* identity_of(const ServerAddress& server) {
+  // The names of servers, which are few, are never removed.
+  static std::mutex mutex;
+  static auto* const names = new std::set<std::string>();
+  const std::lock_guard lock(mutex);
+  return &*names->insert(server.text()).first;
+}
+
 }  // namespace
 
 // --- Bytes that cannot be understood
@@ -62,6 +71,7 @@ auto PlayerSession::understood_by(PlayerLink& link, Read read) -> decltype(read(
 
 PlayerSession::PlayerSession(PlayerSettings settings)
     : settings_(std::move(settings)),
+      simulation_(identity_of(settings_.server)),
       began_(SocketClock::now()),
       world_(std::make_unique<PlayerWorld>(*this)),
       request_timeout_s_(settings_.request_timeout_s) {
@@ -568,14 +578,6 @@ std::unique_ptr<Session> PlayerSession::open_follower() {
   PlayerSettings settings = settings_;
   settings.request_timeout_s = request_timeout_s_;
   return std::make_unique<PlayerSession>(std::move(settings));
-}
-
-const void* PlayerSession::simulation() const noexcept {
-  // The names of servers, which are few, are never removed.
-  static std::mutex mutex;
-  static auto* const names = new std::set<std::string>();
-  const std::lock_guard lock(mutex);
-  return &*names->insert(settings_.server.text()).first;
 }
 
 // --- Requests

@@ -65,7 +65,7 @@ class PlayerSession final : public Session, private PlayerLink::Receiver {
   DrawQueue& draw_queue() noexcept override { return drawings_; }
   std::uint64_t canvas_generation() const noexcept override { return 0; }
   std::unique_ptr<Session> open_follower() override;
-  const void* simulation() const noexcept override;
+  const void* simulation() const noexcept override { return simulation_; }
   void close() noexcept override;
 
  private:
@@ -146,6 +146,7 @@ class PlayerSession final : public Session, private PlayerLink::Receiver {
   [[nodiscard]] bool subscribes_to_nothing();
 
   const PlayerSettings settings_;
+  const void* const simulation_;
   const SocketClock::time_point began_;
   std::vector<RobotInfo> robots_;
   // The next three are constant after the constructor.

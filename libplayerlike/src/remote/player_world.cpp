@@ -170,7 +170,7 @@ void PlayerWorld::handle(const SetObjectPropertyRequest& what) {
 
 // --- The map
 
-void PlayerWorld::fetch_tile(const player::MapInfo& info, player::MapData tile,
+void PlayerWorld::fetch_tile(const player::MapInfo& info, const player::MapData& tile,
                              sim::OccupancyMap& map) {
   const auto answer =
       ask_for<player::MapData>(PLAYER_MAP_CODE, PLAYER_MAP_REQ_GET_DATA, player::encode(tile));

@@ -58,7 +58,7 @@ class PlayerWorld {
   template <typename Payload>
   Payload ask_for(unsigned interface, std::uint8_t subtype, const std::string& payload);
   /// Fetches a tile of the map. @param map  receives the cells.
-  void fetch_tile(const player::MapInfo& info, player::MapData tile, sim::OccupancyMap& map);
+  void fetch_tile(const player::MapInfo& info, const player::MapData& tile, sim::OccupancyMap& map);
   void subscribe_to_group(const std::string& group);
   /// Stores an entry of the server. The caller holds the session's mutex.
   const BlackboardEntry* note(const player::BlackboardEntry& entry);

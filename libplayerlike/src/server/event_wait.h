@@ -25,7 +25,7 @@ class EventWait {
     client_ = hub.host().connect_events(
         port,
         [&hub, me, weak = std::weak_ptr(on_end_)] {
-          if (beginning_ == me) return;
+          if (beginning == me) return;
           hub.post([weak] {
             if (const auto action = weak.lock()) (*action)();
           });
@@ -55,14 +55,14 @@ class EventWait {
  private:
   class Beginning {
    public:
-    explicit Beginning(const void* who) { beginning_ = who; }
-    ~Beginning() { beginning_ = nullptr; }
+    explicit Beginning(const void* who) { beginning = who; }
+    ~Beginning() { beginning = nullptr; }
     Beginning(const Beginning&) = delete;
     Beginning& operator=(const Beginning&) = delete;
   };
 
   // The object whose wait this thread is beginning; begin() checks the outcome itself.
-  static inline thread_local const void* beginning_ = nullptr;
+  static inline thread_local const void* beginning = nullptr;
 
   Hub& hub_;
   std::shared_ptr<const std::function<void()>> on_end_;  ///< expires with this object
