@@ -90,7 +90,7 @@ class WordHandler final : public Handler {
       hub_.hand_over(peer_, std::make_unique<WordHandler>(peer_, hub_, alive_));
       peer_.send("next\n");
     } else if (word == "frames") {
-      peer_.set_encoding(protocol::Encoding::kCbor);
+      peer_.set_framing(protocol::Framing::kFrames);
     } else if (word == "bytes") {
       bytes_ = true;
       peer_.send("bytes\n");
