@@ -250,7 +250,7 @@ const std::map<std::string, std::string> kOtherDetails = {
     {"exceptions", "it prints errors, which name the server"},
     {"logger", "it prints the names of devices and drivers"},
     {"own_goto", "it looks for data without waiting, which finds them a round earlier"},
-    {"past_the_end", "it drives by values past the end of lists"},
+    {"past_the_end", "ranges have single precision"},
     {"scorpion_wander", "ranges have single precision"},
     {"three_sonars", "ranges have single precision"},
     {"wander_laser", "it prints the names of devices and drivers"},
