@@ -27,8 +27,6 @@ using std::chrono::milliseconds;
 
 // The program is ended after so many reads beyond the end of the run, as in an embedded simulation.
 constexpr int kReadsAfterEnd = 1000;
-constexpr double kLongest_s = 1e9;  // 30 years
-Connection::Clock::duration wall(double seconds) { return wall_duration(seconds); }
 
 // Tells the server that a thread has ended, so that nobody waits for it.
 void say_goodbye(void* sender) {
@@ -172,9 +170,9 @@ json SocketSession::hello() const {
 
 std::shared_ptr<Connection> SocketSession::connect() const {
   std::shared_ptr<Connection> connection =
-      Connection::open(settings_.server, hello(), wall(settings_.connect_timeout_s),
+      Connection::open(settings_.server, hello(), wall_duration(settings_.connect_timeout_s),
                        [this] { return closed_.load(); });
-  connection->set_request_timeout(wall(request_timeout_s_));
+  connection->set_request_timeout(wall_duration(request_timeout_s_));
   return connection;
 }
 
@@ -203,7 +201,8 @@ auto SocketSession::with_connection(Use use) const {
 bool SocketSession::pause(double seconds) const {
   Lock lock(mutex_);
   // Always wait a little, so that a server that refuses is not asked in a tight loop.
-  changed_.wait_for(lock, std::max(wall(seconds), wall(0.01)), [&] { return closed_.load(); });
+  changed_.wait_for(lock, std::max(wall_duration(seconds), wall_duration(0.01)),
+                    [&] { return closed_.load(); });
   return !closed_;
 }
 
@@ -517,7 +516,7 @@ void SocketSession::sleep_by_the_wall_clock(double seconds) {
     const double left_s =
         sim::to_seconds(end_ns - now.sim_time_ns) / std::max(now.real_time_factor, 0.01);
     Lock lock(mutex_);
-    changed_.wait_for(lock, wall(std::clamp(0.9 * left_s, 0.0005, 0.1)),
+    changed_.wait_for(lock, wall_duration(std::clamp(0.9 * left_s, 0.0005, 0.1)),
                       [&] { return closed_.load(); });
     lock.unlock();
     now = time();
@@ -593,7 +592,7 @@ struct SocketSession::RequestHandler {
   void operator()(const NoteLooksRequest&) const {}  // the server may let time pass
   void operator()(const AnswerTimeoutRequest& what) const {
     session.request_timeout_s_ = what.seconds;
-    session.sender_->connection()->set_request_timeout(wall(what.seconds));
+    session.sender_->connection()->set_request_timeout(wall_duration(what.seconds));
   }
   void operator()(const RetriesRequest& what) const {
     session.retry_time_s_ = what.time_s;

@@ -25,7 +25,6 @@ std::string seconds_text(SocketClock::duration duration) {
 }
 
 SocketClock::duration wall_duration(double seconds) {
-  constexpr double kLongest_s = 1e9;  // 30 years
   return std::chrono::duration_cast<SocketClock::duration>(
       std::chrono::duration<double>(std::clamp(seconds, 0.0, kLongest_s)));
 }

@@ -30,7 +30,8 @@ class ConnectionLost : public SessionError {
 /// "2.5 s", for messages.
 [[nodiscard]] std::string seconds_text(SocketClock::duration duration);
 
-/// A duration from seconds, which are limited to [0, 1e9].
+inline constexpr double kLongest_s = 1e9;  ///< 30 years
+/// A duration from seconds, which are limited to [0, kLongest_s].
 [[nodiscard]] SocketClock::duration wall_duration(double seconds);
 
 /// Waits until the socket is readable (POLLIN) or writable (POLLOUT). @return false at the
