@@ -105,7 +105,8 @@ TEST_P(Recordings, DecodeToTheNotedValuesAndEncodeToTheSameBytes) {
                               message.value("name", "");
     const std::string_view bytes = recording.bytes_of(message);
     const Message parsed = parse_message(bytes);
-    for (const auto& [key, value] : JsonWriter::to_json(parsed.header)["addr"].items()) {
+    const json address = JsonWriter::to_json(parsed.header.addr);
+    for (const auto& [key, value] : address.items()) {
       EXPECT_EQ(message[key], value) << where;
     }
     EXPECT_EQ(message["type"], parsed.header.type) << where;
