@@ -94,7 +94,7 @@ class ServerProcess {
 
   pid_t child_ = -1;
   int life_ = -1;
-  int port_ = 0;
+  std::array<int, 2> told_{};  ///< ports of the services and of the first robot
 };
 
 /// A plain connection.
