@@ -228,9 +228,14 @@ void PlayerSession::resume(PlayerLink& link) {
 
 void PlayerSession::close() noexcept {
   if (closed_.exchange(true)) return;
-  const Lock lock(mutex_);
-  changed_.notify_all();
-  if (link_ != nullptr) link_->close("the connection is closed");
+  // The link calls this session while it holds its own lock, so this lock must not be held then.
+  std::shared_ptr<PlayerLink> link;
+  {
+    const Lock lock(mutex_);
+    changed_.notify_all();
+    link = link_;
+  }
+  if (link != nullptr) link->close("the connection is closed");
 }
 
 // --- Devices
