@@ -298,8 +298,8 @@ TEST_F(MirrorTest, AGhostFollowsTheSameCommands) {
   std::vector<std::string> fields;
   for (std::string field; std::getline(columns, field, ',');) fields.push_back(field);
   ASSERT_THAT(fields, SizeIs(testing::Ge(4U)));
-  EXPECT_NEAR(std::stod(fields[0]), 2.2, 1e-3);
-  EXPECT_NEAR(std::stod(fields[3]), 0.15, 1e-3);
+  EXPECT_NEAR(nlohmann::json::parse(fields[0]).get<double>(), 2.2, 1e-3);
+  EXPECT_NEAR(nlohmann::json::parse(fields[3]).get<double>(), 0.15, 1e-3);
 }
 
 TEST(Ghost, CollidesWithTheArena) {
