@@ -246,13 +246,16 @@ const std::map<std::string, std::string> kNotOverPlayersProtocol = {
 };
 /// Programs whose output or report differs in detail over Player's protocol, and why.
 const std::map<std::string, std::string> kOtherDetails = {
+    {"bigbob_pair", "commands of its two clients may reach the server in another order"},
     {"blackboard", "its two clients end in another order"},
     {"exceptions", "it prints errors, which name the server"},
+    {"four_ports", "commands of its four clients may reach the server in another order"},
     {"logger", "it prints the names of devices and drivers"},
     {"own_goto", "it looks for data without waiting, which finds them a round earlier"},
     {"past_the_end", "ranges have single precision"},
     {"scorpion_wander", "ranges have single precision"},
     {"three_sonars", "ranges have single precision"},
+    {"two_clients_one_port", "commands of its clients may reach the server in another order"},
     {"wander_laser", "it prints the names of devices and drivers"},
     {"wander_sonar", "ranges have single precision"},
 };
