@@ -49,6 +49,8 @@ if [[ -z $prefix || -z $playpen ]]; then
   exit 2
 fi
 mkdir -p "$out"
+out=$(cd "$out" && pwd)
+prefix=$(cd "$prefix" && pwd)
 
 server=
 stop_server() {
@@ -98,8 +100,9 @@ done
 
 for interface in position2d laser ranger sonar power dio aio ptz gripper camera speech; do
   log=$out/playercpp_test_$interface.txt
-  if timeout 60 "$prefix/bin/playercpp_test" -h 127.0.0.1 -p "$port" "--$interface" \
-    >"$log" 2>&1 && ! grep -qi 'fail' "$log"; then
+  # The test of the camera writes its pictures into the current folder.
+  if (cd "$out" && timeout 60 "$prefix/bin/playercpp_test" -h 127.0.0.1 -p "$port" \
+    "--$interface") >"$log" 2>&1 && ! grep -qi 'fail' "$log"; then
     row "playercpp_test $interface" ok "$(grep -ciE 'PASS' "$log" || true) steps passed"
   else
     row "playercpp_test $interface" FAILED "$(grep -i 'fail' "$log" | head -n 1 || true)"
