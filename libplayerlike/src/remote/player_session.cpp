@@ -193,25 +193,17 @@ bool PlayerSession::recover(const std::shared_ptr<PlayerLink>& lost) {
   if (limit == 0) return false;
   const Lock one_at_a_time(recover_mutex_);
   if (link() != lost) return true;
-  std::string reason;
-  int attempts = 0;
-  while ((limit < 0 || attempts < limit) && (attempts == 0 || pause(retry_time_s_))) {
-    ++attempts;
-    try {
-      const std::shared_ptr<PlayerLink> made = connect();
-      understood_by(*made, [&] { resume(*made); });
-      const Lock lock(mutex_);
-      link_ = made;
-      return true;
-    } catch (const SessionError& e) {
-      reason = e.what();
-    }
-  }
+  const std::string problem = connect_again(
+      limit, [this] { return pause(retry_time_s_); },
+      [this] {
+        const std::shared_ptr<PlayerLink> made = connect();
+        understood_by(*made, [&] { resume(*made); });
+        const Lock lock(mutex_);
+        link_ = made;
+      });
+  if (problem.empty()) return true;
   require_open();
-  throw SessionError(SessionError::Code::kDisconnected,
-                     "the connection is lost, and " + std::to_string(attempts) +
-                         (attempts == 1 ? " attempt" : " attempts") +
-                         " to connect again failed: " + reason);
+  throw SessionError(SessionError::Code::kDisconnected, problem);
 }
 
 void PlayerSession::resume(PlayerLink& link) {

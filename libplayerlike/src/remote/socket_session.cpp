@@ -230,32 +230,24 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
   if (limit == 0) return false;
   const Lock lock(recover_mutex_);
   if (sender_->connection() != lost) return true;
-  std::string reason;
-  int attempts = 0;
-  while ((limit < 0 || attempts < limit) && (attempts == 0 || pause(retry_time_s_))) {
-    ++attempts;
-    try {
-      const std::shared_ptr<Connection> connection = connect();
-      understood([&] {
-        const json& welcome = connection->welcome();
-        if (!same(robots_, protocol::decode_robots(protocol::require(welcome, "robots")))) {
-          throw SessionError(SessionError::Code::kDisconnected,
-                             "the server has robots now that this client does not know");
-        }
-        resume(connection);
-        sender_->replace(connection, protocol::require_text(welcome, "simulation"));
-        note(welcome);
+  const std::string problem = connect_again(
+      limit, [this] { return pause(retry_time_s_); },
+      [this] {
+        const std::shared_ptr<Connection> connection = connect();
+        understood([&] {
+          const json& welcome = connection->welcome();
+          if (!same(robots_, protocol::decode_robots(protocol::require(welcome, "robots")))) {
+            throw SessionError(SessionError::Code::kDisconnected,
+                               "the server has robots now that this client does not know");
+          }
+          resume(connection);
+          sender_->replace(connection, protocol::require_text(welcome, "simulation"));
+          note(welcome);
+        });
       });
-      return true;
-    } catch (const SessionError& e) {
-      reason = e.what();
-    }
-  }
+  if (problem.empty()) return true;
   require_open();
-  throw SessionError(SessionError::Code::kDisconnected,
-                     "the connection is lost, and " + std::to_string(attempts) +
-                         (attempts == 1 ? " attempt" : " attempts") +
-                         " to connect again failed: " + reason);
+  throw SessionError(SessionError::Code::kDisconnected, problem);
 }
 
 // --- Messages and requests

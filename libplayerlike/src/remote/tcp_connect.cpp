@@ -127,6 +127,23 @@ void connect_tcp(tcp::socket& socket, const ServerAddress& address, SocketClock:
   fail_to_connect(address, reasons);
 }
 
+std::string connect_again(int limit, const std::function<bool()>& pause,
+                          const std::function<void()>& attempt) {
+  std::string reason;
+  int attempts = 0;
+  while ((limit < 0 || attempts < limit) && (attempts == 0 || pause())) {
+    ++attempts;
+    try {
+      attempt();
+      return "";
+    } catch (const SessionError& e) {
+      reason = e.what();
+    }
+  }
+  return "the connection is lost, and " + std::to_string(attempts) +
+         (attempts == 1 ? " attempt" : " attempts") + " to connect again failed: " + reason;
+}
+
 std::string socket_problem(const ServerAddress& address, const asio::error_code& error) {
   if (error == asio::error::eof) {
     return "the server at " + address.text() + " has closed the connection";

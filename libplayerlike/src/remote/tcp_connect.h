@@ -74,6 +74,13 @@ void connect_tcp(asio::ip::tcp::socket& socket, const ServerAddress& address,
                  SocketClock::duration timeout, const ConnectDeadline& deadline,
                  const char* refused);
 
+/// Calls attempt() until it does not throw a SessionError.
+/// @param limit  maximum number of attempts; < 0: no limit.
+/// @param pause  called before each attempt but the first; false gives up.
+/// @return what to tell the user; empty: an attempt has succeeded.
+[[nodiscard]] std::string connect_again(int limit, const std::function<bool()>& pause,
+                                        const std::function<void()>& attempt);
+
 /// The text of a socket's error, for messages.
 [[nodiscard]] std::string socket_problem(const ServerAddress& address,
                                          const asio::error_code& error);
