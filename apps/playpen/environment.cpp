@@ -18,6 +18,8 @@ const std::vector<EnvironmentVariable>& environment_variables() {
        "Playpen's own libraries.",
        false},
       {"PLAYPEN_OUT", "The folder for results.", true},
+      {"PLAYPEN_PLAYER_PORT",
+       "The first port of Player's protocol, by which other programs look on at the run.", true},
       {"PLAYPEN_PROGRESS", "If it is 1, a line on the terminal shows the progress.", true},
       {"PLAYPEN_REAL", "The real robots that robots of the world mirror.", true},
       {"PLAYPEN_REALISM", "The level of realism: ideal, course or real.", true},

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "playerlike/host/kept_results.h"
 #include "playerlike/host/program.h"
+#include "playerlike/server/server.h"
 #include "preload.h"
 #include "run_outputs.h"
 #include "shipped.h"
@@ -131,6 +132,10 @@ int run(RunRequest request) {
   request.settings.apply_to(world);  // reports settings that do not match the world before the run
   request.command.front() = playerlike::find_program(request.command.front());
   playerlike::RunSettings& settings = request.settings;
+  if (settings.player_port) {
+    // Before results of an earlier run are removed; the program's simulation opens the ports.
+    playerlike::Server::check(playerlike::onlooker_settings(*settings.player_port), world);
+  }
   if (request.view) pace_for_view(settings, world);
   settings.progress = !request.quiet;
   settings.quiet_end = true;

@@ -182,6 +182,10 @@ void add_run(CommandLine& line) {
                if (good) request->settings.clients = clients;
                return good;
              });
+  add_port(command, "--player-port",
+           "Let Player's clients look on: first port of Player's protocol, one for each robot; 0: "
+           "any [none]",
+           request->settings.player_port);
   command.add_flag("--view", request->view,
                    "Watch and steer in a window, in real time unless --time gives a factor");
   command.add_flag("--real-sleep", request->real_sleep,

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "command_line.h"
+#include "parsed_option.h"
 #include "playerlike/host/run_settings.h"
 
 namespace playpen {
@@ -27,6 +28,20 @@ void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::View
 
 /// Adds --realism.
 void add_realism(CommandLine& line, CLI::App& command, std::optional<sim::Realism>& level);
+
+/// Adds an option that takes a TCP port, 0..65535.
+/// @param port  an int or an optional int that receives the value; must outlive the command.
+template <typename Port>
+void add_port(CLI::App& command, const std::string& name, const std::string& description,
+              Port& port) {
+  add_parsed(command, name, description, "PORT", playerlike::kTcpPortExpected,
+             [&port](const std::string& text) {
+               int parsed = 0;
+               const bool good = playerlike::parse_tcp_port(text, parsed);
+               if (good) port = parsed;
+               return good;
+             });
+}
 
 /// Adds the argument for the world's name, see find_world().
 CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world);

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
-#include <map>
 #include <optional>
 #include <string>
 #include <thread>
@@ -101,23 +100,6 @@ playerlike::RunSettings with_environment(const playerlike::RunSettings& settings
   return result;
 }
 
-std::string address_text(const std::string& bind, int port) {
-  return (bind.find(':') != std::string::npos ? '[' + bind + ']' : bind) + ':' +
-         std::to_string(port);
-}
-
-/// Prints where each robot answers in Player's protocol.
-void print_player_ports(const playerlike::Host& host, const std::string& bind,
-                        const std::map<int, int>& ports) {
-  for (const auto& [robot_port, port] : ports) {
-    std::string names;
-    for (const playerlike::RobotInfo& robot : host.robots()) {
-      if (robot.port == robot_port) names += (names.empty() ? "" : ", ") + robot.name;
-    }
-    std::cout << "Player's protocol on " << address_text(bind, port) << ": " << names << std::endl;
-  }
-}
-
 /// Serves until a signal arrives or everything is over.
 void wait_for_end(playerlike::Host& host, const playerlike::Server& server, HeldSignals& signals) {
   std::optional<Clock::time_point> finished;
@@ -153,14 +135,8 @@ int serve(ServeRequest request) {
   if (!request.token_file.empty()) {
     request.server.access = playerlike::read_token_file(request.token_file, log);
   }
-  std::vector<std::string> robots;
-  std::vector<int> robot_ports;
-  for (const sim::RobotDescription& robot : world.robots) {
-    robots.push_back(robot.name);
-    robot_ports.push_back(robot.port);
-  }
   // Check this before removing the results of a server that may be using the port.
-  playerlike::Server::check(request.server, robots, robot_ports);
+  playerlike::Server::check(request.server, world);
 
   prepare_outputs(settings, world_file);
   std::optional<ViewerProcess> viewer;
@@ -170,10 +146,10 @@ int serve(ServeRequest request) {
       playerlike::Host::create(std::move(world), with_environment(settings, world_file), log);
   {
     playerlike::Server server(host, request.server, log);
-    std::cout << "listening on " << address_text(request.server.bind, server.port());
+    std::cout << "listening on " << playerlike::address_text(request.server.bind, server.port());
     if (request.server.sync_port) std::cout << ", clock synchronisation on " << server.sync_port();
     std::cout << std::endl;
-    print_player_ports(*host, request.server.bind, server.player_ports());
+    for (const std::string& line : server.player_port_lines()) std::cout << line << std::endl;
     wait_for_end(*host, server, signals);
     host->finish();
     server.stop();

@@ -12,24 +12,6 @@
 namespace playpen {
 namespace {
 
-bool parse_port(const std::string& text, int& port) {
-  int read = 0;
-  if (!parse_number(text, read) || read < 0 || read > 65535) return false;
-  port = read;
-  return true;
-}
-
-void add_optional_port(CLI::App& command, const std::string& name, const std::string& description,
-                       std::optional<int>& port) {
-  add_parsed(command, name, description, "PORT", "a whole number from 0 to 65535",
-             [&port](const std::string& text) {
-               int parsed = 0;
-               const bool good = parse_port(text, parsed);
-               if (good) port = parsed;
-               return good;
-             });
-}
-
 bool parse_log_level(const std::string& text, sim::LogLevel& level) {
   if (text == "debug") {
     level = sim::LogLevel::kDebug;
@@ -95,9 +77,7 @@ void add_serve(CommandLine& line) {
       "docs/remote.md.\n"
       "Ends on Ctrl-C (SIGINT) or SIGTERM, with reports and pictures written.");
   add_world(line, command, request->world);
-  add_parsed(command, "--port", "TCP port; 0: any free one [4000]", "PORT",
-             "a whole number from 0 to 65535",
-             [&server](const std::string& text) { return parse_port(text, server.port); });
+  add_port(command, "--port", "TCP port; 0: any free one [4000]", server.port);
   command
       .add_option("--bind", server.bind,
                   "Address to listen on, or a name of this machine [127.0.0.1]")
@@ -122,14 +102,13 @@ void add_serve(CommandLine& line) {
       });
   line.takes(privacy, {"own"});
   add_run_settings(line, command, request->settings, "the world's, else real");
-  add_parsed(command, "--stream-port", "First port of MORSE's data streams; 0: any [60000]", "PORT",
-             "a whole number from 0 to 65535",
-             [&server](const std::string& text) { return parse_port(text, server.stream_port); });
-  add_optional_port(command, "--sync-port", "Port of MORSE's clock synchronisation; 0: any [none]",
-                    server.sync_port);
-  add_optional_port(command, "--player-port",
-                    "First port of Player's protocol, one for each robot; 0: any [none]",
-                    server.player_port);
+  add_port(command, "--stream-port", "First port of MORSE's data streams; 0: any [60000]",
+           server.stream_port);
+  add_port(command, "--sync-port", "Port of MORSE's clock synchronisation; 0: any [none]",
+           server.sync_port);
+  add_port(command, "--player-port",
+           "First port of Player's protocol, one for each robot; 0: any [none]",
+           server.player_port);
   add_limits(command, server.limits);
   CLI::Option* const log_level = add_parsed(
       command, "--log-level", "debug, info, warning or error [info]", "LEVEL",

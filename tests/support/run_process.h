@@ -116,6 +116,23 @@ class Process {
   /// Its standard output so far.
   [[nodiscard]] const std::string& output() const { return result_.out; }
 
+  /// Writes to its standard input.
+  void write_input(std::string_view text) const {
+    std::signal(SIGPIPE, SIG_IGN);  // the program may have ended
+    while (!text.empty()) {
+      const ssize_t count = write(stdin_, text.data(), text.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) throw std::runtime_error("the program does not read its input");
+      text.remove_prefix(static_cast<std::size_t>(count));
+    }
+  }
+
+  /// Ends its standard input.
+  void close_input() { close_once(stdin_); }
+
+  /// Its standard error so far.
+  [[nodiscard]] const std::string& errors() const { return result_.err; }
+
   void send_signal(int signal) const { kill(child_, signal); }
   /// Sends a signal to the program and all processes in its group, as a terminal does.
   void send_signal_to_group(int signal) const { kill(-child_, signal); }

@@ -153,7 +153,7 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"remote", {"messages", "process", "protocol", "session"}},
       {"connect", {"messages", "process", "session", "virtual_time", "host", "remote"}},
       {"server",
-       {"messages", "process", "protocol", "session", "host", "wire", "proxies",
+       {"messages", "process", "protocol", "session", "virtual_time", "host", "wire", "proxies",
         "libplayerinterface"}},
       // Headers that clients include.
       {"libplayerinterface", {}},

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "host/onlookers.h"
 #include "playerlike/process/log.h"
 #include "remote/player_session.h"
 #include "remote/socket_session.h"
@@ -25,6 +26,7 @@ namespace {
 struct Registry {
   std::mutex mutex;
   std::map<std::string, std::shared_ptr<Host>> hosts;  // key: full path of the world file
+  std::unique_ptr<Onlookers> onlookers;                // at the first host, if they are wanted
   int results = 0;                                     // number of hosts that write results
   std::set<std::string> replaced_hosts;                // host names that the run's world replaced
   const pid_t process = getpid();
@@ -50,6 +52,7 @@ struct Registry {
       host->note_program_ends(status);
       host->finish();
     }
+    registry.onlookers.reset();
   }
 };
 
@@ -80,6 +83,7 @@ std::shared_ptr<Host> host_of(const std::string& file) {
       settings.film.clear();
       settings.view_socket.reset();
       settings.kept_run.clear();
+      settings.player_port.reset();
       settings.progress = false;
       if (!settings.output_folder.empty()) {
         settings.output_folder += "/world" + std::to_string(registry.results + 1);
@@ -90,8 +94,9 @@ std::shared_ptr<Host> host_of(const std::string& file) {
     // A program has one virtual clock, which belongs to the first world.
     const bool virtual_time_wanted = settings.virtual_time && registry.results == 0;
     settings.virtual_time = virtual_time_wanted && virtual_time::active();
-    // The window belongs to this process: programs that it starts must not connect to it.
+    // Window and Player ports belong to this process: programs that it starts must not use them.
     unsetenv("PLAYPEN_VIEW");
+    unsetenv("PLAYPEN_PLAYER_PORT");
     const sim::LogHook log = log_to_stderr();
     sim::WorldDescription world = sim::load_world(file);
     if (!settings.grading.nonce.empty()) {
@@ -100,6 +105,9 @@ std::shared_ptr<Host> host_of(const std::string& file) {
       settings.grading = grading_of(settings.grading.nonce, as_run);
     }
     host = Host::create(std::move(world), settings, log);
+    if (settings.player_port) {
+      registry.onlookers = open_onlookers(host, *settings.player_port, log);
+    }
     host->watch_program();
     ++registry.results;
     if (settings.virtual_time) {
@@ -323,6 +331,7 @@ std::unique_ptr<Session> open_real_robot(const std::string& server, int port) {
 void close_embedded_hosts() {
   Registry& registry = Registry::instance();
   const std::lock_guard lock(registry.mutex);
+  registry.onlookers.reset();
   for (const auto& [key, host] : registry.hosts) {
     virtual_time::detach(*host->clock());
     host->finish();

@@ -42,6 +42,7 @@ struct Client {
   int number = 0;  ///< in order of connection; determines the order of commands
   int port = 0;
   bool follower = false;  ///< see Session::open_follower()
+  bool onlooker = false;  ///< see EventRole::kOnlooker
   /// Belongs to a server, which checks itself what its clients may read.
   bool served = false;
   ThreadId creator = 0;                     ///< the thread that connected it

@@ -9,6 +9,12 @@ namespace {
 constexpr std::size_t kQueueLimit = 1000;
 constexpr sim::SimTime kEmptyRound_ns = sim::kNanosecondsPerSecond / 10;
 
+// Inputs of lower groups come first.
+int group_of(const Client& client) {
+  if (client.follower) return 0;
+  return client.onlooker ? 2 : 1;
+}
+
 bool subscribed_before(const Client::Subscription& s, DeviceId id) {
   return std::pair(s.device.robot, s.device.device) < std::pair(id.robot, id.device);
 }
@@ -21,12 +27,17 @@ Clients::Clients(const sim::Simulation& simulation, const std::vector<RobotInfo>
   for (const RobotInfo& robot : robots) subscribers_.emplace_back(robot.devices.size());
 }
 
-std::shared_ptr<Client> Clients::add(int port, bool follower, std::function<void()> notify) {
+bool Clients::any_but_onlookers() const {
+  return std::any_of(begin(), end(), [](const auto& client) { return !client->onlooker; });
+}
+
+std::shared_ptr<Client> Clients::add(int port, EventRole role, std::function<void()> notify) {
   auto client = std::make_shared<Client>();
   client->notify = std::move(notify);
   client->number = next_number_++;
   client->port = port;
-  client->follower = follower;
+  client->follower = role == EventRole::kFollower;
+  client->onlooker = role == EventRole::kOnlooker;
   client->creator = this_thread_id();
   client->touch();
   begin_round(*client);
@@ -35,9 +46,10 @@ std::shared_ptr<Client> Clients::add(int port, bool follower, std::function<void
   auto place = clients_.end();
   while (place != clients_.begin()) {
     const Client& before = **std::prev(place);
-    const bool after_it = before.follower == follower
+    const int group = group_of(before);
+    const bool after_it = group == group_of(*client)
                               ? !by_creator_ || before.creator <= client->creator
-                              : before.follower;
+                              : group < group_of(*client);
     if (after_it) break;
     --place;
   }

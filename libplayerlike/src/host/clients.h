@@ -12,6 +12,7 @@
 #include "host/client.h"
 #include "host/mirror.h"
 #include "host/run_log.h"
+#include "playerlike/host/event_client.h"
 #include "sim/simulation/simulation.h"
 
 namespace playerlike {
@@ -19,8 +20,8 @@ namespace playerlike {
 /// The clients of a run and their subscriptions; distributes readings.
 ///
 /// Clients are in the order in which their inputs are applied: followers first, then the others,
-/// each group in order of number. subscribers_ lists the subscribed clients of each device. Not
-/// thread-safe: guarded by the host's mutex.
+/// then onlookers, each group in order of number. subscribers_ lists the subscribed clients of each
+/// device. Not thread-safe: guarded by the host's mutex.
 class Clients {
  public:
   /// Both arguments must outlive this object.
@@ -32,9 +33,9 @@ class Clients {
 
   [[nodiscard]] auto begin() const { return clients_.begin(); }
   [[nodiscard]] auto end() const { return clients_.end(); }
-  [[nodiscard]] bool empty() const { return clients_.empty(); }
+  [[nodiscard]] bool any_but_onlookers() const;
 
-  std::shared_ptr<Client> add(int port, bool follower, std::function<void()> notify);
+  std::shared_ptr<Client> add(int port, EventRole role, std::function<void()> notify);
   void remove(Client& client) noexcept;
 
   void subscribe(Client& client, DeviceId device);

@@ -95,10 +95,10 @@ void Host::Core::give_way(Lock& lock) const {
 
 // --- Clients
 
-std::shared_ptr<Client> Host::Core::add_client(int port, bool follower,
+std::shared_ptr<Client> Host::Core::add_client(int port, EventRole role,
                                                std::function<void()> notify) {
   const Lock lock = lock_with_priority();
-  auto client = clients_.add(port, follower, std::move(notify));
+  auto client = clients_.add(port, role, std::move(notify));
   changed_.notify_all();  // a paced clock may wait for its first client
   return client;
 }
@@ -125,6 +125,7 @@ void Host::Core::thread_ended(ThreadId thread_id) noexcept {
 
 void Host::Core::adopt(Client& client, ThreadId thread_id) {
   client.require_open();
+  if (client.onlooker) return;
   if (!turns_) client.touch();  // in virtual time, Turns knows when the thread began to run
   lockstep_.adopt(client, thread_id);
 }
@@ -465,11 +466,10 @@ void Host::Core::note_losses() {
 
 // A thread whose wait is over no longer counts as waiting, even before it wakes up.
 bool Host::Core::release_waiters() {
-  if (in_turns()) {
-    clock_->make_ready();
-    return true;
-  }
-  bool anybody = false;
+  // Clients of threads that take turns do not count as waiting, but event clients do.
+  const bool turns = in_turns();
+  if (turns) clock_->make_ready();
+  bool anybody = turns;
   bool released = false;
   for (const auto& client : clients_) {
     if (!client->waiting || !wait_is_over(*client)) continue;
@@ -539,7 +539,7 @@ void Host::Core::pace() {
   const bool gated = simulation_.world().simulation.start_gate_clients > 1;
   changed_.wait(lock, [&] {
     if (stop_pacing_) return true;
-    return gated ? lockstep_.gate_open() : settings_.start_at_once || !clients_.empty();
+    return gated ? lockstep_.gate_open() : settings_.start_at_once || clients_.any_but_onlookers();
   });
   pace_.begin_at(WallClock::now());
   while (!stop_pacing_ && !over()) {
@@ -621,6 +621,9 @@ std::vector<std::string> Host::Core::unrepeatable() const {
                      std::to_string(settings_.silence_limit_s) + " s of wall time");
   }
   if (driven_by_hand_) why.emplace_back("a robot was driven by hand");
+  if (onlooker_acted_) {
+    why.emplace_back("a client on a Player port commanded a robot or changed the world");
+  }
   if (!paced() && lockstep_.several_owners() && (!turns_ || !Turns::instance().active())) {
     why.emplace_back(
         "the program has several threads or there were several programs, and time was "

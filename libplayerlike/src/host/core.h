@@ -54,7 +54,7 @@ class Host::Core {
   /// Ends the run and its threads. The mutex must not be held.
   void stop() noexcept;
 
-  std::shared_ptr<Client> add_client(int port, bool follower = false,
+  std::shared_ptr<Client> add_client(int port, EventRole role = EventRole::kParticipant,
                                      std::function<void()> notify = {});
   void remove_client(Client& client) noexcept;
   void thread_ended(ThreadId thread_id) noexcept;
@@ -230,7 +230,8 @@ class Host::Core {
   bool ended_by_program_ = false;
   bool end_reported_ = false;  ///< a session has thrown because the run is over
   int reads_after_end_ = 0;
-  bool driven_by_hand_ = false;  ///< a user has driven a robot in the window
+  bool driven_by_hand_ = false;              ///< a user has driven a robot in the window
+  std::atomic<bool> onlooker_acted_{false};  ///< see Host::note_onlooker_acts()
 };
 
 /// A program's thread inside of the host: its clocks and locks are real during the call.

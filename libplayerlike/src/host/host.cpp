@@ -39,9 +39,9 @@ std::unique_ptr<Session> Host::connect(int port) {
 }
 
 std::unique_ptr<EventClient> Host::connect_events(int port, std::function<void()> notify,
-                                                  bool follower) {
+                                                  EventRole role) {
   require_port(port);
-  auto client = core_->add_client(port, follower, std::move(notify));
+  auto client = core_->add_client(port, role, std::move(notify));
   client->served = true;
   return std::make_unique<EventClient>(shared_from_this(), std::move(client));
 }
@@ -58,6 +58,7 @@ void Host::note_end_request(int signal) {
     if (request == 0) request = signal;
   });
 }
+void Host::note_onlooker_acts() noexcept { core_->onlooker_acted_ = true; }
 void Host::thread_ended(ThreadId thread_id) noexcept {
   InsideCore(*core_)->thread_ended(thread_id);
 }

@@ -58,8 +58,8 @@ Answer InProcessSession::answer(const Request& request) {
 }
 
 std::unique_ptr<Session> InProcessSession::open_follower() {
-  return std::make_unique<InProcessSession>(host_,
-                                            core()->add_client(client_->port, /*follower=*/true));
+  return std::make_unique<InProcessSession>(
+      host_, core()->add_client(client_->port, EventRole::kFollower));
 }
 
 const void* InProcessSession::simulation() const noexcept { return host_->clock().get(); }

@@ -166,6 +166,13 @@ bool parse_clients(const std::string& text, int& clients) {
   return true;
 }
 
+bool parse_tcp_port(const std::string& text, int& port) {
+  int read = 0;
+  if (!parse_whole(text, read) || read < 0 || read > 65535) return false;
+  port = read;
+  return true;
+}
+
 bool parse_real_robot(const std::string& text, RealRobotChoice& choice) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos) return false;
@@ -354,6 +361,8 @@ RunSettings RunSettings::from_environment() {
                settings.interfaces);
   read_choices(variables, "PLAYPEN_REAL", kRealRobotChoicesExpected, parse_real_robot,
                settings.real_robots);
+  variables.read("PLAYPEN_PLAYER_PORT", kTcpPortExpected,
+                 into<int>(settings.player_port, parse_tcp_port));
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
   settings.virtual_time = is_set("PLAYPEN_VIRTUAL_TIME");

@@ -83,7 +83,8 @@ NativeHandler::NativeHandler(Peer& peer, Hub& hub, Terms terms)
       guard_(hub.host(), terms_.rights, terms_.port),
       self_(std::make_shared<NativeHandler*>(this)) {
   if (!terms_.session) return;
-  wait_.emplace(hub, terms_.port, terms_.follower, [this] { answer_waiting(); });
+  wait_.emplace(hub, terms_.port, terms_.follower ? EventRole::kFollower : EventRole::kParticipant,
+                [this] { answer_waiting(); });
   state_->leaders[terms_.key] = {terms_.port, terms_.rights.command};
 }
 

@@ -42,8 +42,10 @@ PlayerConnection::PlayerConnection(Peer& peer, Hub& hub, int robot_port, int tcp
       host_(peer.own_ipv4()),
       self_(std::make_shared<PlayerConnection*>(this)),
       rights_(hub.access().rights({}, robot_port)),
-      guard_(hub.host(), rights_, robot_port),
-      wait_(hub, robot_port, /*follower=*/false, [this] { on_wait_end(); }),
+      guard_(hub.host(), rights_, robot_port, hub.settings().onlookers),
+      wait_(hub, robot_port,
+            hub.settings().onlookers ? EventRole::kOnlooker : EventRole::kParticipant,
+            [this] { on_wait_end(); }),
       session_(wait_.session(), guard_) {
   peer_.set_framing(protocol::Framing::kPlayer);
   peer_.acknowledge_at_once();
@@ -337,7 +339,11 @@ void PlayerConnection::guarded(OpenDevice& device, Action action) {
 void PlayerConnection::command(OpenDevice& to, const player::Message& message) {
   guarded(to, [&] {
     // Drivers act without further checks, see GuardedSession.
-    if (to.belongs_to) guard_.check_command(*to.belongs_to);
+    if (to.belongs_to) {
+      guard_.check_command(*to.belongs_to);
+    } else if (guard_.may_draw()) {
+      guard_.note_change();
+    }
     to.device->command(message.header.subtype, message.payload);
   });
 }
@@ -417,7 +423,9 @@ bool PlayerConnection::wants_round() const {
 
 ThreadId PlayerConnection::thread_id() {
   if (thread_id_ != 0) return thread_id_;
-  if (hub_.host().time().mode == sim::TimeMode::kPaced) return thread_id_ = new_thread_id();
+  if (hub_.settings().onlookers || hub_.host().time().mode == sim::TimeMode::kPaced) {
+    return thread_id_ = new_thread_id();
+  }
   // A program of one thread may read several connections in turn, so those of a process count as
   // one thread. No client can choose such a name for its process in `hello`.
   const std::optional<int> process = peer_.local_process();

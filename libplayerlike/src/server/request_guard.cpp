@@ -23,12 +23,12 @@ constexpr std::size_t kMaxReason = 200;
 
 void RequestGuard::require_rights(int robot) const {
   if (robot < 0) {
-    if (rights_.command_all()) return;
+    if (rights_.command_all()) return note_change();
     throw ProtocolError("access/denied",
                         "this concerns all robots: only who may command each of them may do it");
   }
   const auto index = static_cast<std::size_t>(robot);
-  if (index < rights_.command.size() && rights_.command[index]) return;
+  if (index < rights_.command.size() && rights_.command[index]) return note_change();
   throw ProtocolError("access/denied", "robot " + host_.robots()[index].name +
                                            " obeys only those whose hello has its token");
 }
@@ -46,7 +46,7 @@ void RequestGuard::check_command(DeviceId device) const {
 }
 
 void RequestGuard::check_canvas() const {
-  if (may_draw()) return;
+  if (may_draw()) return note_change();
   throw ProtocolError(
       "access/denied",
       "only who may command a robot may draw on the canvas that all share, erase or "
@@ -116,7 +116,7 @@ struct RequestGuard::Check {
                            " m long at least, unless the map is asked for in tiles");
   }
   void check(const SetBlackboardRequest&) const {
-    if (guard.rights_.change_shared()) return;
+    if (guard.rights_.change_shared()) return guard.note_change();
     throw ProtocolError("access/denied",
                         "only who may command a robot may set entries of the blackboard that all "
                         "share: present the token of a robot in hello");

@@ -14,9 +14,10 @@ namespace playerlike::server {
 class RequestGuard {
  public:
   /// All must outlive the guard. Later changes of `rights` take effect at once.
-  /// @param port  of the client's session.
-  RequestGuard(Host& host, const Rights& rights, int port)
-      : host_(host), rights_(rights), port_(port) {}
+  /// @param port      of the client's session.
+  /// @param onlooker  whether changes are noted, see Host::note_onlooker_acts().
+  RequestGuard(Host& host, const Rights& rights, int port, bool onlooker = false)
+      : host_(host), rights_(rights), port_(port), onlooker_(onlooker) {}
 
   /// @throws ProtocolError access/denied or protocol/bad-value; SessionError kNoSuchDevice or
   ///         kBadArgument.
@@ -27,6 +28,10 @@ class RequestGuard {
   [[nodiscard]] bool may_draw() const { return rights_.change_shared(); }
   /// @throws ProtocolError access/denied unless may_draw().
   void check_canvas() const;
+  /// Notes that the client may change the world and is about to. The checks do so, too.
+  void note_change() const {
+    if (onlooker_) host_.note_onlooker_acts();
+  }
 
  private:
   struct Check;
@@ -39,6 +44,7 @@ class RequestGuard {
   Host& host_;
   const Rights& rights_;
   const int port_;
+  const bool onlooker_;
 };
 
 }  // namespace playerlike::server

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "server/server_hub.h"
 
+#include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <pthread.h>
@@ -26,6 +27,7 @@
 #include "server/connection.h"
 #include "server/player_connection.h"
 #include "sim/core/error.h"
+#include "virtual_time/virtual_time.h"
 
 namespace playerlike::server {
 namespace {
@@ -121,6 +123,9 @@ struct Listener {
   MakeHandler make;
 };
 
+// Programs that this process starts must not keep its ports and connections open.
+void close_on_exec(int descriptor) { fcntl(descriptor, F_SETFD, FD_CLOEXEC); }
+
 /// @param alone  whether this is the only address: then "::" accepts IPv4 too. A name may resolve
 ///               to an address of each protocol.
 asio::error_code open_on(asio::io_context& io, const asio::ip::address& address, bool alone,
@@ -129,6 +134,7 @@ asio::error_code open_on(asio::io_context& io, const asio::ip::address& address,
     const tcp::endpoint endpoint(address, static_cast<std::uint16_t>(listener.port));
     tcp::acceptor acceptor(io);
     acceptor.open(endpoint.protocol());
+    close_on_exec(acceptor.native_handle());
     acceptor.set_option(tcp::acceptor::reuse_address(true));
     if (address.is_v6()) acceptor.set_option(asio::ip::v6_only(!alone));
     acceptor.bind(endpoint);
@@ -221,11 +227,13 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
         log_(std::move(log)),
         access_(settings_.access, host_->robots(), host_->own_sensors_only()),
         addresses_(checked_addresses(io_, settings_)) {
-    Listener services_port;
-    services_port.services = true;
-    services_port.make = std::move(services);
-    open_or_throw(io_, addresses_, settings_, settings_.port, "port", services_port);
-    port_ = add(std::move(services_port));
+    if (settings_.port) {
+      Listener services_port;
+      services_port.services = true;
+      services_port.make = std::move(services);
+      open_or_throw(io_, addresses_, settings_, *settings_.port, "port", services_port);
+      port_ = add(std::move(services_port));
+    }
     warn_if_not_private();
     if (settings_.sync_port) {
       Listener clock;
@@ -422,6 +430,7 @@ void ServerHub::Body::admit(Listener& listener, tcp::socket socket) {
   asio::error_code error;
   const tcp::endpoint remote = socket.remote_endpoint(error);
   if (error) return;  // disconnected already
+  close_on_exec(socket.native_handle());
   socket.non_blocking(true, error);
   socket.set_option(tcp::no_delay(true), error);
   socket.set_option(asio::socket_base::keep_alive(true), error);
@@ -472,7 +481,7 @@ void ServerHub::Body::tick() {
     if (stopping_ && now >= stop_deadline_) {
       for (const auto& connection : all) connection->end("the server ended");
     }
-    host_->check_silence();
+    if (!settings_.onlookers) host_->check_silence();
     pump();
     tick();
   });
@@ -481,6 +490,7 @@ void ServerHub::Body::tick() {
 // --- The thread
 
 void ServerHub::Body::serve() {
+  const virtual_time::Inside inside;  // in a program whose time is virtual, this thread's is real
   // Signals are left to the program's own threads.
   sigset_t all;
   sigfillset(&all);
@@ -555,7 +565,7 @@ void ServerHub::Body::pump() {
   bool more = false;
   do {
     pump_again_ = false;
-    run([&] { more = host_->advance(kSlice); });
+    run([&] { more = !settings_.onlookers && host_->advance(kSlice); });
     run_tasks();
   } while (pump_again_ && Clock::now() < end);
   pumping_ = false;
@@ -661,7 +671,7 @@ void ServerHub::check(const ServerSettings& settings, const std::vector<std::str
   const std::vector<asio::ip::address> addresses = checked_addresses(io, settings);
   Listener services;
   Listener clock;
-  open_or_throw(io, addresses, settings, settings.port, "port", services);
+  if (settings.port) open_or_throw(io, addresses, settings, *settings.port, "port", services);
   if (settings.sync_port) {
     open_or_throw(io, addresses, settings, *settings.sync_port, "sync_port", clock);
   }

@@ -393,9 +393,9 @@ constexpr std::chrono::seconds kLong{60};
 
 // A client of an event loop, on robot 1 or 2.
 struct Looped {
-  Looped(Host& host, int port, bool follower = false)
+  Looped(Host& host, int port, EventRole role = EventRole::kParticipant)
       : client(host.connect_events(
-            port, [count = calls] { ++*count; }, follower)) {}
+            port, [count = calls] { ++*count; }, role)) {}
 
   Session& session() { return client->session(); }
 
@@ -421,6 +421,46 @@ TEST_F(HostTest, AnEventLoopReadsAsAThreadDoes) {
     EXPECT_THAT(round.times_ns, testing::ElementsAre(i * 100'000'000));
     EXPECT_NEAR(round.x_m, 1.0 + 0.05 * i, 1e-9);
   }
+}
+
+TEST_F(HostTest, TimeNeitherWaitsForOnlookersNorAdvancesForThem) {
+  start(two_robots());
+  Looped onlooker(*host, 6665, EventRole::kOnlooker);
+  subscribe_position(onlooker.session());
+  EXPECT_EQ(onlooker.client->begin_wait(onlooker.thread_id), Outcome::kWaiting);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(host->now_ns(), 0) << "nobody else takes part";
+
+  const auto session = host->connect(6665);
+  subscribe_position(*session);
+  session->wait();
+  EXPECT_EQ(host->now_ns(), 100'000'000);
+  EXPECT_EQ(*onlooker.calls, 1);
+  EXPECT_EQ(onlooker.client->outcome(), Outcome::kData);
+  Collector seen;
+  EXPECT_EQ(onlooker.session().take(seen), 1);
+  // It does not wait now.
+  for (int i = 0; i < 5; ++i) {
+    Collector round;
+    EXPECT_EQ(session->take(round), 1);
+    session->wait();
+  }
+  EXPECT_EQ(host->now_ns(), 600'000'000);
+  EXPECT_EQ(*onlooker.calls, 1);
+  EXPECT_TRUE(host->time().unrepeatable.empty());
+  host->note_onlooker_acts();
+  EXPECT_EQ(host->time().unrepeatable.size(), 1U);
+}
+
+TEST_F(HostTest, CommandsOfOnlookersComeAfterThoseOfPrograms) {
+  start(two_robots());
+  Looped onlooker(*host, 6665, EventRole::kOnlooker);
+  const auto session = host->connect(6665);  // connected later
+  const InterfaceBinding binding = subscribe_position(*session);
+  drive(onlooker.session(), binding, 0.2);
+  drive(*session, binding, 0.5);
+  session->wait();
+  EXPECT_NEAR(host->statistics(0).path_length_m, 0.02, 1e-9);
 }
 
 TEST_F(HostTest, AnEventLoopPeeksSleepsAndHearsOfTheEnd) {

@@ -45,7 +45,7 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
           Pair("PLAYPEN_CLIENTS", std::nullopt), Pair("PLAYPEN_INTERFACES", std::nullopt),
           Pair("PLAYPEN_GRADE", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt),
           Pair("PLAYPEN_STATE", std::nullopt), Pair("PLAYPEN_REALISM", std::nullopt),
-          Pair("PLAYPEN_REAL", std::nullopt)));
+          Pair("PLAYPEN_REAL", std::nullopt), Pair("PLAYPEN_PLAYER_PORT", std::nullopt)));
 }
 
 TEST(RunEnvironment, MakesPathsAbsolute) {

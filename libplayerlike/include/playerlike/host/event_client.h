@@ -25,6 +25,14 @@ struct DrawWork {
   bool begun = false;
 };
 
+/// How an event client takes part in lockstep.
+enum class EventRole {
+  kParticipant,  ///< simulated time waits for it and advances for it
+  kFollower,     ///< acts for another session, see Session::open_follower()
+  kOnlooker,     ///< simulated time neither waits for it nor advances for it; its commands come
+                 ///< after those of all others
+};
+
 /// A client of a host for event loops, without its own thread. A call begins a wait and returns; a
 /// callback reports the end of the wait. See Host::connect_events(). Any thread may call the
 /// members, but only one at a time.

@@ -44,10 +44,9 @@ class Host : public std::enable_shared_from_this<Host> {
   /// Opens a session like connect(), for a client without its own thread.
   /// @param notify    called at the end of a wait, by the thread that steps, with the simulation
   ///                  locked. It must only forward the notification.
-  /// @param follower  see Session::open_follower().
   /// @throws SessionError for the same errors as connect().
-  [[nodiscard]] std::unique_ptr<EventClient> connect_events(int port, std::function<void()> notify,
-                                                            bool follower = false);
+  [[nodiscard]] std::unique_ptr<EventClient> connect_events(
+      int port, std::function<void()> notify, EventRole role = EventRole::kParticipant);
 
   /// Lockstep: steps the simulation while all participants wait, for at most about this wall time.
   /// @return whether stepping could continue immediately; the caller should then call again soon.
@@ -66,6 +65,10 @@ class Host : public std::enable_shared_from_this<Host> {
   /// Notes for the report that a signal has requested the end of the run. The caller must call
   /// finish() afterwards.
   void note_end_request(int signal);
+
+  /// Notes for the report that an onlooker has commanded a robot or changed the world, so that the
+  /// run depends on the wall clock.
+  void note_onlooker_acts() noexcept;
 
   /// Notes that a thread no longer takes part; see EventClient.
   void thread_ended(ThreadId thread_id) noexcept;

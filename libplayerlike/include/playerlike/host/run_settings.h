@@ -73,6 +73,9 @@ struct RunSettings {
   OpenRealRobot open_real_robot;
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
   std::optional<int> view_socket;
+  /// First port of Player's protocol, by which other programs look on (docs/player_wire.md); 0: any
+  /// free ports; nullopt: none. Hosts ignore it; see host/onlookers.h.
+  std::optional<int> player_port;
   bool start_at_once = false;  ///< paced time does not wait for the first client (unless the
                                ///< world's start gate is larger than 1)
   bool progress = false;       ///< prints a progress line on stderr, if stderr is a terminal
@@ -100,8 +103,8 @@ struct RunSettings {
   /// PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground,
   /// mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
   /// descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
-  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE, PLAYPEN_INTERFACES and PLAYPEN_REAL (choices,
-  /// separated by commas).
+  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_INTERFACES and PLAYPEN_REAL
+  /// (choices, separated by commas).
   /// @throws sim::ConfigError naming the variable, the expected value and the actual value.
   [[nodiscard]] static RunSettings from_environment();
 
@@ -123,6 +126,9 @@ struct RunSettings {
 /// Parses a number of clients, 1..1000.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_clients(const std::string& text, int& clients);
+
+/// Parses a TCP port, 0..65535. @return whether the text is valid.
+[[nodiscard]] bool parse_tcp_port(const std::string& text, int& port);
 
 /// Parses "[ROBOT.]INTERFACE:INDEX=DEVICE". @return whether the text has this form.
 [[nodiscard]] bool parse_interface_choice(const std::string& text, InterfaceChoice& choice);
@@ -167,6 +173,8 @@ void apply_interface_choices(sim::WorldDescription& world,
 
 /// Description of the values that parse_clients() accepts, for messages.
 inline constexpr const char* kClientsExpected = "a whole number from 1 to 1000";
+/// Description of the values that parse_tcp_port() accepts, for messages.
+inline constexpr const char* kTcpPortExpected = "a whole number from 0 to 65535";
 /// Description of the values that parse_interface_choice() accepts, for messages.
 inline constexpr const char* kInterfaceChoiceExpected =
     "[ROBOT.]INTERFACE:INDEX=DEVICE, such as ranger:0=laser or r1.ranger:0=laser";

@@ -10,8 +10,12 @@
 #include "playerlike/host/host.h"
 #include "playerlike/server/server_settings.h"
 #include "sim/core/log.h"
+#include "sim/world/description.h"
 
 namespace playerlike {
+
+/// An address and a port as one text, such as "127.0.0.1:4000" or "[::1]:4000".
+[[nodiscard]] std::string address_text(const std::string& address, int port);
 
 /// Serves a simulation over TCP, with MORSE's protocol and Playpen's protocol on one port
 /// (docs/protocol.md), and with Player's protocol on a port for each robot (docs/player_wire.md).
@@ -33,17 +37,21 @@ class Server {
   /// @param robot_ports  their ports in the world, for ServerSettings::player_port.
   static void check(const ServerSettings& settings, const std::vector<std::string>& robots,
                     const std::vector<int>& robot_ports = {});
+  /// The same for the robots of a world.
+  static void check(const ServerSettings& settings, const sim::WorldDescription& world);
   /// Calls stop().
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// The TCP port on which the server listens.
+  /// The TCP port for services; 0 if there is none.
   [[nodiscard]] int port() const noexcept;
   /// Port of the clock synchronisation; 0 if it is off.
   [[nodiscard]] int sync_port() const noexcept;
   /// TCP ports of Player's protocol by the robots' ports in the world; empty if it is off.
   [[nodiscard]] const std::map<int, int>& player_ports() const noexcept;
+  /// A line for the user about each of them, such as "Player's protocol on 127.0.0.1:6665: r1".
+  [[nodiscard]] std::vector<std::string> player_port_lines() const;
   [[nodiscard]] std::size_t connections() const noexcept;
   /// Whether a client has requested the end (MORSE's `quit`), or the run is over and all clients
   /// have disconnected.

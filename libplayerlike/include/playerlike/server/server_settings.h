@@ -35,16 +35,23 @@ struct AccessSettings {
 /// Settings of a server.
 struct ServerSettings {
   std::string bind = "127.0.0.1";  ///< an IPv4 or IPv6 address, or a name of this machine
-  int port = 4000;                 ///< port for services; 0: any free port
+  std::optional<int> port = 4000;  ///< port for services; 0: any free port; nullopt: no such port
   int stream_port = 60000;         ///< first of MORSE's stream ports; 0: any free ports
   std::optional<int> sync_port;    ///< port of MORSE's clock synchronisation; 0: any free port
   /// TCP port of Player's protocol for the robots whose port in the world is kPlayerPort. Others
   /// have the same distance to it as in the world. 0: any free ports; nullopt: no such ports.
   std::optional<int> player_port;
+  /// For a simulation that a program in this process drives: clients are onlookers (EventRole), and
+  /// the server does not step the simulation.
+  bool onlookers = false;
   bool open = false;  ///< allows a non-loopback address without a token
   AccessSettings access;
   ServerLimits limits;
 };
+
+/// Settings of a server with Player's ports only, on this machine, for onlookers.
+/// @param player_port  see ServerSettings::player_port.
+[[nodiscard]] ServerSettings onlooker_settings(int player_port);
 
 inline constexpr std::size_t kMinToken = 8;    ///< [bytes]; shorter tokens are refused, for one
                                                ///< more release
