@@ -17,9 +17,12 @@
 
 #include "libplayerc++/playerc++.h"
 #include "libplayerc/playerc.h"
+#include "own_loopback.h"
 #include "patient_host.h"
 #include "playerlike/connect/open_session.h"
 #include "playerlike/server/server.h"
+#include "raw_client.h"
+#include "remote/socket_session.h"
 #include "scripted_player_server.h"
 
 namespace playerlike {
@@ -904,6 +907,66 @@ TEST(PlayerSession, DrivesARobotOfPlaypensPlayerServer) {
               EXPECT_NEAR(position.GetXSpeed(), 0.3, 0.05);
             }),
             "no error");
+}
+
+// --- Hosts without a protocol
+
+/// A simulation on an address of its own: Playpen's protocol on its port 4000, where a host without
+/// a protocol is expected to have it.
+struct ServedOnPort4000 {
+  ServedOnPort4000() : host(test::patient_host(room())) {
+    ServerSettings settings;
+    settings.bind = address;
+    settings.player_port = 0;
+    server = std::make_unique<Server>(host, settings);
+  }
+  [[nodiscard]] int player_port() const { return server->player_ports().at(6665); }
+
+  const std::string address = test_support::own_loopback();
+  std::shared_ptr<Host> host;
+  std::unique_ptr<Server> server;
+};
+
+TEST(PlayerHosts, WithoutAProtocolArePlayerServersIfTheyGreet) {
+  unsetenv("PLAYPEN_WORLD");
+  const ServedOnPort4000 served;
+  const auto session = open_session(served.address, served.player_port());
+  EXPECT_NE(dynamic_cast<PlayerSession*>(session.get()), nullptr);
+  EXPECT_EQ(session->robots().size(), 1U);
+}
+
+// Nobody listens on the port, or somebody who says nothing.
+TEST(PlayerHosts, WithoutAProtocolAreOtherwisePlaypenServersOnPort4000) {
+  unsetenv("PLAYPEN_WORLD");
+  const ServedOnPort4000 served;
+  const auto refused = open_session(served.address, 6665);
+  EXPECT_NE(dynamic_cast<SocketSession*>(refused.get()), nullptr);
+  EXPECT_EQ(refused->robots().at(0).name, "r1");
+
+  const test_support::RawClient silent{test_support::RawClient::Unconnected{}};
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  ASSERT_EQ(inet_pton(AF_INET, served.address.c_str(), &place.sin_addr), 1);
+  socklen_t size = sizeof place;
+  auto* const generic = reinterpret_cast<sockaddr*>(&place);
+  ASSERT_EQ(bind(silent.descriptor(), generic, size), 0);
+  ASSERT_EQ(listen(silent.descriptor(), 8), 0);
+  ASSERT_EQ(getsockname(silent.descriptor(), generic, &size), 0);
+  const int port = ntohs(place.sin_port);
+  EXPECT_THAT(error_of([&] { PlayerClient client(served.address, static_cast<uint32_t>(port)); }),
+              HasSubstr("no robot of this world has port " + std::to_string(port)))
+      << "the Playpen server answers, and it knows robots by their ports in the world";
+
+  // MORSE's port is that of Playpen servers at once.
+  EXPECT_NE(dynamic_cast<SocketSession*>(open_session(served.address, 4000).get()), nullptr);
+}
+
+TEST(PlayerHosts, WithoutAnyServerAreNamedWithBothPorts) {
+  unsetenv("PLAYPEN_WORLD");
+  const std::string address = test_support::own_loopback();
+  EXPECT_THAT(error_of([&] { PlayerClient client(address, 6665); }),
+              testing::AllOf(HasSubstr(address + ":6665"), HasSubstr(address + ":4000"),
+                             HasSubstr("as a Playpen server")));
 }
 
 TEST(PlayerSession, ReachesTheWorldOfPlaypensPlayerServer) {
