@@ -135,7 +135,9 @@ struct PlayerLink::Impl {
             const std::lock_guard lock(mutex);
             round_requested = false;  // before threads see the round: they may request the next one
           }
-          receiver.on_round();
+          receiver.on_round(message.header.subtype == PLAYER_PLAYER_SYNCH_OVERFLOW
+                                ? player::decode<player::Uint32>(message.payload).value
+                                : 0);
           break;
         case PLAYER_MSGTYPE_RESP_ACK:
         case PLAYER_MSGTYPE_RESP_NACK:

@@ -45,7 +45,8 @@ class PlayerLink {
     /// ends the connection.
     virtual void on_data(const player::Msghdr& header, std::string_view payload) = 0;
     /// The server has sent all data that it had for the last request of data.
-    virtual void on_round() = 0;
+    /// @param dropped  how many messages it has dropped since the last round.
+    virtual void on_round(std::uint32_t dropped) = 0;
   };
 
   /// An answer to a request.

@@ -454,8 +454,9 @@ void PlayerSession::on_data(const player::Msghdr& header, std::string_view paylo
   waiting_bytes_ += payload.size();
 }
 
-void PlayerSession::on_round() {
+void PlayerSession::on_round(std::uint32_t dropped) {
   const Lock lock(mutex_);
+  overflow_ += dropped;
   ++rounds_;
   round_ = !waiting_.empty();
 }

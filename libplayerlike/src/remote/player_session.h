@@ -94,7 +94,7 @@ class PlayerSession final : public Session, private PlayerLink::Receiver {
   };
 
   void on_data(const player::Msghdr& header, std::string_view payload) override;
-  void on_round() override;
+  void on_round(std::uint32_t dropped) override;
 
   void require_open() const;
   [[nodiscard]] std::shared_ptr<PlayerLink> link() const;

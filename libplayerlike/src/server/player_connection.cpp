@@ -412,6 +412,7 @@ void PlayerConnection::data(std::uint8_t subtype, std::string payload) {
       rule(current_->address, subtype) == PLAYER_PLAYER_MSG_REPLACE_RULE_IGNORE) {
     return;
   }
+  ++round_messages_;
   append(current_->address, PLAYER_MSGTYPE_DATA, subtype, data_time_s_, payload);
 }
 
@@ -466,6 +467,7 @@ void PlayerConnection::finish_round(Outcome outcome) {
     return peer_.close("");
   }
   if (outcome != Outcome::kData) return;
+  round_messages_ = 0;
   EachReading readings([this](DeviceId source, const sim::Reading& reading) {
     data_time_s_ = sim::to_seconds(reading.time_ns);
     for (OpenDevice& device : open_) {
@@ -487,17 +489,29 @@ void PlayerConnection::finish_round(Outcome outcome) {
     guarded(device, [&] { device.device->on_round(*this); });
   }
   if (pull_) {
-    append(own_address(PLAYER_PLAYER_CODE, 0), PLAYER_MSGTYPE_SYNCH, PLAYER_PLAYER_SYNCH_OK,
-           now_s(), "");
+    end_pull_round();
     return flush();
   }
   if (!out_.empty()) {
     // Data of PUSH may be lost if the client does not read them.
-    peer_.send_record(std::make_shared<const std::string>(std::exchange(out_, {})));
+    const bool sent =
+        peer_.send_record(std::make_shared<const std::string>(std::exchange(out_, {})));
+    if (!sent) dropped_ += round_messages_;
   }
   hub_.post([this, weak = std::weak_ptr(self_)] {
     if (!weak.expired()) begin_to_wait();
   });
+}
+
+void PlayerConnection::end_pull_round() {
+  const std::uint32_t overflow = session_.request(OverflowRequest{});
+  dropped_ += overflow - std::exchange(overflow_, overflow);
+  const Devaddr address = own_address(PLAYER_PLAYER_CODE, 0);
+  if (dropped_ == 0) {
+    return append(address, PLAYER_MSGTYPE_SYNCH, PLAYER_PLAYER_SYNCH_OK, now_s(), "");
+  }
+  append(address, PLAYER_MSGTYPE_SYNCH, PLAYER_PLAYER_SYNCH_OVERFLOW, now_s(),
+         player::encode(player::Uint32{std::exchange(dropped_, 0U)}));
 }
 
 // --- Output

@@ -93,6 +93,8 @@ class PlayerConnection final : public Handler, private wire::DataSink {
   void begin_to_wait();
   void on_wait_end();
   void finish_round(Outcome outcome);
+  /// Adds the SYNCH message, which tells how many data were dropped since the last one.
+  void end_pull_round();
   [[nodiscard]] ThreadId thread_id();
 
   // Output.
@@ -122,10 +124,13 @@ class PlayerConnection final : public Handler, private wire::DataSink {
   ThreadId thread_id_ = 0;
   std::vector<player::AddReplaceRuleReq> rules_;
   std::list<OpenDevice> open_;
-  OpenDevice* current_ = nullptr;  ///< whose messages data() takes
-  double data_time_s_ = 0.0;       ///< their time
-  std::string out_;                ///< messages to send together
-  int notes_ = 0;                  ///< lines written by note()
+  OpenDevice* current_ = nullptr;     ///< whose messages data() takes
+  double data_time_s_ = 0.0;          ///< their time
+  std::string out_;                   ///< messages to send together
+  std::uint32_t round_messages_ = 0;  ///< data messages of the present round
+  std::uint32_t overflow_ = 0;        ///< the session's count when it was last asked
+  std::uint32_t dropped_ = 0;         ///< data that the client was not told about
+  int notes_ = 0;                     ///< lines written by note()
 };
 
 }  // namespace playerlike::server

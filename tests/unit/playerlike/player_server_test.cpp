@@ -696,6 +696,29 @@ TEST_F(PlayerServer, SlowReadersOfPushLoseDataOnly) {
   EXPECT_LT(slow.data.size(), 20'000U);
 }
 
+// The queue of a device holds 1000 readings. The next SYNCH message tells how many more there were.
+TEST_F(PlayerServer, SlowReadersOfPullAreToldWhatTheyLost) {
+  start();
+  PlayerWireClient slow = reader({PLAYER_LASER_CODE});
+  {
+    const auto other = host->connect(6666);
+    other->request(SleepRequest{123.4});  // 1234 scans
+  }
+  for (const std::uint32_t dropped : {234U, 0U}) {
+    slow.begin_round();
+    std::size_t scans = 0;
+    PlayerMessage message = slow.receive();
+    for (; message.header.type != PLAYER_MSGTYPE_SYNCH; message = slow.receive()) {
+      if (message.header.type == PLAYER_MSGTYPE_DATA) ++scans;
+    }
+    EXPECT_EQ(scans, dropped > 0 ? 1000U : 1U);
+    EXPECT_EQ(message.header.subtype,
+              dropped > 0 ? PLAYER_PLAYER_SYNCH_OVERFLOW : PLAYER_PLAYER_SYNCH_OK);
+    EXPECT_EQ(message.payload,
+              dropped > 0 ? player::encode(player::Uint32{dropped}) : std::string());
+  }
+}
+
 // --- Recordings of real clients
 
 std::string file_bytes(const std::string& name) {

@@ -909,6 +909,23 @@ TEST(PlayerSession, DrivesARobotOfPlaypensPlayerServer) {
             "no error");
 }
 
+TEST(PlayerSession, CountsWhatAServerHasDropped) {
+  const Served served;
+  EXPECT_EQ(error_of([&] {
+              PlayerClient client(served.name(), 6665);
+              client.SetReplaceRule(false);
+              PlayerCc::LaserProxy laser(&client, 0);
+              {
+                const auto other = served.host->connect(6665);
+                other->request(SleepRequest{123.4});  // 1234 scans, and the queue holds 1000
+              }
+              EXPECT_EQ(client.GetOverflowCount(), 0U);
+              while (!laser.IsFresh()) client.Read();
+              EXPECT_EQ(client.GetOverflowCount(), 234U);
+            }),
+            "no error");
+}
+
 // --- Hosts without a protocol
 
 /// A simulation on an address of its own: Playpen's protocol on its port 4000, where a host without
