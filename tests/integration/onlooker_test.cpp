@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <libplayerc++/playerc++.h>
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -134,6 +136,26 @@ TEST_F(Onlookers, SeeTheRunAndDoNotChangeIt) {
     EXPECT_EQ(read_report(out_).at("run").at("repeatable"), true);
     expect_equal_files(files_of_run(out_), alone);
   }
+}
+
+// The driver's thread looks on, too. Otherwise it would let time pass while the program waits for
+// its input.
+TEST_F(Onlookers, OpenDriversThatDoNotChangeTheRun) {
+  world_ = PLAYPEN_SOURCE_DIR "/worlds/examples/snd_driver.json";
+  const Files alone = files_alone({});
+  Process run(arguments({"--player-port", "0"}));
+  PlayerCc::PlayerClient viewer("player://127.0.0.1:" + std::to_string(port_of(run)), 6665);
+  PlayerCc::Position2dProxy driver(&viewer, 2);
+  drive(run);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  do {
+    viewer.Read();
+  } while (!driver.IsFresh());
+  drive(run);
+  run.close_input();
+  const ProcessResult end = run.finish();
+  EXPECT_EQ(end.status, 0) << end.err;
+  expect_equal_files(files_of_run(out_), alone);
 }
 
 TEST_F(Onlookers, ThatCommandDoSoAndAreReported) {

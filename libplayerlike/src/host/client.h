@@ -42,7 +42,7 @@ struct Client {
   int number = 0;  ///< in order of connection; determines the order of commands
   int port = 0;
   bool follower = false;  ///< see Session::open_follower()
-  bool onlooker = false;  ///< see EventRole::kOnlooker
+  bool onlooker = false;  ///< see EventRole::kOnlooker; also what acts for an onlooker
   /// Belongs to a server, which checks itself what its clients may read.
   bool served = false;
   ThreadId creator = 0;                     ///< the thread that connected it
@@ -73,7 +73,7 @@ struct Client {
   DrawQueue drawings;  ///< any thread may push; the host's mutex guards the rest
 
   /// Whether it belongs to this process's program, not to a driver or a server.
-  [[nodiscard]] bool is_programs() const noexcept { return !follower && !notify; }
+  [[nodiscard]] bool is_programs() const noexcept { return !follower && !onlooker && !notify; }
   /// Any thread, without the mutex.
   void touch() {
     last_seen.store(WallClock::now().time_since_epoch().count(), std::memory_order_relaxed);

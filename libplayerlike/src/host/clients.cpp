@@ -11,8 +11,8 @@ constexpr sim::SimTime kEmptyRound_ns = sim::kNanosecondsPerSecond / 10;
 
 // Inputs of lower groups come first.
 int group_of(const Client& client) {
-  if (client.follower) return 0;
-  return client.onlooker ? 2 : 1;
+  if (client.onlooker) return 2;
+  return client.follower ? 0 : 1;
 }
 
 bool subscribed_before(const Client::Subscription& s, DeviceId id) {

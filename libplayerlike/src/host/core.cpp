@@ -133,7 +133,7 @@ void Host::Core::adopt(Client& client, ThreadId thread_id) {
 void Host::Core::join(Client& client, ThreadId thread_id) {
   const Lock lock = lock_with_priority();
   adopt(client, thread_id);
-  if (in_turns()) static_cast<void>(Turns::instance().self());
+  if (in_turns() && !client.onlooker) static_cast<void>(Turns::instance().self());
   changed_.notify_all();  // the start gate may have waited for it
 }
 
@@ -231,7 +231,7 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   adopt(client, this_thread_id());
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
-  if (in_turns()) clock_->wait_for_turn(lock, client);
+  if (in_turns() && !client.onlooker) clock_->wait_for_turn(lock, client);
   // While this thread holds the mutex, the set of waiting clients changes only when
   // release_waiters() ends a wait.
   bool all_known_waiting = false;
@@ -242,7 +242,7 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
     if (paced()) {
       if (began) changed_.notify_all();
       changed_.wait(lock);
-    } else if (may_advance(all_known_waiting)) {
+    } else if (!client.onlooker && may_advance(all_known_waiting)) {
       all_known_waiting = !advance();
     } else {
       if (began) changed_.notify_all();
@@ -255,8 +255,8 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
 
 // Waits for a change, at most until the silence limit of a client.
 void Host::Core::wait_for_others(Lock& lock, const Client& client) {
-  // A follower waits for programs without a time limit.
-  if (client.follower) return changed_.wait(lock);
+  // A follower or onlooker waits for programs without a time limit.
+  if (!client.is_programs()) return changed_.wait(lock);
   const auto deadline = lockstep_.silence_deadline(WallClock::now());
   if (changed_.wait_until(lock, deadline) == std::cv_status::timeout) {
     lockstep_.note_silence(WallClock::now());

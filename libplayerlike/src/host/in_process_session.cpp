@@ -22,7 +22,7 @@ void InProcessSession::note_wait() const {
                      [](void* host) { static_cast<Host*>(host)->thread_ended(this_thread_id()); });
   }
   // Drivers are not threads of the program.
-  if (client_->follower || !virtual_time::active()) return;
+  if (!client_->is_programs() || !virtual_time::active()) return;
   virtual_time::remember_thread();
   virtual_time::note_wait();
 }
@@ -58,8 +58,9 @@ Answer InProcessSession::answer(const Request& request) {
 }
 
 std::unique_ptr<Session> InProcessSession::open_follower() {
-  return std::make_unique<InProcessSession>(
-      host_, core()->add_client(client_->port, EventRole::kFollower));
+  // What acts for an onlooker is one, too.
+  const EventRole role = client_->onlooker ? EventRole::kOnlooker : EventRole::kFollower;
+  return std::make_unique<InProcessSession>(host_, core()->add_client(client_->port, role));
 }
 
 const void* InProcessSession::simulation() const noexcept { return host_->clock().get(); }

@@ -64,19 +64,23 @@ class HostPartsTest : public testing::Test {
 
 using ClientsTest = HostPartsTest;
 
-TEST_F(ClientsTest, FollowersComeFirstEachKindInOrder) {
-  clients.add(6665, false, {});
-  clients.add(6665, true, {});
-  clients.add(6665, false, {});
-  const auto last = clients.add(6665, true, {});
-  EXPECT_THAT(numbers(), ElementsAre(1, 3, 0, 2));
+TEST_F(ClientsTest, FollowersComeFirstAndOnlookersLastEachKindInOrder) {
+  clients.add(6665, EventRole::kOnlooker, {});
+  EXPECT_FALSE(clients.any_but_onlookers());
+  clients.add(6665, EventRole::kParticipant, {});
+  clients.add(6665, EventRole::kFollower, {});
+  clients.add(6665, EventRole::kParticipant, {});
+  const auto last = clients.add(6665, EventRole::kFollower, {});
+  clients.add(6665, EventRole::kOnlooker, {});
+  EXPECT_THAT(numbers(), ElementsAre(2, 4, 1, 3, 0, 5));
   clients.remove(*last);
-  EXPECT_THAT(numbers(), ElementsAre(1, 0, 2));
+  EXPECT_THAT(numbers(), ElementsAre(2, 1, 3, 0, 5));
+  EXPECT_TRUE(clients.any_but_onlookers());
 }
 
 TEST_F(ClientsTest, ReadingsGoToThoseWhoHaveSubscribed) {
-  const auto reader = clients.add(6665, false, {});
-  const auto other = clients.add(6666, false, {});
+  const auto reader = clients.add(6665, EventRole::kParticipant, {});
+  const auto other = clients.add(6666, EventRole::kParticipant, {});
   clients.subscribe(*reader, pose);
   clients.subscribe(*other, device(1, "pose"));
   run(0.25);
@@ -92,7 +96,7 @@ TEST_F(ClientsTest, ReadingsGoToThoseWhoHaveSubscribed) {
 }
 
 TEST_F(ClientsTest, SubscriptionsCount) {
-  const auto client = clients.add(6665, false, {});
+  const auto client = clients.add(6665, EventRole::kParticipant, {});
   clients.subscribe(*client, pose);
   clients.subscribe(*client, pose);
   clients.unsubscribe(*client, pose);
@@ -103,7 +107,7 @@ TEST_F(ClientsTest, SubscriptionsCount) {
 }
 
 TEST_F(ClientsTest, RoundsWithoutSubscriptionsTakeATenthOfASecond) {
-  const auto client = clients.add(6665, false, {});
+  const auto client = clients.add(6665, EventRole::kParticipant, {});
   run(0.09);
   EXPECT_FALSE(client->has_data);
   run(0.01);
@@ -114,7 +118,7 @@ TEST_F(ClientsTest, RoundsWithoutSubscriptionsTakeATenthOfASecond) {
 }
 
 TEST_F(ClientsTest, QueuesKeepAThousandReadings) {
-  const auto client = clients.add(6665, false, {});
+  const auto client = clients.add(6665, EventRole::kParticipant, {});
   clients.set_replace(*client, std::nullopt, false);
   clients.subscribe(*client, pose);
   run(100.35);
@@ -126,7 +130,7 @@ TEST_F(ClientsTest, QueuesKeepAThousandReadings) {
 }
 
 TEST_F(ClientsTest, WhatWaitsKeepsWaitingUnderAnotherRule) {
-  const auto client = clients.add(6665, false, {});
+  const auto client = clients.add(6665, EventRole::kParticipant, {});
   clients.set_replace(*client, std::nullopt, false);
   clients.subscribe(*client, pose);
   run(0.35);
@@ -144,7 +148,7 @@ TEST_F(ClientsTest, WhatWaitsKeepsWaitingUnderAnotherRule) {
 class LockstepTest : public HostPartsTest {
  protected:
   std::shared_ptr<Client> join(ThreadId thread_id) {
-    auto client = clients.add(6665, false, {});
+    auto client = clients.add(6665, EventRole::kParticipant, {});
     lockstep.adopt(*client, thread_id);
     return client;
   }
@@ -198,7 +202,7 @@ TEST_F(LockstepTest, TimeGoesOnWithoutThoseWhoAreSilent) {
 }
 
 TEST_F(LockstepTest, TimeGoesOnForProgramsOnly) {
-  const auto follower = clients.add(6665, true, {});
+  const auto follower = clients.add(6665, EventRole::kFollower, {});
   lockstep.adopt(*follower, 1);
   EXPECT_FALSE(lockstep.program_takes_part());
   const auto program = join(2);
@@ -260,7 +264,7 @@ using InputsTest = HostPartsTest;
 
 TEST_F(InputsTest, OfCommandsInARowTheLastIsApplied) {
   Inputs inputs(simulation, warn);
-  const auto client = clients.add(6665, false, {});
+  const auto client = clients.add(6665, EventRole::kParticipant, {});
   const DeviceId motion = device(0, "motion");
   EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{0.1, 0.0, 0.0}}));
   EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{0.3, 0.0, 0.0}}));
@@ -274,7 +278,7 @@ TEST_F(InputsTest, OfCommandsInARowTheLastIsApplied) {
 
 TEST_F(InputsTest, RefusedCommandsAreWarnings) {
   Inputs inputs(simulation, warn);
-  const auto client = clients.add(6665, false, {});
+  const auto client = clients.add(6665, EventRole::kParticipant, {});
   static_cast<void>(inputs.add(*client, pose, sim::TwistCommand{}));
   inputs.before_step(clients);
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("pose")));
@@ -282,7 +286,7 @@ TEST_F(InputsTest, RefusedCommandsAreWarnings) {
 
 TEST_F(InputsTest, AQueueOfCommandsHasALimit) {
   Inputs inputs(simulation, warn);
-  const auto client = clients.add(6665, false, {});
+  const auto client = clients.add(6665, EventRole::kParticipant, {});
   const DeviceId motion = device(0, "motion");
   int added = 0;
   bool full = false;
@@ -298,8 +302,8 @@ TEST_F(InputsTest, AQueueOfCommandsHasALimit) {
 
 TEST_F(InputsTest, DrawingsOnLayersOfOthersAreLeftOut) {
   Inputs inputs(simulation, warn);
-  const auto owner = clients.add(6665, false, {});
-  const auto other = clients.add(6666, false, {});
+  const auto owner = clients.add(6665, EventRole::kParticipant, {});
+  const auto other = clients.add(6666, EventRole::kParticipant, {});
   const sim::LayerId layer = inputs.registry.create(simulation.layers(), owner->number, owner->port,
                                                     sim::LayerKind::kBinary, {.name = "own"});
   inputs.reserve_drawings(*owner);
@@ -354,7 +358,7 @@ TEST_F(StandingTimeTest, AProgramThatOnlyCommandsIsToldOnce) {
   StalledTimeWarning standing(robots.size(), /*sleeps_count=*/true, 5.0, warn);
   EXPECT_TRUE(standing.note_needs_time());
   EXPECT_FALSE(standing.note_needs_time());
-  const auto client = clients.add(6665, false, {});
+  const auto client = clients.add(6665, EventRole::kParticipant, {});
   int looks = 0;
   for (int i = 0; i < 100'000; ++i) {
     if (!standing.note_command(*client, 0)) continue;
