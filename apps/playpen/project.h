@@ -30,6 +30,8 @@ inline constexpr std::array<ProjectTemplate, 7> kProjectTemplates{{
      "apps/par_exploration_changing/template", "par_exploration_changing_template",
      "par_exploration_changing"},
     {"chase", "the chase task", "apps/par_chase/template", "par_chase_template", "par_chase"},
+    {"localization", "the localization task", "apps/par_localization/template",
+     "par_localization_template", "par_localization"},
     {"client", "a Player client program", "apps/client/template", "my_robot", ""},
 }};
 

@@ -24,7 +24,8 @@ else
     compat_four_ports compat_roomba_maze \
     par_intro_solution_wall par_intro_solution_avoid par_planning_solution_dijkstra par_planning_solution_theta \
     par_exploration_solution_nearest par_traps_solution_learn \
-    par_exploration_changing_solution_again par_chase_solution_patrol
+    par_exploration_changing_solution_again par_chase_solution_patrol \
+    par_localization_solution_particles
   bin=build/dev/bin
 fi
 out=out/pictures
@@ -88,6 +89,9 @@ run worlds/tasks/par_exploration_changing.json exploration_changing --snapshot-e
 take exploration_changing/snapshots/scene_000048.000s.png exploration_changing
 run worlds/tasks/par_chase.json chase -- "$bin/par_chase_solution_patrol"
 take chase/scene.png chase
+run worlds/tasks/par_localization.json localization --snapshot-every 1.5 -- \
+  "$bin/par_localization_solution_particles"
+take localization/snapshots/scene_000001.500s.png localization
 run worlds/tasks/par_exploration.json exploration --snapshot-every 4 -- \
   "$bin/par_exploration_solution_nearest"
 take exploration/snapshots/scene_000024.000s.png exploration

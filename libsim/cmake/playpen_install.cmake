@@ -45,7 +45,7 @@ endif()
 
 if(TARGET playpen)
   foreach(_template IN ITEMS par_intro par_planning par_exploration par_traps
-      par_exploration_changing par_chase client)
+      par_exploration_changing par_chase par_localization client)
     string(REPLACE "par_" "" _name "${_template}")
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/${_template}/template/"
       DESTINATION "${CMAKE_INSTALL_DATADIR}/playpen/templates/${_name}"

@@ -27,6 +27,7 @@ using test_support::read_bytes;
 using test_support::read_report;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;
+using testing::Not;
 
 class ArenaTasks : public testing::Test {
  protected:
@@ -133,6 +134,23 @@ TEST_F(ArenaTasks, TheFoxGetsAwayFromTheTemplate) {
     EXPECT_THAT(graded.out, HasSubstr("par_chase seed " + std::string(seed) +
                                       ": verdict: failed: the fox got away"));
   }
+}
+
+TEST_F(ArenaTasks, TheParticleFilterFindsTheRobotAndTheGoal) {
+  const ProcessResult graded = grade("par_localization", {}, PARTICLES_PROGRAM);
+  EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
+  EXPECT_THAT(graded.out, HasSubstr("par_localization: 10 of 10 runs passed"));
+  std::set<double> times;
+  for (const json& run : runs()) times.insert(run.at("sim_time").get<double>());
+  EXPECT_GT(times.size(), 2U) << "the seeds make no difference";
+}
+
+TEST_F(ArenaTasks, TheTemplateWandersWithoutACollision) {
+  const ProcessResult graded = grade("par_localization", {"--seeds", "1,"}, LOCALIZATION_TEMPLATE);
+  EXPECT_EQ(graded.status, 1) << graded.out << graded.err;
+  EXPECT_THAT(graded.out, HasSubstr("par_localization seed 1: goal not reached"));
+  EXPECT_THAT(graded.out, Not(HasSubstr("collision")));
+  EXPECT_THAT(graded.out, HasSubstr("par_localization: 0 of 2 runs passed"));
 }
 
 }  // namespace

@@ -90,6 +90,7 @@ TEST(PlaypenNew, TheTrapsTemplateBuildsAndRuns) {
 TEST(PlaypenNew, TheTemplatesOfChangingArenasBuildAndRun) {
   build_and_run("exploration_changing", "out/par_exploration_changing/report.json");
   build_and_run("chase", "out/par_chase/report.json");
+  build_and_run("localization", "out/par_localization/report.json");
 }
 
 TEST(PlaypenNew, TheClientBuildsAndDrives) { build_and_run("client", "out/cave/report.json"); }

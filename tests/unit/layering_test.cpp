@@ -187,6 +187,7 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"par_traps", {"imr-h", "libCCMorse", "par_common"}},
       {"par_exploration_changing", {"imr-h", "libCCMorse", "par_exploration"}},
       {"par_chase", {"imr-h", "libCCMorse", "par_common"}},
+      {"par_localization", {"imr-h", "libCCMorse", "par_common"}},
       {"playpen", {"messages", "process", "host", "connect", "server", "playpen/grade"}},
       {"playpen/grade", {"messages", "host"}},
       {"playpen/view", {"view"}},
