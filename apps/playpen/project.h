@@ -18,7 +18,7 @@ struct ProjectTemplate {
   const char* task;           ///< the task that it is for; "": none
 };
 
-inline constexpr std::array<ProjectTemplate, 7> kProjectTemplates{{
+inline constexpr std::array<ProjectTemplate, 8> kProjectTemplates{{
     {"intro", "the introduction task", "apps/par_intro/template", "par_intro_template",
      "par_intro"},
     {"planning", "the planning task", "apps/par_planning/template", "par_planning_template",
