@@ -108,10 +108,11 @@ const std::map<std::string, std::set<std::string>>& sim_arrows() {
       {"canvas", {"core", "world"}},
       {"io", {"core", "world", "canvas"}},
       {"scan", {"core"}},
+      {"navigation", {"core", "world"}},
       {"physics", {"core", "world", "scan"}},
-      {"devices", {"core", "world", "io", "canvas", "scan", "physics"}},
-      {"simulation", {"core", "world", "io", "canvas", "scan", "physics", "devices"}},
-      {"render", {"core", "world", "canvas", "simulation"}},
+      {"devices", {"core", "world", "io", "canvas", "scan", "navigation", "physics"}},
+      {"simulation", {"core", "world", "io", "canvas", "scan", "navigation", "physics", "devices"}},
+      {"render", {"core", "world", "canvas", "navigation", "simulation"}},
   };
   return kArrows;
 }

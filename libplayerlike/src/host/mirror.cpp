@@ -13,6 +13,7 @@
 #include "host/scan_difference.h"
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"
+#include "sim/devices/amcl.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 
@@ -83,6 +84,8 @@ class Mirror::Robot {
             int real_port);
   void warn_of_simulated(const std::vector<RobotInfo>& robots) const;
   [[nodiscard]] std::optional<sim::Command> translated(const sim::Command& command) const;
+  [[nodiscard]] static std::shared_ptr<const sim::PoseReading> pose_in(
+      const sim::SharedReading& reading);
   void note_pose(const sim::PoseReading& reading);
   void note_scan(const sim::LaserReading& scan, WallClock::time_point at);
   [[nodiscard]] bool fits(int device, const sim::Reading& reading);
@@ -302,7 +305,7 @@ void Mirror::Robot::before_step(std::vector<Given>& given) {
     latency_.add(seconds(now - arrival.at));
     // First the pose: a scan of the same round is drawn from there.
     if (!(arrival.device == pose_device_)) continue;
-    if (const auto* pose = dynamic_cast<const sim::PoseReading*>(arrival.reading.get())) {
+    if (const auto pose = pose_in(arrival.reading)) {
       note_pose(*pose);
     } else if (!std::exchange(pose_refused_, true)) {
       warn_(address_text(real_.pose_interface, real_.pose_index) + " of the real robot of " +
@@ -313,13 +316,29 @@ void Mirror::Robot::before_step(std::vector<Given>& given) {
     for (std::size_t i = 0; i < feeds_.size(); ++i) {
       if (feeds_[i] != arrival.device) continue;
       const auto device = static_cast<int>(i);
-      if (!fits(device, *arrival.reading)) continue;
-      given.emplace_back(DeviceId{index_, device}, arrival.reading);
+      sim::SharedReading reading = arrival.reading;
+      if (simulation_.device(index_, device).type() == "pose") {
+        if (auto pose = pose_in(reading)) reading = std::move(pose);
+      }
+      if (!fits(device, *reading)) continue;
+      given.emplace_back(DeviceId{index_, device}, reading);
       if (laser_ != device) continue;
       scan_ = std::dynamic_pointer_cast<const sim::LaserReading>(arrival.reading);
       if (scan_) note_scan(*scan_, arrival.at);
     }
   }
+}
+
+// The pose in a reading: measured, or the most likely one of a localisation.
+std::shared_ptr<const sim::PoseReading> Mirror::Robot::pose_in(const sim::SharedReading& reading) {
+  if (auto measured = std::dynamic_pointer_cast<const sim::PoseReading>(reading)) return measured;
+  const auto* filtered = dynamic_cast<const sim::AmclReading*>(reading.get());
+  if (filtered == nullptr || filtered->hypotheses.empty()) return nullptr;
+  auto pose = std::make_shared<sim::PoseReading>();
+  pose->time_ns = filtered->time_ns;
+  pose->sequence = filtered->sequence;
+  pose->pose = filtered->hypotheses.front().mean;
+  return pose;
 }
 
 // Proxies expect the kind of reading that the simulated device makes.

@@ -13,6 +13,7 @@
 #include "host/core.h"
 #include "host/object_properties.h"
 #include "session/checks.h"
+#include "sim/devices/amcl.h"
 
 namespace playerlike {
 namespace {
@@ -272,6 +273,29 @@ struct Host::Core::RequestHandler {
     const int robot = what.device.robot;
     core.results_.note_goal(robot, core.simulation_.body(robot).X_WB * what.goal_m,
                             what.tolerance_m);
+  }
+  std::vector<LocalizationParticle> operator()(const ParticlesRequest& what) const {
+    const DeviceInfo& info = require_device(core.robots_, what.device);
+    core.require_readable(client, what.device.robot);
+    std::vector<sim::Particle> particles;
+    {
+      const Lock lock = core.lock_with_priority();
+      client.require_open();
+      const auto* amcl = dynamic_cast<const sim::Amcl*>(
+          &core.simulation_.device(what.device.robot, what.device.device));
+      if (amcl == nullptr) {
+        throw SessionError(SessionError::Code::kBadArgument,
+                           "device " + info.name + " of type \"" + info.type +
+                               "\" has no particles; amcl devices have them");
+      }
+      particles = amcl->localizer().particles();
+    }
+    std::vector<LocalizationParticle> answer;
+    answer.reserve(particles.size());
+    for (const sim::Particle& particle : particles) {
+      answer.push_back({particle.pose, particle.weight});
+    }
+    return answer;
   }
   void operator()(const SetBlackboardRequest& what) const {
     const Lock lock = lock_readable();

@@ -11,6 +11,7 @@
 
 #include "sim/core/number_text.h"
 #include "sim/devices/builtin.h"
+#include "sim/world/occupancy_map.h"
 
 namespace playerlike {
 namespace {
@@ -363,21 +364,11 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
 }
 
 sim::CanvasDescription map_grid(const sim::ArenaDescription& arena, double cell_size_m) {
-  constexpr int kMaxSide = 8192;
-  // The tolerance keeps rounding from adding a cell to a side that is a whole number of cells long.
-  const sim::Vec2 cells = ((arena.size / cell_size_m).array() - 1e-6).ceil().max(1.0);
-  if (!(cell_size_m > 0.0) || !(cells.maxCoeff() <= kMaxSide)) {
-    throw SessionError(SessionError::Code::kBadArgument,
-                       "a map of this arena needs a cell size of at least " +
-                           sim::rounded_text(arena.size.maxCoeff() / kMaxSide, 6) +
-                           " m, but it is " + sim::rounded_text(cell_size_m, 6));
-  }
-  sim::CanvasDescription grid;
-  grid.width = static_cast<int>(cells.x());
-  grid.height = static_cast<int>(cells.y());
-  grid.cell_size_m = cell_size_m;
-  grid.origin = arena.origin;
-  return grid;
+  if (const auto grid = sim::floor_grid(arena, cell_size_m)) return *grid;
+  throw SessionError(SessionError::Code::kBadArgument,
+                     "a map of this arena needs a cell size of at least " +
+                         sim::rounded_text(arena.size.maxCoeff() / sim::kMaxCanvasSide, 6) +
+                         " m, but it is " + sim::rounded_text(cell_size_m, 6));
 }
 
 namespace {

@@ -93,7 +93,8 @@ class Localize final : public ProxyBacked<playerc_localize_t, PlayerCc::Localize
     num_particles = static_cast<int>(count);
     particles = copied(particles_, count, [&](uint32_t i) {
       const player_pose2d_t pose = proxy_or_throw().GetParticlePose(static_cast<int>(i));
-      return playerc_localize_particle_t{{pose.px, pose.py, pose.pa}, 1.0 / count};
+      return playerc_localize_particle_t{{pose.px, pose.py, pose.pa},
+                                         proxy_or_throw().GetParticleWeight(static_cast<int>(i))};
     });
   }
 

@@ -160,6 +160,8 @@ constexpr const char* kListOf<RobotInfo> = "a list of robots";
 template <>
 constexpr const char* kListOf<sim::LayerInfo> = "a list of layers";
 template <>
+constexpr const char* kListOf<LocalizationParticle> = "a list of particles";
+template <>
 constexpr const char* kListOf<BlackboardEntry> = "a list of entries";
 
 // --- Values

@@ -7,14 +7,22 @@
 #include "libplayerc++/localizeproxy.h"
 #include "proxies/link.h"
 #include "session/player_values.h"
+#include "sim/devices/amcl.h"
 #include "sim/devices/localization.h"
 
 namespace PlayerCc {
 
 namespace {
 
-player_pose2d_t mean_of(const sim::PoseReading& reading) {
-  return {reading.pose.x_m, reading.pose.y_m, reading.pose.yaw_rad};
+using sim::AmclReading;
+using sim::PoseReading;
+
+/// Number of hypotheses in the newest reading, which is that of a filter or a measured pose.
+uint32_t count_of(const playerlike::Newest& newest) {
+  if (const auto* reading = newest.find<AmclReading>()) {
+    return static_cast<uint32_t>(reading->hypotheses.size());
+  }
+  return newest.find<PoseReading>() == nullptr ? 0 : 1;
 }
 
 }  // namespace
@@ -25,16 +33,16 @@ LocalizeProxy::LocalizeProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(a
 
 LocalizeProxy::~LocalizeProxy() { ClientProxy::Unsubscribe(); }
 
-uint32_t LocalizeProxy::GetMapSizeX() const { return GetVar(0U); }
-uint32_t LocalizeProxy::GetMapSizeY() const { return GetVar(0U); }
+uint32_t LocalizeProxy::GetMapSizeX() const { return Look(&AmclReading::map_width); }
+uint32_t LocalizeProxy::GetMapSizeY() const { return Look(&AmclReading::map_height); }
 uint32_t LocalizeProxy::GetMapTileX() const { return GetVar(0U); }
 uint32_t LocalizeProxy::GetMapTileY() const { return GetVar(0U); }
-double LocalizeProxy::GetMapScale() const { return GetVar(0.0); }
-uint32_t LocalizeProxy::GetPendingCount() const { return GetVar(0U); }
+double LocalizeProxy::GetMapScale() const { return Look(&AmclReading::map_resolution_m); }
+uint32_t LocalizeProxy::GetPendingCount() const { return Look(&AmclReading::pending); }
 
 uint32_t LocalizeProxy::GetHypothCount() const {
   const scoped_lock_t lock(LockData("LocalizeProxy::GetHypothCount"));
-  return mLink->newest.find<sim::PoseReading>() == nullptr ? 0 : 1;
+  return count_of(mLink->newest);
 }
 
 uint32_t LocalizeProxy::GetNumHypoths() const { return GetHypothCount(); }
@@ -42,17 +50,34 @@ uint32_t LocalizeProxy::GetNumHypoths() const { return GetHypothCount(); }
 player_localize_hypoth_t LocalizeProxy::GetHypoth(uint32_t aIndex) const {
   const char* fun = "LocalizeProxy::GetHypoth";
   const scoped_lock_t lock(LockData(fun));
-  const auto* reading = mLink->newest.find<sim::PoseReading>();
   constexpr ElementWords kHypotheses{"hypothesis", "hypotheses"};
-  if (!mLink->has_element(fun, kHypotheses, aIndex, reading == nullptr ? 0 : 1)) return {};
-  return playerlike::hypothesis_of<player_localize_hypoth_t>(*reading, mLink->info().properties);
+  if (!mLink->has_element(fun, kHypotheses, aIndex, count_of(mLink->newest))) return {};
+  if (const auto* reading = mLink->newest.find<AmclReading>()) {
+    return playerlike::hypothesis_of<player_localize_hypoth_t>(reading->hypotheses[aIndex]);
+  }
+  return playerlike::hypothesis_of<player_localize_hypoth_t>(*mLink->newest.find<PoseReading>(),
+                                                             mLink->info().properties);
 }
 
 int LocalizeProxy::GetParticles() {
-  const scoped_lock_t lock(LockData("LocalizeProxy::GetParticles"));
-  const auto* reading = mLink->newest.find<sim::PoseReading>();
-  if (reading == nullptr) return -1;
-  mParticles.assign(1, mean_of(*reading));
+  const char* fun = "LocalizeProxy::GetParticles";
+  const scoped_lock_t lock(LockData(fun));
+  if (const auto* reading = mLink->newest.find<PoseReading>()) {
+    mParticles.assign(1, {reading->pose.x_m, reading->pose.y_m, reading->pose.yaw_rad});
+    mWeights.assign(1, 1.0);
+    return 0;
+  }
+  if (mLink->newest.find<AmclReading>() == nullptr) return -1;
+  playerlike::translated(fun, [&] {
+    const auto particles =
+        mLink->core->session().request(playerlike::ParticlesRequest{mLink->binding.reading});
+    mParticles.clear();
+    mWeights.clear();
+    for (const playerlike::LocalizationParticle& particle : particles) {
+      mParticles.push_back({particle.pose.x_m, particle.pose.y_m, particle.pose.yaw_rad});
+      mWeights.push_back(particle.weight);
+    }
+  });
   return 0;
 }
 
@@ -67,8 +92,13 @@ uint32_t LocalizeProxy::GetNumParticles() const {
   return static_cast<uint32_t>(mParticles.size());
 }
 
+double LocalizeProxy::GetParticleWeight(int index) const {
+  const char* fun = "LocalizeProxy::GetParticleWeight";
+  const scoped_lock_t lock(LockData(fun));
+  return mLink->element_or_zero(fun, {"particle", "particles"}, index, mWeights);
+}
+
 void LocalizeProxy::SetPose(double pose[3], double cov[6]) {
-  static_cast<void>(cov);
   const char* fun = "LocalizeProxy::SetPose";
   if (pose == nullptr) {
     playerlike::refuse(fun, "the pose is a null pointer");
@@ -76,9 +106,18 @@ void LocalizeProxy::SetPose(double pose[3], double cov[6]) {
   playerlike::require_finite(
       fun, {{"the pose's x", pose[0]}, {"the pose's y", pose[1]}, {"the pose's yaw", pose[2]}});
   const scoped_lock_t lock(LockData(fun));
-  // Simulated localisation knows the pose.
-  if (mLink->property("accepts_pose", 0.0) == 0.0) return;
-  mLink->send(fun, sim::SetPoseCommand{{pose[0], pose[1], sim::normalize_angle(pose[2])}});
+  if (mLink->info().type != "amcl") return;  // the arena's localisation knows the pose
+  sim::SetPoseCommand command{{pose[0], pose[1], sim::normalize_angle(pose[2])}};
+  if (cov != nullptr) {
+    // Arrays of programs for Player 2.1 end after the variances.
+    command.variance = {cov[0], cov[1], cov[2]};
+    if (!sim::is_valid({*command.variance, {}})) {
+      playerlike::refuse(fun,
+                         "the covariance's first three numbers, the variances of x, y and "
+                         "yaw, must be finite and not negative");
+    }
+  }
+  mLink->send(fun, command);
 }
 
 }  // namespace PlayerCc

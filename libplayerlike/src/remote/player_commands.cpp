@@ -80,12 +80,16 @@ struct Converter {
       return request_of(PLAYER_POSITION2D_REQ_SET_ODOM, payload);
     }
     if (interface == PLAYER_LOCALIZE_CODE) {
-      // The command has no covariance: 0.5 m and 15 degrees.
+      // Without a covariance: 0.5 m and 15 degrees.
       constexpr double kPosition_m2 = 0.25;
       constexpr double kHeading_rad2 = 0.0685;
       player::LocalizeSetPose payload;
       payload.mean = pose_of(what.pose);
-      payload.cov = {kPosition_m2, kPosition_m2, kHeading_rad2, 0.0, 0.0, 0.0};
+      const std::array<double, 3> variance =
+          what.variance.value_or(std::array{kPosition_m2, kPosition_m2, kHeading_rad2});
+      const std::array<double, 3> covariance = what.covariance.value_or(std::array<double, 3>{});
+      std::copy(variance.begin(), variance.end(), payload.cov.begin());
+      std::copy(covariance.begin(), covariance.end(), payload.cov.begin() + 3);
       return request_of(PLAYER_LOCALIZE_REQ_SET_POSE, payload);
     }
     if (interface == PLAYER_IMU_CODE) {

@@ -11,6 +11,7 @@
 #include "session/range_settings.h"
 #include "sim/devices/actarray.h"
 #include "sim/devices/aio.h"
+#include "sim/devices/amcl.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/blinkenlight.h"
 #include "sim/devices/blobfinder.h"
@@ -64,18 +65,22 @@ Made position(std::uint8_t subtype, std::string_view payload) {
   return reading;
 }
 
-/// The pose is that of the most likely hypothesis.
+/// The most likely hypothesis first.
 Made localization(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_LOCALIZE_DATA_HYPOTHS) return nullptr;
   const auto data = decode<player::LocalizeData>(payload);
-  const auto best =
-      std::max_element(data.hypoths.begin(), data.hypoths.end(),
-                       [](const player::LocalizeHypoth& a, const player::LocalizeHypoth& b) {
-                         return a.alpha < b.alpha;
-                       });
-  if (best == data.hypoths.end()) return nullptr;
-  const auto reading = std::make_shared<sim::PoseReading>();
-  reading->pose = pose_of(best->mean);
+  if (data.hypoths.empty()) return nullptr;
+  const auto reading = std::make_shared<sim::AmclReading>();
+  reading->pending = data.pending_count;
+  for (const player::LocalizeHypoth& hypoth : data.hypoths) {
+    const auto& cov = hypoth.cov;
+    reading->hypotheses.push_back(
+        {pose_of(hypoth.mean), {{cov[0], cov[1], cov[2]}, {cov[3], cov[4], cov[5]}}, hypoth.alpha});
+  }
+  std::stable_sort(reading->hypotheses.begin(), reading->hypotheses.end(),
+                   [](const sim::PoseHypothesis& a, const sim::PoseHypothesis& b) {
+                     return a.weight > b.weight;
+                   });
   return reading;
 }
 

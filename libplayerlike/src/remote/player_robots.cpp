@@ -24,7 +24,7 @@ struct TypeRow {
 };
 constexpr TypeRow kTypes[] = {
     {PLAYER_POSITION2D_CODE, "odometry"},
-    {PLAYER_LOCALIZE_CODE, "pose"},
+    {PLAYER_LOCALIZE_CODE, "amcl"},
     {PLAYER_LASER_CODE, "laser"},
     {PLAYER_RANGER_CODE, "laser"},  // "sonar" if it has several elements, see complete_ranger()
     {PLAYER_SONAR_CODE, "sonar"},
@@ -312,9 +312,6 @@ void complete_device(unsigned interface, const AskDevice& ask, RobotInfo& robot,
       if (const auto geometry = ask_for<player::ActarrayGeom>(ask, PLAYER_ACTARRAY_REQ_GET_GEOM)) {
         complete_arm(*geometry, properties);
       }
-      break;
-    case PLAYER_LOCALIZE_CODE:
-      properties["accepts_pose"] = 1.0;  // see LocalizeProxy::SetPose()
       break;
     default:
       break;

@@ -608,6 +608,25 @@ std::unique_ptr<Session> PlayerSession::open_follower() {
 
 // --- Requests
 
+std::vector<LocalizationParticle> PlayerSession::particles(DeviceId device) {
+  Address& address = address_of(device);
+  if (address.at.interf != PLAYER_LOCALIZE_CODE) {
+    throw SessionError(SessionError::Code::kBadArgument, address.name + " has no particles");
+  }
+  const std::string bytes = ask(address, PLAYER_LOCALIZE_REQ_GET_PARTICLES, {});
+  std::vector<LocalizationParticle> particles;
+  try {
+    for (const auto& particle : player::decode<player::LocalizeGetParticles>(bytes).particles) {
+      const auto& [px, py, pa] = particle.pose;
+      if (!std::isfinite(px + py + pa + particle.alpha)) continue;
+      particles.push_back({{px, py, sim::normalize_angle(pa)}, particle.alpha});
+    }
+  } catch (const protocol::ProtocolError& e) {
+    refuse_bytes(*link(), e.what());
+  }
+  return particles;
+}
+
 struct PlayerSession::RequestHandler {
   PlayerSession& session;
 
@@ -634,6 +653,9 @@ struct PlayerSession::RequestHandler {
   /// Only the simulation's report and pictures use it.
   void operator()(const NoteGoalRequest& what) const {
     static_cast<void>(session.address_of(what.device));
+  }
+  std::vector<LocalizationParticle> operator()(const ParticlesRequest& what) const {
+    return session.particles(what.device);
   }
   CanvasInfo operator()(const CanvasInfoRequest& /*what*/) const {
     constexpr double kCell_m = 0.02;

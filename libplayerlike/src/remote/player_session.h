@@ -134,6 +134,8 @@ class PlayerSession final : public Session, private DeviceGraphics, private Play
 
   /// As above, to an address that is opened before, and again after a reconnection.
   std::string ask(Address& address, std::uint8_t subtype, std::string_view payload);
+  /// Requests the particles of a localisation.
+  std::vector<LocalizationParticle> particles(DeviceId device);
   /// Ends the connection, since an answer cannot be understood. @throws SessionError kDisconnected.
   [[noreturn]] static void refuse_bytes(PlayerLink& link, const std::string& why);
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "libplayerinterface/player_constants.h"
+#include "playerlike/messages/requests.h"
 #include "session/range_settings.h"
 #include "sim/core/pose.h"
 #include "sim/devices/actarray.h"
@@ -19,6 +21,7 @@
 #include "sim/devices/gripper.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/localization.h"
+#include "sim/navigation/particles.h"
 #include "sim/world/occupancy_map.h"
 
 /// Readings and settings in Player's form. The templates fill the structs of Player's C headers
@@ -162,6 +165,31 @@ template <typename Hypothesis>
   hypothesis.alpha = 1.0;
   return hypothesis;
 }
+template <typename Hypothesis>
+[[nodiscard]] Hypothesis hypothesis_of(const sim::PoseHypothesis& of) {
+  Hypothesis hypothesis = {};
+  hypothesis.mean = {of.mean.x_m, of.mean.y_m, of.mean.yaw_rad};
+  for (std::size_t i = 0; i < 3; ++i) {
+    hypothesis.cov[i] = of.covariance.variance[i];
+    hypothesis.cov[i + 3] = of.covariance.covariance[i];
+  }
+  hypothesis.alpha = of.weight;
+  return hypothesis;
+}
+
+/// The command for a pose and Player's covariance: xx, yy, yaw yaw, xy, y yaw, x yaw.
+[[nodiscard]] inline sim::SetPoseCommand set_pose_command(const sim::Pose& pose,
+                                                          const std::array<double, 6>& cov) {
+  return {pose, {{cov[0], cov[1], cov[2]}}, {{cov[3], cov[4], cov[5]}}};
+}
+
+/// Mean of particles, and the mean of the variances of x and y: what Player's GET_PARTICLES tells
+/// besides the particles. 0 without particles.
+struct ParticleMoments {
+  sim::Pose mean;
+  double variance_m2 = 0.0;
+};
+[[nodiscard]] ParticleMoments moments_of(const std::vector<LocalizationParticle>& particles);
 /// @}
 
 /// Greatest absolute value of cells of Player's maps.

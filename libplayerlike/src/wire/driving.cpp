@@ -8,6 +8,7 @@
 #include "libplayerinterface/player_constants.h"
 #include "proxies/goal_driver.h"
 #include "session/player_values.h"
+#include "sim/devices/amcl.h"
 #include "sim/devices/localization.h"
 #include "wire/robot_device.h"
 
@@ -169,10 +170,19 @@ class Localize final : public RobotDevice {
   using RobotDevice::RobotDevice;
 
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    player::LocalizeData data;
+    if (const auto* filtered = reading_as<sim::AmclReading>(reading)) {
+      data.pending_count = filtered->pending;
+      data.pending_time = sim::to_seconds(filtered->time_ns);
+      for (const sim::PoseHypothesis& hypothesis : filtered->hypotheses) {
+        data.hypoths.push_back(hypothesis_of<player::LocalizeHypoth>(hypothesis));
+      }
+      sink.data(PLAYER_LOCALIZE_DATA_HYPOTHS, player::encode(data));
+      return;
+    }
     const auto* measured = reading_as<sim::PoseReading>(reading);
     if (measured == nullptr) return;
     pose_ = pose_2d(measured->pose);
-    player::LocalizeData data;
     data.hypoths.push_back(hypothesis_of<player::LocalizeHypoth>(*measured, *settings()));
     sink.data(PLAYER_LOCALIZE_DATA_HYPOTHS, player::encode(data));
   }
@@ -181,14 +191,23 @@ class Localize final : public RobotDevice {
   std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
     switch (subtype) {
       case PLAYER_LOCALIZE_REQ_SET_POSE: {
-        // A simulated localisation needs no first pose: it is checked only.
         const auto asked = player::decode<player::LocalizeSetPose>(payload);
         for (const double number : {asked.mean.px, asked.mean.py, asked.mean.pa}) {
           require_number("a coordinate of the pose", number);
         }
+        if (!is_filter()) return empty_payload();  // it needs no first pose
+        for (const double number : asked.cov) require_number("a covariance", number);
+        const sim::Pose pose{asked.mean.px, asked.mean.py, sim::normalize_angle(asked.mean.pa)};
+        const sim::SetPoseCommand command = set_pose_command(pose, asked.cov);
+        if (!sim::is_valid({*command.variance, *command.covariance})) {
+          throw SessionError(SessionError::Code::kBadArgument,
+                             "the covariance of the pose is not positive semidefinite");
+        }
+        send(command);
         return empty_payload();
       }
       case PLAYER_LOCALIZE_REQ_GET_PARTICLES:
+        if (is_filter()) return particles();
         if (!pose_) return std::nullopt;
         return player::encode(player::LocalizeGetParticles{*pose_, 0.0, {{*pose_, 1.0}}});
       default:
@@ -197,7 +216,20 @@ class Localize final : public RobotDevice {
   }
 
  private:
-  std::optional<player::Pose2d> pose_;  // none before the first reading
+  [[nodiscard]] bool is_filter() const { return info().type == "amcl"; }
+
+  [[nodiscard]] std::string particles() const {
+    const auto particles = session().request(ParticlesRequest{binding().reading});
+    const ParticleMoments moments = moments_of(particles);
+    player::LocalizeGetParticles answer{pose_2d(moments.mean), moments.variance_m2, {}};
+    answer.particles.reserve(particles.size());
+    for (const LocalizationParticle& particle : particles) {
+      answer.particles.push_back({pose_2d(particle.pose), particle.weight});
+    }
+    return player::encode(answer);
+  }
+
+  std::optional<player::Pose2d> pose_;  // of a measured pose; none before the first reading
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 // written by hand, since linkers drop self-registering objects from static libraries.
 // clang-format off
 #define SIM_DEVICE_KINDS(KIND) \
-  KIND(actarray) KIND(aio) KIND(battery) KIND(bumper) KIND(blinkenlight) KIND(blobfinder) \
+  KIND(actarray) KIND(aio) KIND(amcl) KIND(battery) KIND(bumper) KIND(blinkenlight) KIND(blobfinder) \
   KIND(camera) KIND(collision) KIND(compass) KIND(fiducial) KIND(gps) \
   KIND(gripper) KIND(imu) KIND(dio) KIND(infrared) KIND(laser) \
   KIND(motion) KIND(odometry) KIND(opaque) KIND(pen) KIND(pose) \

@@ -25,6 +25,8 @@ constexpr Field kMotorEnable[] = {
 };
 constexpr Field kSetPose[] = {
     field<&SetPoseCommand::pose>("", "m, rad"),
+    field<&SetPoseCommand::variance>("variance", "m^2, m^2, rad^2").or_default(),
+    field<&SetPoseCommand::covariance>("covariance", "m^2, m rad, m rad").or_default(),
 };
 constexpr Field kGoto[] = {
     field<&GotoCommand::goal_m>("", "m"),

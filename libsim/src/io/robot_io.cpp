@@ -16,6 +16,9 @@
 namespace sim::io {
 namespace {
 
+// The type of device that a world may write as a driver, as Player's configuration files do.
+constexpr const char* kDriverDevice = "amcl";
+
 constexpr NumberRange kVertex{-100.0, 100.0, false, "m"};
 constexpr NumberRange kRobotLength{kLeastLength_m, 100.0, false, "m"};
 
@@ -197,6 +200,27 @@ std::vector<DeviceDescription> read_devices(Reader& owner, std::vector<DeviceDes
   std::vector<DeviceDescription> all;
   for (auto& [name, device] : devices) all.push_back(std::move(device));
   return all;
+}
+
+bool is_driver_device(Reader& driver) {
+  const std::optional<Reader> type = driver.child("type");
+  return type && type->is_string() && type->scalar_text() == kDriverDevice;
+}
+
+void read_driver_device(Reader& driver, std::vector<DeviceDescription>& devices,
+                        const std::vector<DeviceType>& types) {
+  std::map<std::string, DeviceDescription> all;
+  for (DeviceDescription& device : devices) all.emplace(device.name, std::move(device));
+  const std::string name = kDriverDevice;
+  if (all.contains(name)) {
+    driver.issue("world/duplicate-name", "one amcl for a robot, as a device or as a driver",
+                 "another device " + in_quotes(name),
+                 "further ones are \"devices\" with names of their own", "type");
+  } else {
+    read_device(driver, name, {}, types, all);
+  }
+  devices.clear();
+  for (auto& [key, device] : all) devices.push_back(std::move(device));
 }
 
 std::map<std::string, std::vector<std::string>> read_interfaces(

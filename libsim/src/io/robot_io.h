@@ -30,6 +30,14 @@ namespace sim::io {
                                                           std::vector<DeviceDescription> base,
                                                           const std::vector<DeviceType>& types);
 
+/// Whether an entry of a robot's "drivers" is a device of libsim (amcl), which computes a reading
+/// from those of other devices.
+[[nodiscard]] bool is_driver_device(Reader& driver);
+/// Adds the device of such an entry. Its settings are those of the device, and its name is the
+/// type.
+void read_driver_device(Reader& driver, std::vector<DeviceDescription>& devices,
+                        const std::vector<DeviceType>& types);
+
 /// Reads the member "interfaces" of a robot or model: the order of devices for each interface.
 /// Whether a device provides the interface is not checked here; the client library knows that.
 /// @param base  the order for interfaces that the member does not list; devices that do not exist

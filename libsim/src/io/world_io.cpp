@@ -417,6 +417,14 @@ class WorldReader {
     if (!model_is_valid) return;  // the rest depends on the model
     const RobotModel& model = *find_robot_model(world_, robot.model);
     robot.devices = read_devices(reader, default_devices(reader, model, types_), types_);
+    for (Reader& driver : reader.array("drivers", 100)) {
+      if (!driver.expect_object()) continue;
+      if (is_driver_device(driver)) {
+        read_driver_device(driver, robot.devices, types_);
+      } else {
+        robot.drivers.push_back(read_driver(driver));
+      }
+    }
     if (std::optional<Reader> proxies = reader.object("proxies")) {
       for (const std::string& interface : proxies->keys()) {
         robot.proxies[interface] = static_cast<int>(proxies->integer(interface, 0, 0, 65535));
@@ -425,9 +433,6 @@ class WorldReader {
     robot.fiducial = read_fiducial(reader);
     robot.real = read_real_robot(reader);
     robot.interfaces = read_interfaces(reader, robot.devices, model.interfaces);
-    for (Reader& driver : reader.array("drivers", 100)) {
-      if (driver.expect_object()) robot.drivers.push_back(read_driver(driver));
-    }
     reader.finish();
   }
 

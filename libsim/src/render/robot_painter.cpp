@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "render/robot_place.h"
@@ -19,6 +20,8 @@ constexpr double kAnyLength_px = 1e9;
 constexpr Colour kArm{0xc6, 0xcd, 0xd8};
 // Fans are short if there are more robots than this.
 constexpr std::ptrdiff_t kMostFans = 20;
+// Of one robot's particles at most this many are drawn.
+constexpr std::size_t kMostParticles = 1500;
 
 // Simplifies a polyline: the result passes all omitted points within `tolerance_px`, and none of
 // its segments is longer than `longest_px` unless an original one was. Appending points changes
@@ -70,6 +73,27 @@ std::vector<Vec2> simplified(const std::vector<Vec2>& points, double tolerance_p
   }
   if (!kept.empty() && last != kept.back()) kept.push_back(last);
   return kept;
+}
+
+// The ellipse of a hypothesis' position at two standard deviations, in W; at least 2 cm wide.
+std::vector<Vec2> ellipse_of(const PoseHypothesis& hypothesis) {
+  constexpr int kCorners = 48;
+  constexpr double kLeast_m2 = 1e-4;
+  const auto [xx, yy, aa] = hypothesis.covariance.variance;
+  const double xy = hypothesis.covariance.covariance[0];
+  // Principal axes of a symmetric matrix of 2 x 2.
+  const double turn = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  const double middle = 0.5 * (xx + yy);
+  const double half = std::hypot(0.5 * (xx - yy), xy);
+  const double major = 2.0 * std::sqrt(std::max(kLeast_m2, middle + half));
+  const double minor = 2.0 * std::sqrt(std::max(kLeast_m2, middle - half));
+  const Pose X_WE{hypothesis.mean.x_m, hypothesis.mean.y_m, turn};
+  std::vector<Vec2> rim;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    rim.push_back(X_WE * Vec2(major * std::cos(angle), minor * std::sin(angle)));
+  }
+  return rim;
 }
 
 class RobotPainter {
@@ -157,6 +181,45 @@ class RobotPainter {
         painter_.fill_ring(b, radius, layout_.line_px(1.8, 1.0), opaque(robot.colour));
       }
       painter_.fill(lines, opaque(robot.colour), 0.7);
+    }
+  }
+
+  // Draws the particles of robots' localisations as short strokes along their headings, with a dot
+  // at their positions, and the ellipses of the hypotheses, with two standard deviations.
+  void draw_localisations() {
+    for (const RobotSnapshot& robot : scene_.robots) {
+      if (robot.particles.empty()) continue;
+      const Colour ink = mix(opaque(robot.colour), palette::kInk, 0.35);
+      const std::size_t stride = 1 + (robot.particles.size() - 1) / kMostParticles;
+      Shape strokes;
+      Shape dots;
+      for (std::size_t i = 0; i < robot.particles.size(); i += stride) {
+        const Pose& X_WB = robot.particles[i];
+        const Vec2 foot = layout_(X_WB.position());
+        const Vec2 along = layout_(X_WB * Vec2(1.0, 0.0)) - foot;
+        const double length = along.norm();
+        if (!is_drawable(foot) || !is_drawable(along) || !(length > 0.0)) continue;
+        strokes.add_line({foot, foot + along * (layout_.line_px(7.0, 4.0) / length)},
+                         layout_.line_px(0.8, 0.6));
+        dots.add_disc(foot, layout_.line_px(1.3, 0.8));
+      }
+      painter_.fill(strokes, ink, 0.55);
+      painter_.fill(dots, ink, 0.75);
+      for (const PoseHypothesis& hypothesis : robot.hypotheses) {
+        const std::vector<Vec2> rim = layout_(ellipse_of(hypothesis));
+        const Vec2 foot = layout_(hypothesis.mean.position());
+        const Vec2 along = layout_(hypothesis.mean * Vec2(1.0, 0.0)) - foot;
+        const double length = along.norm();
+        if (!is_drawable(foot) || !is_drawable(along) || !(length > 0.0) ||
+            !std::all_of(rim.begin(), rim.end(), [](const Vec2& p) { return is_drawable(p); })) {
+          continue;
+        }
+        Shape lines;
+        lines.add_line(rim, layout_.line_px(1.8, 1.2), true);
+        lines.add_line({foot, foot + along * (layout_.line_px(22.0, 12.0) / length)},
+                       layout_.line_px(1.8, 1.2));
+        painter_.fill(lines, ink, 0.35 + 0.6 * hypothesis.weight);
+      }
     }
   }
 
@@ -550,6 +613,7 @@ void draw_seen_surfaces(const SceneSnapshot& scene, const Layout& layout, Painte
   RobotPainter robots(scene, layout, painter);
   robots.draw_seen_surfaces();
   robots.draw_sights();
+  robots.draw_localisations();
 }
 
 void draw_robots(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {

@@ -113,6 +113,8 @@ class Simulation::Impl::Directory final : public DeviceDirectory {
     }
     return nullptr;
   }
+  // Devices are connected before anything changes in the arena.
+  [[nodiscard]] const ArenaDescription& arena() const override { return impl_.world.arena; }
 
  private:
   const Impl& impl_;

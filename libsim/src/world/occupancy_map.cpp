@@ -170,6 +170,18 @@ Polygon box_outline(const ObstacleDescription& box) {
 
 }  // namespace
 
+std::optional<CanvasDescription> floor_grid(const ArenaDescription& arena, double cell_size_m) {
+  // The tolerance keeps rounding from adding a cell to a side that is a whole number of cells long.
+  const Vec2 cells = ((arena.size / cell_size_m).array() - kTouching).ceil().max(1.0);
+  if (!(cell_size_m > 0.0) || !(cells.maxCoeff() <= kMaxCanvasSide)) return std::nullopt;
+  CanvasDescription grid;
+  grid.width = static_cast<int>(cells.x());
+  grid.height = static_cast<int>(cells.y());
+  grid.cell_size_m = cell_size_m;
+  grid.origin = arena.origin;
+  return grid;
+}
+
 OccupancyMap true_map(const ArenaDescription& arena, const CanvasDescription& grid) {
   SIM_ASSERT(grid.width >= 1 && grid.height >= 1 && grid.cell_size_m > 0.0);
   OccupancyMap map{grid.width, grid.height, grid.cell_size_m, grid.origin, {}};

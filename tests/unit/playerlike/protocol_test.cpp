@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -21,6 +22,7 @@
 #include "protocol/framing.h"
 #include "sim/devices/actarray.h"
 #include "sim/devices/aio.h"
+#include "sim/devices/amcl.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/blinkenlight.h"
 #include "sim/devices/blobfinder.h"
@@ -101,6 +103,12 @@ std::string any_text(std::mt19937_64& random) {
   std::string text;
   for (auto i = random() % 12; i > 0; --i) text += kPieces[random() % kPieces.size()];
   return text;
+}
+
+// Before the classes that call it: for an array they find no function by its type.
+template <typename F>
+void each(std::array<double, 3>& v, F& f) {
+  f(v[0]), f(v[1]), f(v[2]);
 }
 
 class Filler {
@@ -298,6 +306,16 @@ void each(sim::PtzReading& v, F& f) {
   f(v.pan_speed_radps), f(v.tilt_speed_radps), f(v.zoom_speed_radps);
 }
 template <typename F>
+void each(sim::PoseHypothesis& v, F& f) {
+  f(v.mean), f(v.weight), f(v.covariance.variance), f(v.covariance.covariance);
+}
+template <typename F>
+void each(sim::AmclReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.hypotheses), f(v.particles), f(v.pending), f(v.map_width), f(v.map_height);
+  f(v.map_resolution_m), f(v.updates);
+}
+template <typename F>
 void each(sim::BumperReading& v, F& f) {
   each_of_reading(v, f);
   f(v.pressed);
@@ -384,7 +402,7 @@ void each(sim::MotorEnableCommand& v, F& f) {
 }
 template <typename F>
 void each(sim::SetPoseCommand& v, F& f) {
-  f(v.pose);
+  f(v.pose), f(v.variance), f(v.covariance);
 }
 template <typename F>
 void each(sim::GotoCommand& v, F& f) {
@@ -1124,6 +1142,7 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
     EXPECT_EQ(sensor->type(), kind.name);
     EXPECT_TRUE(arrives_if<sim::ActArrayReading>(*sensor, GetParam()) ||
                 arrives_if<sim::AioReading>(*sensor, GetParam()) ||
+                arrives_if<sim::AmclReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BatteryReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BlinkenlightReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BlobfinderReading>(*sensor, GetParam()) ||
@@ -1182,6 +1201,7 @@ TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
     all.emplace_back("aio", std::make_unique<sim::AioReading>());
     all.emplace_back("battery", std::make_unique<sim::BatteryReading>());
     all.emplace_back("blobfinder", std::make_unique<sim::BlobfinderReading>());
+    all.emplace_back("amcl", std::make_unique<sim::AmclReading>());
     all.emplace_back("bumper", std::make_unique<sim::BumperReading>());
     all.emplace_back("camera", std::make_unique<sim::CameraReading>());
     all.emplace_back("ptz", std::make_unique<sim::PtzReading>());
@@ -1279,7 +1299,8 @@ TEST(Commands, AreRefusedWhenAnythingIsMissingWrongOrUnknown) {
     for (const auto& [key, value] : whole.items()) {
       json changed = whole;
       changed.erase(key);
-      const bool optional = key == "lateral" || (whole["kind"] == "light" && key != "kind");
+      const bool optional = key == "lateral" || key == "variance" || key == "covariance" ||
+                            (whole["kind"] == "light" && key != "kind");
       EXPECT_TRUE(refused(changed) || optional) << whole << " without " << key;
       for (const json& wrong : {json(nullptr), json("x"), json({1}), json(std::nan(""))}) {
         changed[key] = wrong;

@@ -79,6 +79,7 @@ std::vector<Request> examples() {
           SaveStateRequest{"before the door"},
           RestoreStateRequest{"s"},
           NoteGoalRequest{{1, 2}, {-0.5, 1.0 / 3.0}, 0.05},
+          ParticlesRequest{{0, 3}},
           LogRequest{},
           LogRequest{"f", true, false, true},
           SetBlackboardRequest{"g", "k", 1, 65535, {0, 255, 10}},
@@ -175,6 +176,9 @@ TEST_P(RequestMessages, AnswersComeOutAsTheyWentIn) {
       {ArenaRequest{}, arena_status()},
       {ArenaEventsRequest{}, ArenaEventList{}},
       {ArenaEventsRequest{}, ArenaEventList{all_kinds_of_events(), 40, 21}},
+      {ParticlesRequest{}, std::vector<LocalizationParticle>{}},
+      {ParticlesRequest{},
+       std::vector<LocalizationParticle>{{{0.1, -2.0, 1.0 / 3.0}, 0.25}, {{}, 0.75}}},
       {BlackboardRequest{}, std::vector<BlackboardEntry>{{"", "k", 1, 2, {0, 255}, 5, 6}}},
       {TimeRequest{}, time}};
   for (const auto& [request, answer] : all) {

@@ -436,6 +436,24 @@ struct NoteGoalRequest {
                                       field("tolerance", &NoteGoalRequest::tolerance_m)};
 };
 
+/// A possible pose of a robot, from its localisation.
+struct LocalizationParticle {
+  sim::Pose pose;       ///< X_WB
+  double weight = 0.0;  ///< the weights of all particles add up to 1
+  static constexpr std::tuple kFields{field("pose", &LocalizationParticle::pose),
+                                      field("weight", &LocalizationParticle::weight)};
+};
+/// Returns the present particles of a localisation (amcl).
+/// @throws SessionError kNoSuchDevice; kBadArgument for a device without particles; kNotAvailable
+///         for a device of another robot in a private world.
+struct ParticlesRequest {
+  using Result = std::vector<LocalizationParticle>;
+  static constexpr const char* kName = "particles";
+  static constexpr const char* kAnswer = "particles";
+  DeviceId device{-1, -1};
+  static constexpr std::tuple kFields{field("device", &ParticlesRequest::device)};
+};
+
 /// An entry of the blackboard, which all clients of a host share (docs/blackboard.md).
 struct BlackboardEntry {
   std::string group;               ///< at most 255 printable bytes; "" is a group, too
@@ -521,23 +539,26 @@ struct LogRequest {
 /// @}
 
 /// Any request.
-using Request = std::variant<
-    SubscribeRequest, UnsubscribeRequest, ReplaceRequest, OverflowRequest, JoinRequest,
-    SleepRequest, TimeRequest, PreferRealTimeRequest, NoteLooksRequest, AnswerTimeoutRequest,
-    RetriesRequest, FlushDrawingsRequest, SetCellsRequest, CellRequest, CellsRequest,
-    CreateLayerRequest, RemoveLayerRequest, SetLayerStyleRequest, LayersRequest, CanvasImageRequest,
-    CanvasInfoRequest, ResizeCanvasRequest, SaveImageRequest, SaveMapRequest, ViewModeRequest,
-    SetViewModeRequest, WorldMapRequest, ObjectPoseRequest, PlaceObjectRequest,
-    ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest, RestoreStateRequest,
-    NoteGoalRequest, LogRequest, SetBlackboardRequest, BlackboardRequest, ArenaRequest,
-    ArenaEventsRequest, SetConfigurationRequest, SetBlockRequest, SetTimerRequest, SetTrapRequest>;
+using Request =
+    std::variant<SubscribeRequest, UnsubscribeRequest, ReplaceRequest, OverflowRequest, JoinRequest,
+                 SleepRequest, TimeRequest, PreferRealTimeRequest, NoteLooksRequest,
+                 AnswerTimeoutRequest, RetriesRequest, FlushDrawingsRequest, SetCellsRequest,
+                 CellRequest, CellsRequest, CreateLayerRequest, RemoveLayerRequest,
+                 SetLayerStyleRequest, LayersRequest, CanvasImageRequest, CanvasInfoRequest,
+                 ResizeCanvasRequest, SaveImageRequest, SaveMapRequest, ViewModeRequest,
+                 SetViewModeRequest, WorldMapRequest, ObjectPoseRequest, PlaceObjectRequest,
+                 ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest,
+                 RestoreStateRequest, NoteGoalRequest, ParticlesRequest, LogRequest,
+                 SetBlackboardRequest, BlackboardRequest, ArenaRequest, ArenaEventsRequest,
+                 SetConfigurationRequest, SetBlockRequest, SetTimerRequest, SetTrapRequest>;
 
 /// The result of any request; std::monostate for requests without a result.
 using Answer =
     std::variant<std::monostate, std::uint32_t, sim::LayerId, std::optional<sim::CellValue>,
                  std::vector<sim::CellValue>, std::vector<sim::LayerInfo>, CanvasImage, CanvasInfo,
                  sim::ViewMode, WorldMap, ObjectPose, PropertyValue, LogStatus, TimeStatistics,
-                 std::vector<BlackboardEntry>, ArenaStatus, ArenaEventList>;
+                 std::vector<LocalizationParticle>, std::vector<BlackboardEntry>, ArenaStatus,
+                 ArenaEventList>;
 
 /// Calls the function of `visitor` for the type of a request. The function returns the `Result` of
 /// the request's type.

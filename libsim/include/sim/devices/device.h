@@ -26,6 +26,7 @@ namespace sim {
 class Motion;
 class Pen;
 class PhysicsWorld;
+struct ArenaDescription;
 struct RobotSnapshot;
 struct WorldDescription;
 
@@ -62,9 +63,13 @@ struct MotorEnableCommand {
   bool enabled;
 };
 /// Set the pose that a localisation device (pose, odometry) reports for the robot's current pose,
-/// or the heading that an imu reports.
+/// or the heading that an imu reports; or tell amcl where the robot is.
 struct SetPoseCommand {
   Pose pose;
+  /// Variances of x, y [m^2] and yaw [rad^2], for amcl; none: those of its settings.
+  std::optional<std::array<double, 3>> variance = {};
+  /// Covariances of x y [m^2], y yaw and x yaw [m rad], with `variance`; none: 0.
+  std::optional<std::array<double, 3>> covariance = {};
 };
 /// Drive to a point of the world (waypoint). All numbers must be finite, tolerance and speed > 0.
 struct GotoCommand {
@@ -203,6 +208,8 @@ class DeviceDirectory {
   ///     which all devices are connected again.
   [[nodiscard]] virtual const Device* find(std::string_view robot,
                                            std::string_view device) const = 0;
+  /// The arena in its state at the start of the run.
+  [[nodiscard]] virtual const ArenaDescription& arena() const = 0;
 };
 
 /// Actions that a device may perform on its robot. Valid only during the call that receives it.

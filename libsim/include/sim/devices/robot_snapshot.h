@@ -7,6 +7,7 @@
 
 #include "sim/core/colour.h"
 #include "sim/core/pose.h"
+#include "sim/navigation/particles.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -50,6 +51,8 @@ struct RobotSnapshot {
   std::vector<Polygon> paddles;         ///< of its grippers, in B [m]
   std::vector<std::vector<Vec2>> arms;  ///< of its arms, seen from above: the base, then the end of
                                         ///< each joint's link, in B [m]
+  std::vector<Pose> particles;          ///< of its localisation (amcl), in W
+  std::vector<PoseHypothesis> hypotheses;  ///< of its localisation (amcl), in W
   bool stalled = false;
   bool marked = false;  ///< highlighted, e.g. because the user selected it
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "sim/core/pose.h"
@@ -25,6 +26,13 @@ struct OccupancyMap {
                  static_cast<std::size_t>(column)];
   }
 };
+
+/// The grid of a map of an arena's whole floor, from its bottom left corner.
+/// @param cell_size_m  side of a cell [m].
+/// @return nullopt if the cell size is not a positive number, or if the map would have more than
+///     kMaxCanvasSide cells along a side.
+[[nodiscard]] std::optional<CanvasDescription> floor_grid(const ArenaDescription& arena,
+                                                          double cell_size_m);
 
 /// The true map of an arena: 1 for each cell that a solid reaches into, else 0. Solids are extended
 /// obstacles, dock separators, walls and, if the arena has a border, everything beyond the floor,
