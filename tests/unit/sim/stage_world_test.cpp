@@ -548,6 +548,7 @@ TEST_F(StageWorld, ErrorsSayWhereTheyAre) {
       {"model ( block ( points 3 point[0] [0 0] ) )", 1, "stage/bad-block", "no point[1]"},
       {"position ( ranger (\n sensor ( samples 9999 ) ) )", 2, "stage/bad-ranger", "9999"},
       {"position ( size [500 500 1] )", 1, "stage/bad-body", "250 m"},
+      {"\nposition ( pose [2e4 0 0 0] )", 2, "world/out-of-range", "20000"},
   };
   for (const BadStageWorld& one : bad) {
     const ConfigIssue issue = issue_of(one.text);

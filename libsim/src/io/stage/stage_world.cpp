@@ -171,6 +171,9 @@ void restore_places(std::vector<ConfigIssue>& issues, const Translation& transla
     issue.column = place->second.column;
     issue.pointer = issue.pointer.substr(std::min(issue.pointer.size(), key.size()));
   }
+  // What has no place, such as the size of the floor, follows from what has one.
+  const auto has_no_place = [](const ConfigIssue& issue) { return issue.line == 0; };
+  if (!std::all_of(issues.begin(), issues.end(), has_no_place)) std::erase_if(issues, has_no_place);
 }
 
 Result import(const std::string& path, const std::string& text, const std::string& config_path,
