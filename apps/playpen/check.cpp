@@ -78,6 +78,7 @@ std::string describe(const sim::RobotModel& model) {
 /// Reads a world in the way that a run does. The simulation resolves what devices are wired to.
 sim::WorldDescription read_world(const std::string& file) {
   sim::WorldDescription world = sim::load_world(file);
+  print_notes(world);
   playerlike::check_drivers(world);
   playerlike::check_interfaces(world);
   playerlike::RunSettings().apply_to(world);

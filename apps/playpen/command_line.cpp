@@ -54,6 +54,7 @@ CommandLine::CommandLine(std::string name)
   add_grade(*this);
   add_serve(*this);
   add_new(*this);
+  add_import(*this);
   add_list(*this);
   add_check(*this);
   add_render(*this);

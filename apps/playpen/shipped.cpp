@@ -328,9 +328,15 @@ std::string find_world(const std::string& name) {
   throw_missing(name, files, FileKind::kWorld);
 }
 
+void print_notes(const sim::WorldDescription& world) {
+  for (const std::string& note : world.notes) std::cerr << "playpen: " << note << '\n';
+}
+
 sim::WorldDescription load_found_world(const std::string& file) {
   try {
-    return sim::load_world(file);
+    sim::WorldDescription world = sim::load_world(file);
+    print_notes(world);
+    return world;
   } catch (const ConfigError&) {
     throw_if_other_kind(file, FileKind::kWorld);
     throw;

@@ -59,9 +59,12 @@ struct NamedFile {
 /// @throws sim::ConfigError file/missing, with the most similar names.
 [[nodiscard]] std::string find_world(const std::string& name);
 
-/// Reads a world that find_world() has found.
+/// Reads a world that find_world() has found, and prints its notes.
 /// @throws sim::ConfigError as sim::load_world() does; file/other-kind for a task or a model.
 [[nodiscard]] sim::WorldDescription load_found_world(const std::string& file);
+
+/// Prints what of a Stage world was left out or means something else, once for each thing.
+void print_notes(const sim::WorldDescription& world);
 
 /// Finds and reads the task that a name refers to; the name of a world refers to the task of that
 /// name.

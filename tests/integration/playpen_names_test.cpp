@@ -144,23 +144,6 @@ TEST(PlaypenNames, AFileOfAnotherKindIsSaidToBeOne) {
               AllOf(HasSubstr("found a world file"), HasSubstr("docs/grading.md")));
 }
 
-TEST(PlaypenNames, AWorldOfStagePointsToThePageAboutStage) {
-  const TemporaryFolder folder;
-  const std::string world = folder.write("simple.world", "interval_sim 100\nwindow ( size [1 1] )");
-  for (const std::vector<std::string>& call :
-       {std::vector<std::string>{"run", world, "--", "/bin/true"},
-        {"serve", world},
-        {"check", world},
-        {"render", world, "--out", folder / "a.png"}}) {
-    const ProcessResult result = playpen(call);
-    EXPECT_EQ(result.status, 2) << call.front();
-    EXPECT_THAT(result.err, AllOf(HasSubstr("simple.world"), HasSubstr("Stage"),
-                                  HasSubstr("docs/coming_from_stage.md")))
-        << call.front();
-  }
-  EXPECT_TRUE(fs::exists(std::string(PLAYPEN_SOURCE_DIR) + "/docs/coming_from_stage.md"));
-}
-
 TEST(PlaypenList, TellsOfEachWorldTaskAndModelInLinesThatFit) {
   const ProcessResult all = playpen({"list"});
   ASSERT_EQ(all.status, 0) << all.err;

@@ -99,6 +99,10 @@ std::shared_ptr<Host> host_of(const std::string& file) {
     unsetenv("PLAYPEN_PLAYER_PORT");
     const sim::LogHook log = log_to_stderr();
     sim::WorldDescription world = sim::load_world(file);
+    // `playpen run` has printed the notes of its world.
+    if (settings.kept_run.empty()) {
+      for (const std::string& note : world.notes) log(sim::LogLevel::kInfo, note);
+    }
     if (!settings.grading.nonce.empty()) {
       sim::WorldDescription as_run = world;
       settings.apply_to(as_run);

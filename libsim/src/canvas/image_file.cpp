@@ -71,7 +71,10 @@ std::uint8_t grey_of_pixel(const std::uint8_t* samples, int channels, int bytes)
   }
 }
 
-GreyImage load_png(const std::string& path, const Bytes& bytes) {
+/// Which number of a pixel an image keeps.
+enum class Keep : std::uint8_t { kLuma, kFirstSample };
+
+GreyImage load_png(const std::string& path, const Bytes& bytes, Keep keep) {
   // The signature of 8 bytes is followed by the chunk IHDR with length, name, width and height, of
   // 4 bytes each (PNG specification, W3C 2003, 5.2 and 11.2.2).
   if (bytes.size() < 24) fail(path, "the PNG is cut short");
@@ -84,10 +87,11 @@ GreyImage load_png(const std::string& path, const Bytes& bytes) {
   image.pixels.resize(static_cast<std::size_t>(image.width) *
                       static_cast<std::size_t>(image.height));
   auto out = image.pixels.begin();
-  const bool whole = decode_png(bytes, image.width, image.height, [&out](const PngRow& row) {
+  const bool whole = decode_png(bytes, image.width, image.height, [&](const PngRow& row) {
     const std::uint8_t* samples = row.samples;
     for (int x = 0; x < row.width; ++x, samples += row.channels * row.bytes_per_sample) {
-      *out++ = grey_of_pixel(samples, row.channels, row.bytes_per_sample);
+      *out++ = keep == Keep::kLuma ? grey_of_pixel(samples, row.channels, row.bytes_per_sample)
+                                   : to_8_bits(samples, row.bytes_per_sample);
     }
   });
   if (!whole)
@@ -114,6 +118,15 @@ class PgmReader {
                       what);
     }
     return value;
+  }
+
+  // A digit 0 or 1 of a PBM; blanks between the digits are not needed.
+  bool bit() {
+    skip_space();
+    if (at_ >= bytes_.size()) fail(path_, "the PBM is cut short");
+    const std::uint8_t digit = bytes_[at_++];
+    if (digit != '0' && digit != '1') fail(path_, "the PBM is damaged: expected 0 or 1");
+    return digit == '1';
   }
 
   // Raw samples follow one white-space character.
@@ -172,13 +185,87 @@ GreyImage load_pgm(const std::string& path, const Bytes& bytes) {
   return image;
 }
 
+// Netpbm's PBM, https://netpbm.sourceforge.net/doc/pbm.html: 1 is black.
+GreyImage load_pbm(const std::string& path, const Bytes& bytes) {
+  PgmReader reader(path, bytes);
+  const std::uint32_t width = reader.number("width");
+  const std::uint32_t height = reader.number("height");
+  check_size(path, width, height);
+  GreyImage image{static_cast<int>(width), static_cast<int>(height), {}};
+  image.pixels.reserve(std::size_t{width} * height);
+  if (bytes[1] == '1') {
+    if (bytes.size() < std::size_t{width} * height) fail(path, "the PBM is cut short");
+    for (std::size_t i = 0; i < std::size_t{width} * height; ++i) {
+      image.pixels.push_back(reader.bit() ? 0 : 255);
+    }
+    return image;
+  }
+  const std::size_t stride = (std::size_t{width} + 7) / 8;
+  const std::uint8_t* row = reader.raw(stride * height);
+  for (std::uint32_t y = 0; y < height; ++y, row += stride) {
+    for (std::uint32_t x = 0; x < width; ++x) {
+      image.pixels.push_back((row[x / 8] >> (7 - x % 8) & 1) != 0 ? 0 : 255);
+    }
+  }
+  return image;
+}
+
+// The red samples of Netpbm's PPM, https://netpbm.sourceforge.net/doc/ppm.html
+GreyImage load_ppm(const std::string& path, const Bytes& bytes) {
+  PgmReader reader(path, bytes);
+  const std::uint32_t width = reader.number("width");
+  const std::uint32_t height = reader.number("height");
+  check_size(path, width, height);
+  const std::uint32_t maximum = reader.number("greatest value");
+  if (maximum == 0 || maximum > 65535) {
+    fail(path, "the PPM is damaged: its greatest value must be in 1..65535");
+  }
+  const std::size_t count = std::size_t{width} * height;
+  const auto scaled = [&](std::uint32_t sample) {
+    return static_cast<std::uint8_t>((std::min(sample, maximum) * 255 + maximum / 2) / maximum);
+  };
+  GreyImage image{static_cast<int>(width), static_cast<int>(height), {}};
+  image.pixels.reserve(count);
+  if (bytes[1] == '3') {
+    if (bytes.size() < 6 * count - 1) fail(path, "the PPM is cut short");
+    for (std::size_t i = 0; i < count; ++i) {
+      image.pixels.push_back(scaled(reader.number("red")));
+      static_cast<void>(reader.number("green"));
+      static_cast<void>(reader.number("blue"));
+    }
+    return image;
+  }
+  const std::size_t wide = maximum > 255 ? 2 : 1;
+  const std::uint8_t* const raw = reader.raw(3 * wide * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t* const red = raw + 3 * wide * i;
+    image.pixels.push_back(scaled(wide == 2 ? red[0] * 256u + red[1] : red[0]));
+  }
+  return image;
+}
+
+bool is_png(const Bytes& bytes) { return starts_with(bytes, "\x89PNG\r\n\x1a\n"); }
+bool is_pgm(const Bytes& bytes) { return starts_with(bytes, "P2") || starts_with(bytes, "P5"); }
+
 }  // namespace
 
+GreyImage decode_grey_image(const std::vector<std::uint8_t>& bytes, const std::string& name) {
+  if (is_png(bytes)) return load_png(name, bytes, Keep::kLuma);
+  if (is_pgm(bytes)) return load_pgm(name, bytes);
+  fail(name, "not a PNG or PGM picture");
+}
+
 GreyImage load_grey_image(const std::string& path) {
+  return decode_grey_image(read_bytes(path), path);
+}
+
+GreyImage load_first_samples(const std::string& path) {
   const Bytes bytes = read_bytes(path);
-  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return load_png(path, bytes);
-  if (starts_with(bytes, "P2") || starts_with(bytes, "P5")) return load_pgm(path, bytes);
-  fail(path, "not a PNG or PGM picture");
+  if (is_png(bytes)) return load_png(path, bytes, Keep::kFirstSample);
+  if (is_pgm(bytes)) return load_pgm(path, bytes);
+  if (starts_with(bytes, "P1") || starts_with(bytes, "P4")) return load_pbm(path, bytes);
+  if (starts_with(bytes, "P3") || starts_with(bytes, "P6")) return load_ppm(path, bytes);
+  fail(path, "not a PNG, PBM, PGM or PPM picture");
 }
 
 }  // namespace sim

@@ -32,4 +32,13 @@ inline constexpr std::size_t kMaxGreyImageBytes = std::size_t{256} << 20;
 ///     not a regular file of at most kMaxGreyImageBytes.
 [[nodiscard]] GreyImage load_grey_image(const std::string& path);
 
+/// Like load_grey_image, from the bytes of a file.
+/// @param name  of the file, for messages.
+[[nodiscard]] GreyImage decode_grey_image(const std::vector<std::uint8_t>& bytes,
+                                          const std::string& name);
+
+/// Reads the first sample of each pixel of a PNG, PBM, PGM or PPM (plain or raw): red, or the shade
+/// of grey. Transparency has no influence. Otherwise like load_grey_image.
+[[nodiscard]] GreyImage load_first_samples(const std::string& path);
+
 }  // namespace sim

@@ -13,7 +13,7 @@
   KIND(gripper) KIND(imu) KIND(dio) KIND(infrared) KIND(laser) \
   KIND(motion) KIND(odometry) KIND(opaque) KIND(pen) KIND(pose) \
   KIND(proximity) KIND(ptz) KIND(sonar) KIND(speech) KIND(teleport) \
-  KIND(waypoint) KIND(wifi)
+  KIND(wander) KIND(waypoint) KIND(wifi)
 // clang-format on
 
 namespace sim {

@@ -63,7 +63,9 @@ Odometry::Odometry(std::string name, const OdometryParams& params, double wheel_
                   params.heading_drift_radps != 0.0 || params.scale_noise > 0.0 ||
                   params.heading_noise_rad > 0.0),
       motors_(std::move(motors)),
-      noise_(std::move(noise)) {
+      X_SB_(params.start),
+      noise_(std::move(noise)),
+      X_SR_(params.start) {
   draw_scale();
 }
 
@@ -244,6 +246,9 @@ constexpr Field kOdometrySettings[] = {
         "level", "",
         "form of MORSE's stream: `\"integrated\"`, `\"differential\"` or `\"raw\"`, see below")
         .one_of(kLevels),
+    field<&OdometryParams::start>("start", "m, degrees",
+                                  "the pose that it reads before the robot has moved")
+        .not_property(),
     field<&OdometryParams::wheel_ratio>("wheel_ratio", "",
                                         "E_d: diameter of the right wheel over that of the left")
         .within(0.5, 2.0)

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,8 @@ struct Reader::Document {
   /// a world may name any file as a model, and the content of such a file must not leak into
   /// messages.
   bool may_quote = true;
+  /// Files that the document may name besides those on disk: name -> content. Null: none.
+  const std::map<std::string, std::string>* files = nullptr;
 
   /// Adds an issue. After kMaxIssues it adds one last issue that says so, and ignores all later
   /// ones.

@@ -302,8 +302,13 @@ std::optional<RobotModel> read_model(Reader& robot, const std::string& name,
   document.what = "robot model";
   std::string text;
   if (is_file_name(name)) {
-    document.file = (folder_of(world.file) / name).string();
-    if (!read_file(document.file, text, document, "a file with a robot model", NamedBy::kFile)) {
+    const auto given = world.files == nullptr ? std::map<std::string, std::string>::const_iterator()
+                                              : world.files->find(name);
+    const bool in_memory = world.files != nullptr && given != world.files->end();
+    document.file = in_memory ? name : (folder_of(world.file) / name).string();
+    if (in_memory) text = given->second;
+    if (!in_memory &&
+        !read_file(document.file, text, document, "a file with a robot model", NamedBy::kFile)) {
       const ConfigIssue& why = document.issues.front();
       robot.issue(
           "world/model-unreadable", "a file with a robot model", document.file + ": " + why.found,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -19,6 +20,8 @@
 #include "io/map_io.h"
 #include "io/obstacle_io.h"
 #include "io/robot_io.h"
+#include "io/stage/stage_world.h"
+#include "io/world_document.h"
 #include "sim/world/limits.h"
 #include "sim/world/realism.h"
 #include "sim/world/view_mode.h"
@@ -100,7 +103,7 @@ class WorldReader {
       const bool has_origin = reader->has("origin");
       arena.size = reader->vec2("size", arena.size, kArenaLength);
       arena.origin = reader->vec2("origin", arena.origin, kPositionInWorld);
-      read_map(*reader, has_size, has_origin);
+      read_maps(*reader, has_size, has_origin);
     }
     arena.border = reader->boolean("border", arena.border);
     arena.border_height_m = reader->number("border_height", arena.border_height_m, kHeight);
@@ -182,60 +185,141 @@ class WorldReader {
     return nullptr;
   }
 
-  void read_map(Reader& arena_reader, bool has_size, bool has_origin) {
-    ArenaDescription& arena = world_.arena;
-    std::optional<Reader> reader = arena_reader.object("map");
-    if (!reader) return;
-    MapDescription map;
-    const bool named = reader->require("image", "a PNG or PGM file, relative to this file");
-    map.image = reader->string("image", "");
-    map.resolution_m =
-        reader->number("resolution", map.resolution_m, {kLeastLength_m, 10.0, false, "m"});
-    map.origin = reader->vec2("origin", arena.origin, kPositionInWorld);
-    map.occupied_threshold =
-        reader->number("occupied_threshold", map.occupied_threshold, {0.0, 1.0, true, ""});
-    map.simplify_m = reader->number("simplify", map.simplify_m, {0.0, 10.0, false, "m"});
-    reader->finish();
-    arena.map = map;
-    if (!named || document_.has_issue_at(reader->pointer())) return;
+  /// Reads "map": a picture of walls, or a list of them.
+  void read_maps(Reader& arena_reader, bool has_size, bool has_origin) {
+    constexpr std::size_t kMaxMaps = 1000;
+    const std::optional<Reader> given = arena_reader.child("map");
+    if (!given) return;
+    if (given->is_array()) {
+      for (Reader& reader : arena_reader.array("map", kMaxMaps)) {
+        if (reader.expect_object()) read_map(reader);
+      }
+    } else if (std::optional<Reader> reader = arena_reader.object("map")) {
+      read_map(*reader);
+    }
+    if (document_.has_issue_at(given->pointer())) return;
+    cover_maps(*given, has_size, has_origin);
+  }
 
-    const std::filesystem::path folder = folder_of(document_.file);
-    GreyImage image;
-    try {
-      image = load_grey_image((folder / map.image).string());
-    } catch (const std::runtime_error& error) {
-      reader->issue("world/map-unreadable", "a picture (PNG or PGM)", error.what(),
-                    "the name is relative to the folder of the world file", "image");
-      return;
-    }
-    if (image.width < 1 || image.height < 1 || image.width > kMaxMapSide ||
-        image.height > kMaxMapSide) {
-      reader->issue("world/map-too-large",
-                    "a picture of at most " + std::to_string(kMaxMapSide) + " pixels a side",
-                    std::to_string(image.width) + " x " + std::to_string(image.height),
-                    "shrink the picture and enlarge the resolution", "image");
-      return;
-    }
-    OccupancyGrid grid{image.width, image.height, std::move(image.pixels)};
-    for (std::uint8_t& cell : grid.solid) cell = cell < map.occupied_threshold * 255.0 ? 1 : 0;
-    std::optional<std::vector<WallLoop>> walls = trace_walls(grid, map.origin, map.resolution_m);
-    if (!walls) {
-      reader->issue("world/map-too-complex",
-                    "walls of at most " + std::to_string(kMaxWallEdges) + " edges", "more",
-                    "is it a floor plan? Remove noise, or change occupied_threshold", "image");
-      return;
-    }
-    arena.walls = *std::move(walls);
-    if (map.simplify_m > 0.0) simplify_walls(arena.walls, map.simplify_m);
-    if (!has_size) {
-      arena.size = Vec2(image.width, image.height) * map.resolution_m;
-      if (arena.size.maxCoeff() > kArenaLength.max) {
-        reader->issue("world/map-too-large", "a floor of at most 10000 m a side",
-                      number_text(arena.size.maxCoeff()) + " m", "use a smaller resolution",
-                      "resolution");
+  /// By default the floor is where the maps are.
+  void cover_maps(const Reader& maps, bool has_size, bool has_origin) {
+    ArenaDescription& arena = world_.arena;
+    if (arena.maps.empty()) return;
+    const double infinite = std::numeric_limits<double>::infinity();
+    Vec2 least = Vec2::Constant(infinite);
+    Vec2 most = -least;
+    for (const std::vector<Vec2>& corners : map_corners_) {
+      for (const Vec2& corner : corners) {
+        least = least.cwiseMin(corner);
+        most = most.cwiseMax(corner);
       }
     }
-    if (!has_origin) arena.origin = map.origin;
+    if (!has_origin) arena.origin = least;
+    if (has_size) return;
+    arena.size = arena.maps.size() == 1 && !arena.maps.front().size ? only_map_size_ : most - least;
+    if (arena.size.maxCoeff() <= kArenaLength.max) return;
+    ConfigIssue issue{"world/map-too-large",
+                      document_.file,
+                      maps.pointer() + (maps.is_array() ? "" : "/resolution"),
+                      "a floor of at most 10000 m a side",
+                      number_text(arena.size.maxCoeff()) + " m",
+                      "use a smaller resolution"};
+    issue.line = document_.line_of(issue.pointer);
+    document_.add(std::move(issue));
+  }
+
+  /// The picture of a map; nullopt and an issue if it cannot be used.
+  std::optional<GreyImage> read_map_image(Reader& reader, const std::string& name) {
+    GreyImage image;
+    try {
+      const auto* const files = document_.files;
+      const auto given = files == nullptr ? std::map<std::string, std::string>::const_iterator()
+                                          : files->find(name);
+      if (files != nullptr && given != files->end()) {
+        image = decode_grey_image({given->second.begin(), given->second.end()}, name);
+      } else {
+        image = load_grey_image((folder_of(document_.file) / name).string());
+      }
+    } catch (const std::runtime_error& error) {
+      reader.issue("world/map-unreadable", "a picture (PNG or PGM)", error.what(),
+                   "the name is relative to the folder of the world file", "image");
+      return std::nullopt;
+    }
+    if (image.width >= 1 && image.height >= 1 && image.width <= kMaxMapSide &&
+        image.height <= kMaxMapSide) {
+      return image;
+    }
+    reader.issue("world/map-too-large",
+                 "a picture of at most " + std::to_string(kMaxMapSide) + " pixels a side",
+                 std::to_string(image.width) + " x " + std::to_string(image.height),
+                 "shrink the picture and enlarge the resolution", "image");
+    return std::nullopt;
+  }
+
+  /// The keys that place a picture: "size" and "pose", or "resolution" and "origin".
+  void read_map_place(Reader& reader, MapDescription& map) {
+    if (!reader.has("size")) {
+      map.resolution_m =
+          reader.number("resolution", map.resolution_m, {kLeastLength_m, 10.0, false, "m"});
+      map.origin = reader.vec2("origin", world_.arena.origin, kPositionInWorld);
+      if (!reader.has("pose")) return;
+      reader.issue("world/conflicting-keys", "\"pose\" together with \"size\"", "it alone",
+                   "a map without a size has an \"origin\"", "pose");
+      return;
+    }
+    map.size = reader.vec2("size", {1.0, 1.0}, kArenaLength);
+    map.pose = reader.pose("pose", map.pose);
+    for (const char* key : {"resolution", "origin"}) {
+      if (!reader.has(key)) continue;
+      reader.issue("world/conflicting-keys", "either \"size\" or \"" + std::string(key) + "\"",
+                   "both", "leave one of the two out", key);
+    }
+  }
+
+  void read_map(Reader& reader) {
+    ArenaDescription& arena = world_.arena;
+    MapDescription map;
+    const bool named = reader.require("image", "a PNG or PGM file, relative to this file");
+    map.image = reader.string("image", "");
+    read_map_place(reader, map);
+    map.occupied_threshold =
+        reader.number("occupied_threshold", map.occupied_threshold, {0.0, 1.0, true, ""});
+    map.simplify_m = reader.number("simplify", map.simplify_m, {0.0, 10.0, false, "m"});
+    if (reader.has("height")) map.height_m = reader.number("height", 1.0, kHeight);
+    reader.finish();
+    arena.maps.push_back(map);
+    if (!named || document_.has_issue_at(reader.pointer())) return;
+    std::optional<GreyImage> image = read_map_image(reader, map.image);
+    if (!image) return;
+    OccupancyGrid grid{image->width, image->height, std::move(image->pixels)};
+    for (std::uint8_t& cell : grid.solid) cell = cell < map.occupied_threshold * 255.0 ? 1 : 0;
+    std::optional<std::vector<WallLoop>> walls =
+        map.size ? trace_walls(grid, Vec2::Zero(), 1.0)
+                 : trace_walls(grid, map.origin, map.resolution_m);
+    if (!walls) {
+      reader.issue("world/map-too-complex",
+                   "walls of at most " + std::to_string(kMaxWallEdges) + " edges", "more",
+                   "is it a floor plan? Remove noise, or change occupied_threshold", "image");
+      return;
+    }
+    const Vec2 pixels(grid.width, grid.height);
+    if (map.size) {
+      const Vec2 scale = map.size->cwiseQuotient(pixels);
+      for (WallLoop& loop : *walls) {
+        for (Vec2& vertex : loop.vertices) {
+          vertex = map.pose * (vertex - 0.5 * pixels).cwiseProduct(scale);
+        }
+      }
+      map_corners_.push_back(box_corners(map.pose, *map.size));
+    } else {
+      only_map_size_ = pixels * map.resolution_m;
+      map_corners_.push_back({map.origin, map.origin + only_map_size_});
+    }
+    if (map.simplify_m > 0.0) simplify_walls(*walls, map.simplify_m);
+    for (WallLoop& loop : *walls) {
+      if (map.height_m) loop.height_m = *map.height_m;
+      arena.walls.push_back(std::move(loop));
+    }
   }
 
   void read_simulation(Reader& root) {
@@ -473,55 +557,37 @@ class WorldReader {
   const std::vector<DeviceType>& types_;
   WorldDescription world_;
   std::set<std::string> bad_models_;
+  std::vector<std::vector<Vec2>> map_corners_;  ///< in W, of each map
+  Vec2 only_map_size_ = Vec2::Zero();  ///< of a map without a size; exact, unlike the corners
 };
 
 }  // namespace
+
+WorldDescription read_world_document(std::string_view text, const std::vector<DeviceType>& types,
+                                     Reader::Document& document) {
+  if (text.size() > kMaxFileBytes) {
+    document.add({"file/too-large", document.file, "", "at most 16 MiB", "more", ""});
+  } else if (parse_document(text, document)) {
+    return WorldReader(document, types).read();
+  }
+  return {};
+}
 
 WorldDescription read_world_text(std::string_view text, const std::string& file,
                                  const std::vector<DeviceType>& device_types) {
   Reader::Document document;
   document.file = file;
-  WorldDescription world;
-  if (text.size() > kMaxFileBytes) {
-    document.add({"file/too-large", file, "", "at most 16 MiB", "more", ""});
-  } else if (parse_document(text, document)) {
-    world = WorldReader(document, device_types).read();
-  }
+  WorldDescription world = read_world_document(text, device_types, document);
   throw_issues(document);
   return world;
 }
-
-namespace {
-
-/// Whether a file is one of Stage's or Player's, judged by its extension and its first character.
-bool is_stage_file(const std::string& path, std::string_view text) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending != ".world" && ending != ".inc" && ending != ".cfg") return false;
-  std::size_t at = 0;
-  while ((at = text.find_first_not_of(" \t\r\n", at)) != std::string_view::npos) {
-    if (text[at] != '#') break;  // skip a comment to the end of the line
-    at = std::min(text.find('\n', at), text.size());
-  }
-  // JSON begins with a bracket, a quote, a number or the '/' of a comment.
-  return at != std::string_view::npos &&
-         ((text[at] >= 'a' && text[at] <= 'z') || (text[at] >= 'A' && text[at] <= 'Z'));
-}
-
-}  // namespace
 
 WorldDescription read_world(const std::string& path, const std::vector<DeviceType>& device_types) {
   Reader::Document document;
   document.file = path;
   std::string text;
   if (!read_file(path, text, document)) throw_issues(document);
-  if (is_stage_file(path, text)) {
-    document.add(
-        {"world/stage-file", path, "", "a world file of Playpen, in JSON",
-         path.ends_with(".cfg") ? "a configuration file of Player" : "a world file of Stage",
-         "docs/coming_from_stage.md shows how to write it as JSON; 'playpen run cave' is a "
-         "cave with Pioneers"});
-    throw_issues(document);
-  }
+  if (is_stage_file(path, text)) return stage::read_world(path, text, device_types);
   return read_world_text(text, path, device_types);
 }
 

@@ -178,8 +178,7 @@ void Bodies::add_wall(const WallLoop& loop) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2& a = loop.vertices[i];
     const Vec2& b = loop.vertices[(i + 1) % n];
-    // Walls of a map have unlimited height: every sensor sees them.
-    FixtureInfo* info = new_info(Contact::Kind::kWall, -1, std::numeric_limits<double>::infinity());
+    FixtureInfo* info = new_info(Contact::Kind::kWall, -1, loop.height_m);
     info->first_edge = edges_.edges.size();
     info->edge_count = 1;
     edges_.add({a.x(), a.y(), b.x(), b.y()}, info->height_m);

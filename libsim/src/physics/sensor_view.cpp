@@ -447,7 +447,7 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
   visit_fixed(bodies_.world(), p_W, {bodies_.wall_right_m(), p_W.y()},
               [&](const b2Fixture& fixture) {
                 const FixtureInfo& info = info_of(&fixture);
-                if (info.kind != Contact::Kind::kWall) return;
+                if (info.kind != Contact::Kind::kWall || info.height_m <= height_m) return;
                 const Edge& e = bodies_.edges().edges[info.first_edge];
                 if ((e.y0 > p_W.y()) == (e.y1 > p_W.y())) return;
                 const double x = e.x0 + (p_W.y() - e.y0) / (e.y1 - e.y0) * (e.x1 - e.x0);

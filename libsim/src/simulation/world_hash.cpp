@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/simulation/world_hash.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -145,6 +146,7 @@ std::uint64_t world_hash(const WorldDescription& world) {
   for (const WallLoop& loop : arena.walls) {
     hash.add(loop.vertices.size());
     for (const Vec2& vertex : loop.vertices) add(hash, vertex);
+    if (std::isfinite(loop.height_m)) hash.add(loop.height_m);
   }
   hash.add(world.simulation.step_ns);
   hash.add(world.simulation.start_gate_clients);

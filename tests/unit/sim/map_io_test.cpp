@@ -251,7 +251,7 @@ TEST_F(MapIo, SizeAndOriginOfTheArenaStandIfGiven) {
                "map": {"image": "m.pgm"}}})");
   EXPECT_EQ(world.arena.size, Vec2(5, 4));
   EXPECT_EQ(world.arena.origin, Vec2(-1, -1));
-  EXPECT_EQ(world.arena.map->origin, Vec2(-1, -1));
+  EXPECT_EQ(world.arena.maps.at(0).origin, Vec2(-1, -1));
 }
 
 TEST_F(MapIo, TooLargeAPictureIsRefused) {

@@ -366,18 +366,9 @@ TEST(ReadWorld, FilesThatCannotBeReadAreExplained) {
   EXPECT_EQ(endless[0].id, "file/not-a-file");
 }
 
-TEST(ReadWorld, FilesOfStageAndPlayerPointToThePageAboutThem) {
+TEST(ReadWorld, FilesWithStagesExtensionMayBeJson) {
   const test_support::TemporaryFolder folder;
-  for (const char* name : {"simple.world", "pioneer.inc", "simple.cfg"}) {
-    const std::string file =
-        folder.write(name, "# Desc: 1 pioneer\n\n  # Author: R. V.\ninclude \"map.inc\"\n");
-    const std::vector<ConfigIssue> issues = issues_of_file(file);
-    ASSERT_THAT(issues, SizeIs(1)) << name;
-    EXPECT_EQ(issues[0].id, "world/stage-file") << name;
-    EXPECT_THAT(issues[0].found, HasSubstr(name == std::string("simple.cfg") ? "Player" : "Stage"));
-    EXPECT_THAT(issues[0].hint, HasSubstr("docs/coming_from_stage.md"));
-  }
-  // The extension alone is not sufficient, and neither is an empty file.
+  // An extension alone does not make a file of Stage, and neither does an empty file.
   EXPECT_THAT(issues_of_file(folder.write("json.world", "// ours\n{}")), testing::IsEmpty());
   const std::vector<ConfigIssue> empty = issues_of_file(folder.write("empty.world", " \n"));
   ASSERT_THAT(empty, SizeIs(1));

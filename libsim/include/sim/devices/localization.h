@@ -32,6 +32,7 @@ struct OdometryParams {
   double noise = 0.0;          ///< standard deviation of a wheel's path after 1 m [m]; grows with
                                ///< the square root of the path (see Odometry)
   OdometryLevel level = OdometryLevel::kIntegrated;
+  Pose start;  ///< what it reads before the first step
   /// @name Systematic errors (see Odometry)
   /// @{
   double wheel_ratio = 1.0;        ///< E_d: diameter of the right wheel / of the left, [0.5, 2]

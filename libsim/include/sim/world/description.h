@@ -4,6 +4,7 @@
 #include <any>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -110,15 +111,21 @@ struct DockDescription {
 /// ring of a solid region runs counter-clockwise, the ring of a hole clockwise.
 struct WallLoop {
   std::vector<Vec2> vertices;
+  /// A sensor mounted at this height or above looks over it [m]; infinite by default.
+  double height_m = std::numeric_limits<double>::infinity();
 };
 
-/// The map image of an arena's walls (the resulting loops are in ArenaDescription).
+/// A picture of walls in an arena (the resulting loops are in ArenaDescription).
 struct MapDescription {
   std::string image;                ///< file, relative to the world file
-  double resolution_m = 0.05;       ///< side of a pixel [m]
-  Vec2 origin = Vec2::Zero();       ///< W position of the picture's bottom left corner [m]
+  double resolution_m = 0.05;       ///< side of a pixel [m], unless it has a size
+  Vec2 origin = Vec2::Zero();       ///< W position of the picture's bottom left corner [m], unless
+                                    ///< it has a size
   double occupied_threshold = 0.5;  ///< pixels darker than this fraction of white are walls, (0, 1)
   double simplify_m = 0.0;          ///< tolerance for straightening outlines [m]; 0: none
+  std::optional<Vec2> size = {};    ///< the picture is stretched to this size [m]
+  Pose pose = {};                   ///< X_WP of the middle of a picture with a size
+  std::optional<double> height_m = {};  ///< of the walls [m]; none: all sensors see them
 };
 
 /// The room: floor from `origin` to `origin + size`, with borders around it unless turned off.
@@ -131,8 +138,8 @@ struct ArenaDescription {
   std::vector<ObstacleDescription> obstacles;
   std::vector<DockDescription> docks;
   std::vector<ObstacleDescription> dock_separators;  ///< static boxes beside docks (brown)
-  std::optional<MapDescription> map;
-  std::vector<WallLoop> walls;  ///< of the map, merged into few edges
+  std::vector<MapDescription> maps;
+  std::vector<WallLoop> walls;  ///< of the maps, merged into few edges
 };
 
 /// Lockstep: time advances when all clients wait in Read(). Paced: wall-clock time times a factor.
@@ -255,6 +262,8 @@ struct WorldDescription {
   std::string name = "unnamed";
   std::string description;  ///< one sentence for people; "": none
   std::string file;         ///< path of the world file, "" if there is none
+  /// What of a Stage world was left out or means something else, for people: "FILE:LINE: TEXT".
+  std::vector<std::string> notes;
   ArenaDescription arena;
   SimulationDescription simulation;
   /// Robot models that are not built in, by the name in RobotDescription::model.

@@ -1,0 +1,87 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "io/stage/report.h"
+#include "io/stage/shapes.h"
+#include "sim/core/colour.h"
+
+namespace sim::io::stage {
+
+using Json = nlohmann::ordered_json;
+
+/// A device of a robot, and what Player's configuration files may call it.
+struct DraftDevice {
+  std::string stage_type;  ///< "ranger", "fiducial", ...
+  std::string name;        ///< in the world, e.g. "laser2"
+  std::string type;        ///< in the world, e.g. "laser"
+};
+
+/// A robot on the way from a model of Stage to a robot of a world.
+struct RobotDraft {
+  std::string stage_name;  ///< that Player's configuration files use, e.g. "r0" or "position:0"
+  std::string kind;        ///< name of its definition, e.g. "pioneer2dx"
+  Place place;
+  Pose X_WB;
+  double foot_m = 0.0;  ///< height of its foot above the floor
+  Colour colour;
+  Json model;  ///< of a robot model's file, without its name and its devices
+  Json devices = Json::object();
+  std::vector<DraftDevice> list;  ///< of devices, in Stage's order
+  std::vector<Vec2> outline;      ///< points of its body, in B [m]
+  double top_m = 0.0;             ///< of its body above the floor [m]
+  std::vector<double> sensor_heights_m;
+  Json robot;  ///< of the world's file: port, interfaces, ...
+};
+
+/// Everything that parts of a translation share.
+struct Context {
+  const Units& units;
+  Report& report;
+  double interval_s = 0.1;  ///< of Stage's steps: models are updated no more often
+};
+
+/// A number for a file: without digits that are only rounding.
+[[nodiscard]] double neat(double value);
+/// An angle for a key that ends in _deg.
+[[nodiscard]] double neat_deg(double angle_rad);
+/// `{"x", "y", "yaw_deg"}`.
+[[nodiscard]] Json pose_json(const Pose& pose);
+/// `[x, y]`.
+[[nodiscard]] Json point_json(const Vec2& point);
+
+/// The colour of a model: `color`, `color_rgba`, or the default.
+[[nodiscard]] Colour read_colour(const Properties& model, Colour fallback, Report& report);
+/// The X11 colour of that name, or the one that Stage uses for unknown names: red.
+[[nodiscard]] Colour named_colour(const std::string& name, const Place& place, Report& report);
+
+/// Frequency of a model's updates [Hz]: `update_interval`, rounded up to Stage's steps.
+[[nodiscard]] double read_frequency_hz(const Properties& model, const Context& context);
+
+/// Where a child of a model is.
+struct Mount {
+  Pose X_BM;         ///< pose of the child's frame on the robot
+  double z_m = 0.0;  ///< height of its foot above the floor [m]
+};
+
+/// Adds the device that a model of Stage is to a robot.
+/// @return false if the model is no device.
+[[nodiscard]] bool add_device(const Entity& model, const Mount& mount, const Body& body,
+                              const Context& context, RobotDraft& robot);
+
+/// Default size of a device's model [m].
+[[nodiscard]] std::array<double, 3> device_size_m(const std::string& type);
+/// Whether a device's model has a block as large as its size unless it has blocks of its own.
+[[nodiscard]] bool device_has_block(const std::string& type);
+/// Whether an entity of that type is a device of a robot.
+[[nodiscard]] bool is_device(const std::string& type);
+
+/// Reads what a position model is besides a model: drive, limits, localization.
+void add_position(const Properties& model, const Body& body, const Context& context,
+                  RobotDraft& robot);
+
+}  // namespace sim::io::stage

@@ -1,0 +1,694 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "io/stage/translation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "io/document.h"
+#include "sim/world/outline.h"
+
+namespace sim::io::stage {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Properties that only change the look of Stage's window.
+bool is_look(std::string_view name) {
+  constexpr std::string_view kNames[] = {"show_clock",
+                                         "show_clock_interval",
+                                         "trail_length",
+                                         "trail_interval",
+                                         "paused",
+                                         "speedup",
+                                         "interval_real",
+                                         "interval",
+                                         "gui_disable",
+                                         "gui_interval",
+                                         "line_style",
+                                         "texture",
+                                         "say"};
+  return name.starts_with("gui_") || name == "window" ||
+         std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
+/// Properties without an effect on what programs see.
+bool is_without_effect(std::string_view name) {
+  constexpr std::string_view kNames[] = {"alwayson",
+                                         "map_resolution",
+                                         "event_queue",
+                                         "threads",
+                                         "resolution",
+                                         "friction",
+                                         "debug",
+                                         "stack_children",
+                                         "update_interval",
+                                         "watts",
+                                         "power_on",
+                                         "color",
+                                         "color_rgba",
+                                         "ssize",
+                                         "joules",
+                                         "kjoules",
+                                         "joules_capacity",
+                                         "kjoules_capacity",
+                                         "colors_count",
+                                         "range_min",
+                                         "blobfinder_return",
+                                         "audio_return",
+                                         "puck_return",
+                                         "bitmap_resolution",
+                                         "z",
+                                         "points",
+                                         "noblocks",
+                                         "boundary",
+                                         "size",
+                                         "name",
+                                         "mass",
+                                         "laser_return",
+                                         "ranger_return",
+                                         "blob_return",
+                                         "gripper_return",
+                                         "obstacle_return",
+                                         "fiducial_return",
+                                         "pose",
+                                         "origin",
+                                         "test",
+                                         "quit_time",
+                                         "interval_sim",
+                                         "unit_length",
+                                         "unit_angle"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
+bool is_model(const std::string& type) {
+  return type == "model" || type == "position" || type == "map" || type == "box" ||
+         type == "puck" || type == "charger";
+}
+
+/// A solid or a map that is not part of a robot.
+struct Piece {
+  Json json;
+  double z_min_m;
+  double z_max_m;
+  Place place;
+};
+
+class Translator {
+ public:
+  Translator(const Entity& root, Report& report) : root_(root), report_(report) {}
+
+  Translation run(const std::string& name) {
+    read_world(name);
+    for (const Entity& child : root_.children) top_level(child);
+    add_pieces();
+    add_floor();
+    for (const Entity& child : root_.children) tell_unused(child);
+    tell_unused_of(root_, "");
+    out_.world["arena"] = std::move(arena_);
+    return std::move(out_);
+  }
+
+ private:
+  /// A model's place in the world or on its robot.
+  struct Frame {
+    Pose X;             ///< of the model's frame, without its origin
+    double foot_m = 0;  ///< height of its foot
+  };
+
+  void read_world(const std::string& name) {
+    // Stage 2 has poses [x y heading], later versions [x y z heading].
+    units_.three_number_poses_turn = has_turning_poses();
+    const Properties world(root_, units_, report_);
+    constexpr double kLengths[] = {1.0, 0.01, 0.001};
+    units_.length_m = kLengths[world.choice("unit_length", 0, {"m", "cm", "mm"})];
+    if (world.choice("unit_angle", 0, {"degrees", "radians"}) == 1) units_.angle_rad = 1.0;
+    const double interval_ms = std::clamp(world.number("interval_sim", 100.0), 0.1, 1e6);
+    interval_s_ = interval_ms / 1000.0;
+    out_.world["name"] = world.text("name", name);
+    Json simulation;
+    simulation["step"] = neat(std::clamp(std::min(interval_s_, 0.01), 1e-4, 0.1));
+    if (const double quit_s = world.number("quit_time", 0.0); quit_s > 0.0) {
+      simulation["duration"] = neat(std::min(quit_s, 1e9));
+    }
+    out_.world["arena"] = nullptr;  // keeps the order of keys
+    out_.world["simulation"] = std::move(simulation);
+  }
+
+  /// Whether poses of three numbers have a heading: in the user's files no pose has four numbers,
+  /// and one has three whose last one is not 0.
+  [[nodiscard]] bool has_turning_poses() {
+    bool four = false;
+    const Property* turning = nullptr;
+    const auto look = [&](const auto& self, const Entity& entity) -> void {
+      for (const Property& property : entity.properties) {
+        if (property.name != "pose" || property.place.file->starts_with(kShippedFolder)) continue;
+        four = four || property.values.size() >= 4;
+        if (property.values.size() == 3 && property.values[2].number != 0.0 && turning == nullptr) {
+          turning = &property;
+        }
+      }
+      for (const Entity& child : entity.children) self(self, child);
+    };
+    look(look, root_);
+    if (four || turning == nullptr) return false;
+    report_.note("poses", turning->place,
+                 "poses of three numbers are read as [x y heading], as in Stage 2");
+    return true;
+  }
+
+  [[nodiscard]] Context context() { return {units_, report_, interval_s_}; }
+
+  void top_level(const Entity& entity) {
+    if (entity.type == "window" || entity.type == "gui") {
+      report_.look("window", entity.place);
+      window_.insert(&entity);
+      return;
+    }
+    model(entity, {}, "", false);
+  }
+
+  /// The name of a model without one: as in Stage, its type and how many of them came before.
+  std::string token_of(const Properties& model, const std::string& parent) {
+    const std::string& type = model.entity().type;
+    const int number = counts_[parent + "." + type]++;
+    const std::string automatic =
+        (parent.empty() ? "" : parent + ".") + type + ":" + std::to_string(number);
+    const std::string name = model.text("name", "");
+    if (name.empty()) return automatic;
+    if (name.front() == '/') return name.substr(1);
+    return parent.empty() ? name : parent + "." + name;
+  }
+
+  void refuse_type(const Entity& entity) {
+    std::vector<std::string> known{"model", "position", "block", "sensor"};
+    for (const char* device : {"ranger", "laser", "fiducial", "blobfinder", "bumper", "gripper",
+                               "camera", "blinkenlight", "actuator", "ptz", "wifi"}) {
+      known.emplace_back(device);
+    }
+    const std::string near = nearest_word(entity.type, known);
+    report_.error(
+        entity.place, "stage/unknown-model",
+        "a model that is defined before, or one of Stage's: " + list_text(known),
+        in_quotes(entity.type),
+        near.empty() ? "is an include missing?" : "did you mean " + in_quotes(near) + "?");
+  }
+
+  /// A model that is not on a robot.
+  void model(const Entity& entity, const Frame& parent, const std::string& parent_name,
+             bool on_model) {
+    if (entity.type == "block" || entity.type == "sensor") {
+      if (entity.type == "block" && on_model) return;  // of its parent's body
+      report_.error(entity.place, "stage/misplaced",
+                    entity.type == "block" ? "a block inside a model" : "a sensor inside a ranger",
+                    "it elsewhere");
+      return;
+    }
+    const Properties properties(entity, units_, report_);
+    if (is_device(entity.type)) {
+      report_.note("device " + entity.type, entity.place,
+                   "a " + entity.type + " that is not on a position model is left out");
+      return;
+    }
+    if (!is_model(entity.type)) return refuse_type(entity);
+    const std::string name = token_of(properties, parent_name);
+    const Frame frame = frame_of(properties, parent);
+    std::array<double, 3> size{0.1, 0.1, 0.1};
+    if (entity.type == "puck") size = {0.08, 0.08, 0.1};
+    const Body body = read_body(properties, units_, report_, size, true);
+    if (entity.type == "position") return robot(properties, body, frame, name);
+    add_body(properties, body, frame, name);
+    const bool stacked = properties.flag("stack_children", true);
+    const Frame base{frame.X, frame.foot_m + (stacked ? body.size_m[2] : 0.0)};
+    for (const Entity& child : entity.children) model(child, base, name, true);
+  }
+
+  [[nodiscard]] Frame frame_of(const Properties& properties, const Frame& parent) const {
+    const Pose3 pose = properties.pose("pose");
+    return {parent.X * pose.pose, parent.foot_m + pose.z_m};
+  }
+
+  void extend(const Vec2& p) {
+    least_ = least_.cwiseMin(p);
+    most_ = most_.cwiseMax(p);
+  }
+
+  /// A name for the world's file, unique among those of its kind.
+  static std::string world_name(const std::string& stage_name, std::set<std::string>& taken) {
+    std::string name;
+    for (const char c : stage_name) {
+      const bool ok = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                      c == '_' || c == '-';
+      name += ok ? c : '_';
+    }
+    if (name.empty()) name = "model";
+    name.resize(std::min<std::size_t>(name.size(), 56));
+    std::string unique = name;
+    for (int number = 2; !taken.insert(unique).second; ++number) {
+      unique = name + "_" + std::to_string(number);
+    }
+    return unique;
+  }
+
+  /// How a model meets robots and their sensors.
+  struct Returns {
+    bool obstacle = true;
+    bool ranger = true;
+    bool blob = true;
+    bool gripper = false;
+    int fiducial = 0;
+  };
+
+  Returns read_returns(const Properties& model) {
+    Returns returns;
+    returns.obstacle = model.flag("obstacle_return", true);
+    returns.ranger = model.number("ranger_return", 1.0) >= 0.0;
+    // In Stage 2 and 3: 0 or "invisible" are transparent to lasers.
+    if (model.has("laser_return") && !model.has("ranger_return")) {
+      returns.ranger = model.flag("laser_return", true);
+    }
+    returns.blob = model.flag("blob_return", true);
+    returns.gripper = model.flag("gripper_return", false);
+    returns.fiducial = std::max(0, model.integer("fiducial_return", 0));
+    if (model.integer("fiducial_key", 0) != 0) {
+      report_.note("fiducial_key", model.place_of("fiducial_key"),
+                   "fiducialfinders see the marks of all keys (fiducial_key is left out)");
+    }
+    return returns;
+  }
+
+  void tell_charging(const Properties& model) {
+    for (const char* key : {"give_watts", "take_watts"}) {
+      if (!model.has(key)) continue;
+      report_.note("charging", model.place_of(key),
+                   "charging between models is left out; docks charge robots");
+    }
+  }
+
+  /// Adds a static model's body to the arena.
+  void add_body(const Properties& model, const Body& body, const Frame& frame,
+                const std::string& stage_name) {
+    const Returns returns = read_returns(model);
+    const Place& place = model.entity().place;
+    if (model.has("ctrl")) {
+      report_.note("ctrl of a model", model.place_of("ctrl"),
+                   "controllers of models that do not drive are left out");
+    }
+    tell_charging(model);
+    if (body.empty()) return;
+    if (!returns.obstacle && !returns.ranger) {
+      report_.note("neither solid nor seen", place,
+                   "models that are neither solid nor seen by rangers are left out");
+      return;
+    }
+    const std::string name = world_name(stage_name, obstacle_names_);
+    if (!returns.obstacle) {
+      report_.note("obstacle_return", model.place_of("obstacle_return"),
+                   "models with obstacle_return 0 are solid: robots do not drive through them");
+    }
+    if (!returns.ranger) {
+      report_.note("ranger_return",
+                   model.has("ranger_return") ? model.place_of("ranger_return")
+                                              : model.place_of("laser_return"),
+                   "a solid model that rangers do not see becomes one of 1 mm height");
+    }
+    const Colour colour = read_colour(model, {255, 0, 0, 255}, report_);
+    const Pose3 origin = model.pose("origin");
+    const Pose X_WM = frame.X * origin.pose;
+    const double foot_m = frame.foot_m + origin.z_m;
+    const auto finish = [&](Json& json, double z_max_m) {
+      json["height"] = returns.ranger ? neat(std::clamp(z_max_m, 0.001, 10.0)) : 0.001;
+    };
+    std::vector<Block> blocks = body.blocks;
+    if (body.bitmap && !returns.gripper) {
+      const auto outlines = outlines_of(*body.bitmap, {body.size_m[0], body.size_m[1]});
+      if (!outlines) add_map(*body.bitmap, body, X_WM, foot_m, name, place, finish);
+      for (const Polygon& outline : outlines.value_or(std::vector<Polygon>())) {
+        blocks.push_back({outline, 0.0, body.size_m[2]});
+      }
+    }
+    if (body.boundary) add_boundary(body, X_WM, foot_m, name, colour, place, finish);
+    if (returns.gripper && (body.bitmap || blocks.size() > 1)) {
+      blocks = {convex_block(body)};
+      report_.note("gripped outline", place,
+                   "an object for grippers is one solid: the convex outline of its body");
+    }
+    std::size_t largest = 0;
+    for (std::size_t i = 1; i < blocks.size(); ++i) {
+      if (area_m2(blocks[i].points) > area_m2(blocks[largest].points)) largest = i;
+    }
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      Json json;
+      json["name"] = i == largest ? name : world_name(stage_name, obstacle_names_);
+      if (!shape(blocks[i], body, frame.X, origin.pose, json, place)) continue;
+      finish(json, foot_m + blocks[i].z_max_m);
+      if (returns.blob) json["colour"] = to_string(colour);
+      if (returns.fiducial > 0 && i == largest) json["fiducial"] = returns.fiducial;
+      if (returns.gripper) json["portable"] = true;
+      for (const Vec2& point : blocks[i].points) extend(X_WM * point);
+      obstacles_.push_back(
+          {std::move(json), foot_m + blocks[i].z_min_m, foot_m + blocks[i].z_max_m, place});
+    }
+    if (returns.fiducial > 0 && blocks.empty()) {
+      report_.note("fiducial of a bitmap", place,
+                   "a floor plan is no mark for fiducialfinders (fiducial_return is left out)");
+    }
+  }
+
+  /// The convex outline of a body as one block.
+  static Block convex_block(const Body& body) {
+    Block whole;
+    std::vector<Vec2> points;
+    whole.z_min_m = body.bitmap ? 0.0 : kInfinity;
+    whole.z_max_m = body.bitmap ? body.size_m[2] : 0.0;
+    if (body.bitmap) points = extreme_points(*body.bitmap, {body.size_m[0], body.size_m[1]});
+    for (const Block& block : body.blocks) {
+      points.insert(points.end(), block.points.begin(), block.points.end());
+      whole.z_min_m = std::min(whole.z_min_m, block.z_min_m);
+      whole.z_max_m = std::max(whole.z_max_m, block.z_max_m);
+    }
+    whole.points = convex_outline(std::move(points));
+    return whole;
+  }
+
+  /// The outline of a block as keys of an obstacle. @return false if it has no area.
+  bool shape(const Block& block, const Body& body, const Pose& X_WM, const Pose& X_MO, Json& json,
+             const Place& place) {
+    const Vec2 half(0.5 * body.size_m[0], 0.5 * body.size_m[1]);
+    constexpr double kThin_m = 0.001;
+    if (2.0 * half.x() < kThin_m || 2.0 * half.y() < kThin_m) {
+      report_.note("thin", place, "models thinner than 1 mm are left out");
+      return false;
+    }
+    const bool whole = block.points.size() == 4 &&
+                       std::all_of(block.points.begin(), block.points.end(), [&](const Vec2& p) {
+                         return (p.cwiseAbs() - half).cwiseAbs().maxCoeff() < 1e-9;
+                       });
+    if (whole && std::abs(area_m2(block.points)) > 0.99 * body.size_m[0] * body.size_m[1]) {
+      const Pose X_WO = X_WM * X_MO;
+      json["center"] = point_json(X_WO.position());
+      json["yaw_deg"] = neat_deg(X_WO.yaw_rad);
+      json["size"] = Json::array({neat(body.size_m[0]), neat(body.size_m[1])});
+      return true;
+    }
+    Polygon outline;
+    for (const Vec2& point : block.points) {
+      const Vec2 moved = X_MO * point;
+      if (outline.empty() || (moved - outline.back()).norm() > kThin_m) outline.push_back(moved);
+    }
+    while (outline.size() > 1 && (outline.front() - outline.back()).norm() <= kThin_m) {
+      outline.pop_back();
+    }
+    if (outline.size() > kMostOutlineVertices || outline.size() < 3 || crossing_sides(outline)) {
+      outline = convex_outline(std::move(outline));
+      reduce_corners(outline, kMostOutlineVertices);
+      report_.note("crossing", place,
+                   "a block whose sides cross becomes the convex outline around it");
+    }
+    if (outline.size() < 3 || area_m2(outline) < 1e-6) {
+      report_.note("thin", place, "blocks of less than 1 mm^2 are left out");
+      return false;
+    }
+    json["shape"] = "polygon";
+    json["center"] = point_json(X_WM.position());
+    json["yaw_deg"] = neat_deg(X_WM.yaw_rad);
+    Json points = Json::array();
+    for (const Vec2& point : outline) points.push_back(point_json(point));
+    json["outline"] = std::move(points);
+    return true;
+  }
+
+  template <typename Finish>
+  void add_map(const DarkArea& area, const Body& body, const Pose& X_WM, double foot_m,
+               const std::string& name, const Place& place, const Finish& finish) {
+    const std::string file = name + ".png";
+    out_.files[file] = png_of(area);
+    Json json;
+    json["image"] = file;
+    json["size"] = Json::array({neat(body.size_m[0]), neat(body.size_m[1])});
+    json["pose"] = pose_json(X_WM);
+    finish(json, foot_m + body.size_m[2]);
+    maps_.push_back({std::move(json), foot_m, foot_m + body.size_m[2], place});
+    for (const Vec2& corner : box_corners(X_WM, {body.size_m[0], body.size_m[1]})) extend(corner);
+  }
+
+  template <typename Finish>
+  void add_boundary(const Body& body, const Pose& X_WM, double foot_m, const std::string& name,
+                    const Colour& colour, const Place& place, const Finish& finish) {
+    const Vec2 size(body.size_m[0], body.size_m[1]);
+    const double t = kBoundaryThickness_m;
+    const Vec2 off = 0.5 * (size - Vec2::Constant(t));
+    const std::array<std::pair<Vec2, Vec2>, 4> sides = {{{{0.0, -off.y()}, {size.x(), t}},
+                                                         {{off.x(), 0.0}, {t, size.y()}},
+                                                         {{0.0, off.y()}, {size.x(), t}},
+                                                         {{-off.x(), 0.0}, {t, size.y()}}}};
+    for (const auto& [center, extent] : sides) {
+      Json json;
+      json["name"] = world_name(name + "_side", obstacle_names_);
+      json["center"] = point_json(X_WM * center);
+      json["yaw_deg"] = neat_deg(X_WM.yaw_rad);
+      json["size"] = point_json(extent);
+      finish(json, foot_m + body.size_m[2]);
+      json["colour"] = to_string(colour);
+      obstacles_.push_back({std::move(json), foot_m, foot_m + body.size_m[2], place});
+    }
+    for (const Vec2& corner : box_corners(X_WM, size)) extend(corner);
+    if (std::abs(std::remainder(X_WM.yaw_rad, 1.5707963267948966)) < 1e-9) {
+      enclosed_ = true;
+    }
+  }
+
+  /// A position model: a robot.
+  void robot(const Properties& model, const Body& body, const Frame& frame,
+             const std::string& stage_name) {
+    RobotDraft draft;
+    draft.stage_name = stage_name;
+    std::set<std::string> none;
+    draft.kind =
+        model.entity().kinds.empty() ? "robot" : world_name(model.entity().kinds.front(), none);
+    draft.place = model.entity().place;
+    draft.X_WB = frame.X;
+    draft.foot_m = frame.foot_m;
+    draft.colour = read_colour(model, {255, 0, 0, 255}, report_);
+    const Returns returns = read_returns(model);
+    tell_charging(model);
+    if (returns.fiducial > 0) draft.robot["fiducial"] = returns.fiducial;
+    if (returns.gripper) {
+      report_.note("gripped robot", model.place_of("gripper_return"),
+                   "grippers do not take robots (gripper_return is left out)");
+    }
+    if (!returns.obstacle) {
+      report_.note("obstacle_return", model.place_of("obstacle_return"),
+                   "models with obstacle_return 0 are solid: robots do not drive through them");
+    }
+    const Pose3 origin = model.pose("origin");
+    add_part(body, origin.pose, frame.foot_m + origin.z_m, returns, draft);
+    const bool stacked = model.flag("stack_children", true);
+    const Mount base{{}, frame.foot_m + (stacked ? body.size_m[2] : 0.0)};
+    for (const Entity& child : model.entity().children) part(child, base, stage_name, draft);
+    add_position(model, body, context(), draft);
+    order_rangers(draft);
+    set_body(draft);
+    extend_by(draft);
+    draft.robot["name"] = world_name(stage_name, robot_names_);
+    out_.robots.push_back(std::move(draft));
+  }
+
+  /// Gives the rangers of a robot their indexes in Stage's order.
+  static void order_rangers(RobotDraft& draft) {
+    Json names = Json::array();
+    for (const DraftDevice& device : draft.list) {
+      if (device.type == "laser" || device.type == "sonar") names.push_back(device.name);
+    }
+    if (!names.empty()) draft.robot["interfaces"]["ranger"] = std::move(names);
+  }
+
+  /// Adds a body to the outline of a robot.
+  static void add_part(const Body& body, const Pose& X_BM, double foot_m, const Returns& returns,
+                       RobotDraft& draft) {
+    if (!returns.obstacle) return;
+    double top_m = -kInfinity;
+    for (const Block& block : body.blocks) {
+      for (const Vec2& point : block.points) draft.outline.push_back(X_BM * point);
+      top_m = std::max(top_m, foot_m + block.z_max_m);
+    }
+    if (body.bitmap) {
+      for (const Vec2& point : extreme_points(*body.bitmap, {body.size_m[0], body.size_m[1]})) {
+        draft.outline.push_back(X_BM * point);
+      }
+      top_m = std::max(top_m, foot_m + body.size_m[2]);
+    }
+    if (returns.ranger) draft.top_m = std::max(draft.top_m, top_m);
+  }
+
+  /// A model on a robot: a device, or a part of its body.
+  void part(const Entity& entity, const Mount& parent, const std::string& parent_name,
+            RobotDraft& draft) {
+    if (entity.type == "block") return;
+    if (entity.type == "sensor") {
+      report_.error(entity.place, "stage/misplaced", "a sensor inside a ranger", "it elsewhere");
+      return;
+    }
+    if (!is_device(entity.type) && !is_model(entity.type)) return refuse_type(entity);
+    const Properties properties(entity, units_, report_);
+    const Context shared = context();
+    const std::string name = token_of(properties, parent_name);
+    const Pose3 pose = properties.pose("pose");
+    const Pose3 origin = properties.pose("origin");
+    const bool device = is_device(entity.type);
+    const Body body =
+        read_body(properties, units_, report_,
+                  device ? device_size_m(entity.type) : std::array<double, 3>{0.1, 0.1, 0.1},
+                  device ? device_has_block(entity.type) : true);
+    const Mount frame{parent.X_BM * pose.pose, parent.z_m + pose.z_m};
+    const Mount mount{frame.X_BM * origin.pose, frame.z_m + origin.z_m};
+    if (entity.type == "position") {
+      report_.note("position on a position", entity.place,
+                   "a position model on another one does not drive; it is a part of its body");
+    }
+    const Returns returns = read_returns(properties);
+    tell_charging(properties);
+    // The paddles of a gripper are those of its device.
+    if (entity.type != "gripper" && entity.type != "bumper") {
+      add_part(body, mount.X_BM, mount.z_m, returns, draft);
+    }
+    if (returns.fiducial > 0 && !draft.robot.contains("fiducial")) {
+      draft.robot["fiducial"] = returns.fiducial;
+    }
+    static_cast<void>(add_device(entity, mount, body, shared, draft));
+    const bool stacked = properties.flag("stack_children", true);
+    const Mount base{frame.X_BM, frame.z_m + (stacked ? body.size_m[2] : 0.0)};
+    for (const Entity& child : entity.children) {
+      if (child.type != "sensor") part(child, base, name, draft);
+    }
+  }
+
+  /// Sets the outline and the height of a robot's model.
+  void set_body(RobotDraft& draft) {
+    constexpr std::size_t kMostCorners = 8;
+    Polygon outline = convex_outline(draft.outline);
+    reduce_corners(outline, kMostCorners);
+    if (outline.size() < 3 || area_m2(outline) < 1.1e-4 || least_extent_m(outline) < 0.001) {
+      report_.note("no body", draft.place,
+                   "a robot with a body of less than 1 cm^2 gets one of 2 x 2 cm");
+      outline = {{-0.01, -0.01}, {0.01, -0.01}, {0.01, 0.01}, {-0.01, 0.01}};
+    }
+    for (const Vec2& point : outline) {
+      constexpr double kFarthest_m = 100.0;
+      if (point.cwiseAbs().maxCoeff() <= kFarthest_m) continue;
+      report_.error(draft.place, "stage/bad-body",
+                    "a robot whose body ends at most 100 m from its pose",
+                    number_text(point.cwiseAbs().maxCoeff()) + " m", "is unit_length right?");
+      break;
+    }
+    Json points = Json::array();
+    for (const Vec2& point : outline) points.push_back(point_json(point));
+    draft.model["footprint"] = std::move(points);
+    draft.model["height"] = neat(std::clamp(draft.top_m, 0.001, 10.0));
+    draft.outline = std::move(outline);
+  }
+
+  void extend_by(const RobotDraft& draft) {
+    for (const Vec2& point : draft.outline) extend(draft.X_WB * point);
+  }
+
+  /// Adds obstacles and maps that robots or their sensors can meet.
+  void add_pieces() {
+    double reach_m = 0.0;
+    for (const RobotDraft& robot : out_.robots) {
+      reach_m = std::max(reach_m, robot.top_m);
+      for (const double height_m : robot.sensor_heights_m) reach_m = std::max(reach_m, height_m);
+    }
+    if (out_.robots.empty()) reach_m = kInfinity;
+    const auto take = [&](std::vector<Piece>& pieces, const char* pointer) {
+      Json list = Json::array();
+      for (Piece& piece : pieces) {
+        if (piece.z_min_m >= reach_m) {
+          report_.note("overhead", piece.place,
+                       "parts above all robots and their sensors are left out");
+          continue;
+        }
+        if (piece.z_min_m > 0.05) {
+          report_.note("floating", piece.place,
+                       "parts that begin above the floor reach down to it");
+        }
+        out_.places[pointer + std::to_string(list.size())] = piece.place;
+        list.push_back(std::move(piece.json));
+      }
+      return list;
+    };
+    Json maps = take(maps_, "/arena/map/");
+    if (!maps.empty()) arena_["map"] = std::move(maps);
+    Json obstacles = take(obstacles_, "/arena/obstacles/");
+    if (!obstacles.empty()) arena_["obstacles"] = std::move(obstacles);
+  }
+
+  /// The floor: what contains everything. Stage's worlds have no end.
+  void add_floor() {
+    if (!(least_.x() < most_.x())) {
+      least_ = {-5.0, -5.0};
+      most_ = {5.0, 5.0};
+    }
+    if (!enclosed_) {
+      const double margin_m = std::max(1.0, 0.1 * (most_ - least_).maxCoeff());
+      least_ -= Vec2::Constant(margin_m);
+      most_ += Vec2::Constant(margin_m);
+    }
+    Json floor;
+    floor["size"] = point_json(most_ - least_);
+    floor["origin"] = point_json(least_);
+    floor["border"] = false;
+    for (auto& [key, value] : arena_.items()) floor[key] = value;
+    arena_ = std::move(floor);
+  }
+
+  /// Reports properties that nothing has asked for.
+  void tell_unused(const Entity& entity) {
+    if (window_.contains(&entity)) return;
+    tell_unused_of(entity, entity.type);
+    for (const Entity& child : entity.children) tell_unused(child);
+  }
+
+  void tell_unused_of(const Entity& entity, const std::string& type) {
+    for (const Property& property : entity.properties) {
+      if (property.used || is_without_effect(property.name)) continue;
+      if (is_look(property.name)) {
+        report_.look(property.name, property.place);
+        continue;
+      }
+      const std::string plain = property.name.substr(0, property.name.find('['));
+      report_.note("property " + type + "." + plain, property.place,
+                   "the property " + in_quotes(plain) + (type.empty() ? "" : " of a " + type) +
+                       " is left out");
+    }
+  }
+
+  const Entity& root_;
+  Report& report_;
+  Units units_;
+  double interval_s_ = 0.1;
+  Translation out_;
+  Json arena_ = Json::object();
+  std::vector<Piece> obstacles_;
+  std::vector<Piece> maps_;
+  std::map<std::string, int> counts_;
+  std::set<std::string> obstacle_names_;
+  std::set<std::string> robot_names_;
+  std::set<const Entity*> window_;
+  Vec2 least_ = Vec2::Constant(kInfinity);
+  Vec2 most_ = Vec2::Constant(-kInfinity);
+  bool enclosed_ = false;  ///< a boundary surrounds the floor
+};
+
+}  // namespace
+
+Translation translate(const Entity& root, const std::string& name, Report& report) {
+  return Translator(root, report).run(name);
+}
+
+}  // namespace sim::io::stage
