@@ -145,6 +145,12 @@ TEST_F(ArenaTasks, TheParticleFilterFindsTheRobotAndTheGoal) {
   EXPECT_GT(times.size(), 2U) << "the seeds make no difference";
 }
 
+TEST_F(ArenaTasks, AmclFindsTheRobotAndTheGoal) {
+  const ProcessResult graded = grade("par_localization", {}, AMCL_PROGRAM);
+  EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
+  EXPECT_THAT(graded.out, HasSubstr("par_localization: 10 of 10 runs passed"));
+}
+
 TEST_F(ArenaTasks, TheTemplateWandersWithoutACollision) {
   const ProcessResult graded = grade("par_localization", {"--seeds", "1,"}, LOCALIZATION_TEMPLATE);
   EXPECT_EQ(graded.status, 1) << graded.out << graded.err;
