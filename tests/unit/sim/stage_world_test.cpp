@@ -406,7 +406,7 @@ create ( pose [8 0 0 0] )
 TEST_F(StageWorld, AConfigurationFileSaysPortsAndIndexes) {
   folder_.write("w.cfg", R"(
 driver ( name "stage" provides ["simulation:0"] plugin "stageplugin" worldfile "w.world" )
-driver ( name "stage" provides ["6670:position2d:0" "6670:ranger:0" "6670:ranger:1"] model "b" )
+driver ( name "stage" provides ["6670:position2d:0" "6670:ranger:0" "6670:ranger:1 "] model "b" )
 driver ( name "rangertolaser" provides ["6670:laser:0"] requires ["6670:ranger:1"] )
 driver ( name "stage" provides ["6669:position2d:0"] model "a" )
 driver ( name "nd" provides ["6669:position2d:1"] requires ["6669:position2d:0"] )

@@ -36,6 +36,7 @@ std::optional<int> whole_number(std::string_view text, int most) {
 std::optional<Address> parse_address(const Value& value) {
   std::vector<std::string_view> parts;
   std::string_view rest = value.text;
+  while (rest.ends_with(' ')) rest.remove_suffix(1);  // as Player, which reads numbers by atoi()
   for (;;) {
     const std::size_t colon = rest.find(':');
     parts.push_back(rest.substr(0, colon));
