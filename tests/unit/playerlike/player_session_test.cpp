@@ -409,11 +409,12 @@ TEST(PlayerSession, ReadsSignals) {
   EXPECT_THAT(data, ElementsAre(0, 1, 2, 254, 104));
 }
 
-TEST(PlayerSession, ReadsTheMostLikelyHypothesis) {
+TEST(PlayerSession, ReadsAllHypothesesTheMostLikelyFirst) {
   Recorded recorded("localize_fixture");
   PlayerCc::LocalizeProxy localize(&recorded.client, kIndex);
   recorded.client.Read();
-  ASSERT_EQ(localize.GetHypothCount(), 1U);
+  ASSERT_EQ(localize.GetHypothCount(), 2U);
+  EXPECT_GE(localize.GetHypoth(0).alpha, localize.GetHypoth(1).alpha);
   EXPECT_DOUBLE_EQ(localize.GetHypoth(0).mean.px, 1.0);
   EXPECT_DOUBLE_EQ(localize.GetHypoth(0).mean.py, -1.0);
 }
