@@ -24,7 +24,8 @@ class GpsProxy : public ClientProxy {
   uint32_t GetSatellites() const;  ///< number of satellites in view
   uint32_t GetQuality() const;     ///< 1 with a fix, otherwise 0
   /// Horizontal dilution of precision. It is 1 with a fix, because the world file sets the
-  /// receiver's noise directly.
+  /// receiver's noise directly. With a Player server, dilutions and errors are those of the
+  /// receiver.
   double GetHdop() const;
   double GetVdop() const;           ///< vertical dilution of precision; see GetHdop()
   double GetUtmEasting() const;     ///< in the zone of the world's origin [m]

@@ -22,12 +22,18 @@ namespace PlayerCc {
 ///
 /// Drawings are clipped to the grid-map.
 ///
+/// With a Player server (`player://HOST`), the server's device draws, by its own rules: in Stage
+/// the drawings move with the robot, alpha 0 is opaque and 255 invisible, and the window shows
+/// them.
+///
 /// Errors: PlayerError kBadArgument for points that are not finite, for a null array with a count
 /// above 0, and for a negative count; kDisconnected if the client is gone.
 ///
 /// Threads: all members may be called from any thread.
 class Graphics2dProxy : public ClientProxy {
  public:
+  class Sheet;  ///< private to the library
+
   /// @param aIndex  on a robot's own port, index among its pens; on port 4000, the robot's number.
   /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   Graphics2dProxy(PlayerClient* aPc, uint32_t aIndex = 0);
@@ -57,7 +63,6 @@ class Graphics2dProxy : public ClientProxy {
   void Unsubscribe() override;
 
  private:
-  class Sheet;  // the layer
   std::unique_ptr<Sheet> mSheet;
 };
 

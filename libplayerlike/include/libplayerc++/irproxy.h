@@ -25,7 +25,7 @@ class IrProxy : public ClientProxy {
   double GetRange(uint32_t aIndex) const;  ///< [m]
   /// Output voltage of the sensor at the measured range [V]: gain / (range + shift). The settings
   /// `voltage_gain` and `voltage_shift` of the device in the world file give gain and shift; the
-  /// defaults model a Sharp GP2D12.
+  /// defaults model a Sharp GP2D12. With a Player server it is the voltage that the server sends.
   double GetVoltage(uint32_t aIndex) const;
   uint32_t GetPoseCount() const;  ///< number of transducers with known pose
   /// Pose of a transducer in the robot's body frame; the ray is its x axis.

@@ -33,7 +33,7 @@ class LaserProxy : public ClientProxy {
   double GetMaxAngle() const;           ///< bearing of the last beam [rad]
   double GetConfMinAngle() const;       ///< configured bearing of beam 0 [rad]
   double GetConfMaxAngle() const;       ///< configured bearing of the last beam [rad]
-  bool IntensityOn() const;             ///< false: the simulated laser measures ranges only
+  bool IntensityOn() const;             ///< whether the scan has them: from Player servers only
   player_point_2d_t GetPoint(uint32_t aIndex) const;  ///< end point of the beam in L [m]
   /// Range of a beam [m], in [0, GetMaxRange()].
   double GetRange(uint32_t aIndex) const {
@@ -41,7 +41,7 @@ class LaserProxy : public ClientProxy {
     return mElements.Find(aIndex, range) ? range : LockedRange(aIndex, "LaserProxy::GetRange");
   }
   double GetBearing(uint32_t aIndex) const;  ///< bearing of the beam in L [rad]
-  int GetIntensity(uint32_t aIndex) const;   ///< 0, see IntensityOn()
+  int GetIntensity(uint32_t aIndex) const;   ///< 0 to 255; 0 without IntensityOn()
   int GetID() const;                         ///< serial number; a simulated laser's is 0
 
   /// Selects the beams that this proxy shows from now on: every n-th beam in the window [aMinAngle,

@@ -46,8 +46,8 @@ class RangerProxy : public ClientProxy {
   /// End point of a range, relative to GetDevicePose() [m]. Its z is the height of the element
   /// above that pose.
   player_point_3d_t GetPoint(uint32_t aIndex) const;
-  uint32_t GetIntensityCount() const;          ///< 0: the simulated rangers measure ranges only
-  double GetIntensity(uint32_t aIndex) const;  ///< 0, see GetIntensityCount()
+  uint32_t GetIntensityCount() const;          ///< 0 but for those of Player servers
+  double GetIntensity(uint32_t aIndex) const;  ///< 0 past GetIntensityCount()
 
   void SetPower(bool aEnable);          ///< no effect: simulated rangers are always on
   void SetIntensityData(bool aEnable);  ///< no effect, see GetIntensityCount()

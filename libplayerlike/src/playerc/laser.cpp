@@ -44,6 +44,7 @@ class Laser final : public playerlike::clib::ProxyBacked<playerc_laser_t, Player
       const double range_m = proxy_or_throw().GetRange(i);
       const double bearing_rad = scan_start + i * scan_res;
       ranges_[i] = range_m;
+      if (intensity_on != 0) intensities_[i] = proxy_or_throw().GetIntensity(i);
       scan_[i].pair[0] = range_m;
       scan_[i].pair[1] = bearing_rad;
       points_[i] = {range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)};

@@ -25,18 +25,32 @@ uint32_t GpsProxy::GetSatellites() const {
   return static_cast<uint32_t>(Look(&GpsReading::satellites));
 }
 uint32_t GpsProxy::GetQuality() const { return static_cast<uint32_t>(Look(&GpsReading::quality)); }
-double GpsProxy::GetHdop() const { return GetQuality() > 0 ? 1.0 : 0.0; }
-double GpsProxy::GetVdop() const { return GetQuality() > 0 ? 1.0 : 0.0; }
+double GpsProxy::GetHdop() const {
+  return Look<GpsReading>([](const GpsReading& fix) {
+    return fix.accuracy ? fix.accuracy->horizontal_dilution : fix.quality > 0 ? 1.0 : 0.0;
+  });
+}
+double GpsProxy::GetVdop() const {
+  return Look<GpsReading>([](const GpsReading& fix) {
+    return fix.accuracy ? fix.accuracy->vertical_dilution : fix.quality > 0 ? 1.0 : 0.0;
+  });
+}
 double GpsProxy::GetUtmEasting() const { return Look(&GpsReading::utm_easting_m); }
 double GpsProxy::GetUtmNorthing() const { return Look(&GpsReading::utm_northing_m); }
 double GpsProxy::GetTime() const {
   return sim::to_seconds(Look<GpsReading>([](const auto& r) { return r.time_ns; }));
 }
 double GpsProxy::GetErrHorizontal() const {
-  return GetQuality() > 0 ? mLink->property("noise", 0.0) : 0.0;
+  return Look<GpsReading>([this](const GpsReading& fix) {
+    if (fix.accuracy) return fix.accuracy->horizontal_m;
+    return fix.quality > 0 ? mLink->property("noise", 0.0) : 0.0;
+  });
 }
 double GpsProxy::GetErrVertical() const {
-  return GetQuality() > 0 ? mLink->property("noise_vertical", 0.0) : 0.0;
+  return Look<GpsReading>([this](const GpsReading& fix) {
+    if (fix.accuracy) return fix.accuracy->vertical_m;
+    return fix.quality > 0 ? mLink->property("noise_vertical", 0.0) : 0.0;
+  });
 }
 
 }  // namespace PlayerCc

@@ -1,11 +1,14 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <atomic>
+#include <mutex>
 #include <ostream>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/errors.h"
 #include "libCCMorse/Drawing.h"
 #include "libplayerc++/graphics2dproxy.h"
+#include "playerlike/session/device_graphics.h"
 #include "proxies/link.h"
 
 namespace PlayerCc {
@@ -18,49 +21,140 @@ CCMorse::ImageColour_t image_colour(const player_color_t& c) {
 
 }  // namespace
 
-class Graphics2dProxy::Sheet final : public CCMorse::Drawing {
+/// What a proxy draws on.
+class Graphics2dProxy::Sheet {
  public:
-  Sheet(const std::shared_ptr<playerlike::ClientCore>& core, sim::LayerId layer)
-      : Drawing(core, "Graphics2dProxy", layer) {}
+  using Points = std::vector<player_point_2d_t>;
+
+  Sheet() = default;
   Sheet(const Sheet&) = delete;
   Sheet& operator=(const Sheet&) = delete;
-  ~Sheet() override { Core()->release_layer(LayerNumber()); }
+  virtual ~Sheet() = default;
 
-  using Drawing::MarkColour;
-  using Drawing::SetMarkColour;
-
-  void points(const std::vector<player_point_2d_t>& all) {
-    for (const player_point_2d_t& p : all) DrawPixel(GetX(p.px), GetY(p.py), MarkColour());
-  }
-  void line(const player_point_2d_t& from, const player_point_2d_t& to) {
-    DrawLine(GetX(from.px), GetY(from.py), GetX(to.px), GetY(to.py), MarkColour());
-  }
-  void polyline(const std::vector<player_point_2d_t>& all) {
-    DrawPolyline(all.data(), all.size(), MarkColour());
-  }
-  void polygon(const std::vector<player_point_2d_t>& all, const CCMorse::ImageColour_t& colour) {
-    FillPolygon(all.data(), all.size(), colour);
-  }
+  virtual void set_colour(const player_color_t& colour) = 0;
+  virtual void clear() = 0;
+  virtual void draw_points(const Points& all) = 0;
+  virtual void draw_polyline(const Points& all) = 0;
+  virtual void draw_multiline(const Points& all) = 0;
+  virtual void draw_polygon(const Points& all, bool filled, const player_color_t& fill) = 0;
 
   /// Checks an array of points and copies it.
-  std::vector<player_point_2d_t> checked(const char* function, const player_point_2d_t* points,
-                                         int count) const {
-    RequireUsable(function);
-    const std::string fun = Fun(function);
+  Points checked(const char* function, const player_point_2d_t* points, int count) const {
+    require_usable(function);
+    const std::string fun = std::string("Graphics2dProxy::") + function;
     if (count < 0 || (points == nullptr && count > 0)) {
       playerlike::refuse(fun, count < 0 ? "the number of points is " + std::to_string(count)
                                         : std::to_string(count) +
                                               " points are to be drawn, but the "
                                               "array is a null pointer");
     }
-    std::vector<player_point_2d_t> all;
+    Points all;
     if (count > 0) all.assign(points, points + count);
     for (const player_point_2d_t& p : all) {
       playerlike::require_finite(fun.c_str(), {{"a point's x", p.px}, {"a point's y", p.py}});
     }
     return all;
   }
+
+ protected:
+  /// @throws PlayerError if the client is gone.
+  virtual void require_usable(const char* function) const = 0;
 };
+
+namespace {
+
+/// A layer of the grid-map.
+class Layer final : public Graphics2dProxy::Sheet, private CCMorse::Drawing {
+ public:
+  Layer(const std::shared_ptr<playerlike::ClientCore>& core, sim::LayerId layer)
+      : Drawing(core, "Graphics2dProxy", layer) {}
+  Layer(const Layer&) = delete;
+  Layer& operator=(const Layer&) = delete;
+  ~Layer() override { Core()->release_layer(LayerNumber()); }
+
+  void set_colour(const player_color_t& colour) override { SetMarkColour(image_colour(colour)); }
+  void clear() override { Clear(); }
+  void draw_points(const Points& all) override {
+    for (const player_point_2d_t& p : all) DrawPixel(GetX(p.px), GetY(p.py), MarkColour());
+  }
+  void draw_polyline(const Points& all) override {
+    DrawPolyline(all.data(), all.size(), MarkColour());
+  }
+  void draw_multiline(const Points& all) override {
+    for (std::size_t i = 0; i + 1 < all.size(); i += 2) {
+      DrawLine(GetX(all[i].px), GetY(all[i].py), GetX(all[i + 1].px), GetY(all[i + 1].py),
+               MarkColour());
+    }
+  }
+  void draw_polygon(const Points& all, bool filled, const player_color_t& fill) override {
+    if (all.empty()) return;
+    if (filled) FillPolygon(all.data(), all.size(), image_colour(fill));
+    Points outline = all;
+    if (all.size() > 1) outline.push_back(all.front());
+    draw_polyline(outline);
+  }
+
+ private:
+  void require_usable(const char* function) const override { RequireUsable(function); }
+};
+
+/// A device of a server that draws by itself.
+class RemoteSheet final : public Graphics2dProxy::Sheet {
+ public:
+  RemoteSheet(std::shared_ptr<playerlike::ClientCore> core, playerlike::DeviceGraphics& device,
+              unsigned index)
+      : core_(std::move(core)), device_(device), index_(index) {}
+
+  void set_colour(const player_color_t& colour) override {
+    const std::lock_guard lock(mutex_);
+    colour_ = colour;
+  }
+  void clear() override { send("Clear", Kind::kClear, {}); }
+  void draw_points(const Points& all) override { send("DrawPoints", Kind::kPoints, all); }
+  void draw_polyline(const Points& all) override { send("DrawPolyline", Kind::kPolyline, all); }
+  void draw_multiline(const Points& all) override { send("DrawMultiline", Kind::kMultiline, all); }
+  void draw_polygon(const Points& all, bool filled, const player_color_t& fill) override {
+    send("DrawPolygon", Kind::kPolygon, all, filled, fill);
+  }
+
+ private:
+  using Kind = playerlike::DeviceDrawing::Kind;
+
+  void require_usable(const char* function) const override {
+    playerlike::translated((std::string("Graphics2dProxy::") + function).c_str(), [&] {
+      const std::lock_guard lock(core_->mutex());
+      core_->require_usable();
+    });
+  }
+  void send(const char* function, Kind kind, const Points& all, bool filled = false,
+            const player_color_t& fill = {}) {
+    const auto colour_of = [](const player_color_t& c) {
+      return sim::Colour{c.red, c.green, c.blue, c.alpha};  // the server knows what alpha means
+    };
+    playerlike::DeviceDrawing drawing;
+    drawing.kind = kind;
+    for (const player_point_2d_t& point : all) drawing.points.emplace_back(point.px, point.py);
+    drawing.filled = filled;
+    drawing.fill = colour_of(fill);
+    {
+      const std::lock_guard lock(mutex_);
+      drawing.colour = colour_of(colour_);
+    }
+    playerlike::translated((std::string("Graphics2dProxy::") + function).c_str(), [&] {
+      const std::lock_guard lock(core_->mutex());
+      core_->require_usable();
+      device_.draw(index_, drawing);
+    });
+  }
+
+  const std::shared_ptr<playerlike::ClientCore> core_;
+  playerlike::DeviceGraphics& device_;  // the core's session
+  const unsigned index_;
+  std::mutex mutex_;
+  player_color_t colour_{};  // guarded by mutex_
+};
+
+}  // namespace
 
 Graphics2dProxy::Graphics2dProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
   Graphics2dProxy::Subscribe(aIndex);
@@ -72,12 +166,16 @@ void Graphics2dProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "Graphics2dProxy::Graphics2dProxy";
   Attach(PLAYER_GRAPHICS2D_CODE, aIndex, fun, /*aHasReadings=*/false);
   const std::shared_ptr<playerlike::ClientCore>& core = mLink->core;
+  if (auto* device = dynamic_cast<playerlike::DeviceGraphics*>(&core->session())) {
+    mSheet = std::make_unique<RemoteSheet>(core, *device, aIndex);
+    return;
+  }
   const sim::LayerId layer = playerlike::translated(fun, [&] {
     const scoped_lock_t lock(core->mutex());
     return core->acquire_layer();
   });
   try {
-    mSheet = std::make_unique<Sheet>(core, layer);
+    mSheet = std::make_unique<Layer>(core, layer);
   } catch (...) {
     core->release_layer(layer);
     throw;
@@ -89,7 +187,7 @@ void Graphics2dProxy::Unsubscribe() {
   ClientProxy::Unsubscribe();
 }
 
-void Graphics2dProxy::Color(player_color_t col) { mSheet->SetMarkColour(image_colour(col)); }
+void Graphics2dProxy::Color(player_color_t col) { mSheet->set_colour(col); }
 
 void Graphics2dProxy::Color(uint8_t red, uint8_t green, uint8_t blue, uint8_t alpha) {
   player_color_t col;
@@ -100,29 +198,23 @@ void Graphics2dProxy::Color(uint8_t red, uint8_t green, uint8_t blue, uint8_t al
   Color(col);
 }
 
-void Graphics2dProxy::Clear() { mSheet->Clear(); }
+void Graphics2dProxy::Clear() { mSheet->clear(); }
 
 void Graphics2dProxy::DrawPoints(player_point_2d_t pts[], int count) {
-  mSheet->points(mSheet->checked("DrawPoints", pts, count));
+  mSheet->draw_points(mSheet->checked("DrawPoints", pts, count));
 }
 
 void Graphics2dProxy::DrawPolygon(player_point_2d_t pts[], int count, bool filled,
                                   player_color_t fill_color) {
-  std::vector<player_point_2d_t> points = mSheet->checked("DrawPolygon", pts, count);
-  if (points.empty()) return;
-  if (filled) mSheet->polygon(points, image_colour(fill_color));
-  const player_point_2d_t first = points.front();
-  if (points.size() > 1) points.push_back(first);
-  mSheet->polyline(points);
+  mSheet->draw_polygon(mSheet->checked("DrawPolygon", pts, count), filled, fill_color);
 }
 
 void Graphics2dProxy::DrawPolyline(player_point_2d_t pts[], int count) {
-  mSheet->polyline(mSheet->checked("DrawPolyline", pts, count));
+  mSheet->draw_polyline(mSheet->checked("DrawPolyline", pts, count));
 }
 
 void Graphics2dProxy::DrawMultiline(player_point_2d_t pts[], int count) {
-  const std::vector<player_point_2d_t> points = mSheet->checked("DrawMultiline", pts, count);
-  for (std::size_t i = 0; i + 1 < points.size(); i += 2) mSheet->line(points[i], points[i + 1]);
+  mSheet->draw_multiline(mSheet->checked("DrawMultiline", pts, count));
 }
 
 }  // namespace PlayerCc

@@ -37,7 +37,9 @@ double IrProxy::GetRange(uint32_t aIndex) const {
 double IrProxy::GetVoltage(uint32_t aIndex) const {
   const char* fun = "IrProxy::GetVoltage";
   const scoped_lock_t lock(LockData(fun));
-  const std::vector<double>& ranges = mLink->newest.as<RangerReading>().ranges_m;
+  const auto& reading = mLink->newest.as<RangerReading>();
+  const std::vector<double>& ranges = reading.ranges_m;
+  if (aIndex < reading.voltages_v.size()) return reading.voltages_v[aIndex];
   if (!mLink->has_element(fun, detail::kTransducers, aIndex, ranges.size())) return 0.0;
   return sim::infrared_voltage_v(ranges[aIndex], mLink->property("voltage_gain", 0.0),
                                  mLink->property("voltage_shift", 0.0));

@@ -102,7 +102,7 @@ double LaserProxy::GetConfMaxAngle() const {
 
 bool LaserProxy::IntensityOn() const {
   const scoped_lock_t lock(LockData("LaserProxy::IntensityOn"));
-  return false;
+  return !mLink->newest.as<LaserReading>().intensities.empty();
 }
 
 player_point_2d_t LaserProxy::GetPoint(uint32_t aIndex) const {
@@ -140,7 +140,10 @@ int LaserProxy::GetIntensity(uint32_t aIndex) const {
   const char* fun = "LaserProxy::GetIntensity";
   const scoped_lock_t lock(LockData(fun));
   static_cast<void>(CheckedRange(aIndex, fun));
-  return 0;
+  const std::vector<double>& intensities = mLink->newest.as<LaserReading>().intensities;
+  if (aIndex >= intensities.size() || !(intensities[aIndex] > 0.0)) return 0;
+  constexpr double kMost = 255.0;  // Player's intensities are bytes
+  return static_cast<int>(std::min(intensities[aIndex], kMost));
 }
 
 int LaserProxy::GetID() const {

@@ -26,6 +26,11 @@ const std::vector<double>& ranges_of(const playerlike::Newest& newest) {
   return scan != nullptr ? scan->ranges_m : newest.as<RangerReading>().ranges_m;
 }
 
+const std::vector<double>& intensities_of(const playerlike::Newest& newest) {
+  const auto* scan = newest.find<LaserReading>();
+  return scan != nullptr ? scan->intensities : newest.as<RangerReading>().intensities;
+}
+
 }  // namespace
 
 RangerProxy::RangerProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
@@ -151,12 +156,14 @@ player_point_3d_t RangerProxy::GetPoint(uint32_t aIndex) const {
 
 uint32_t RangerProxy::GetIntensityCount() const {
   const scoped_lock_t lock(LockData("RangerProxy::GetIntensityCount"));
-  return 0;
+  return static_cast<uint32_t>(intensities_of(mLink->newest).size());
 }
 
 double RangerProxy::GetIntensity(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetIntensity";
   const scoped_lock_t lock(LockData(fun));
+  const std::vector<double>& intensities = intensities_of(mLink->newest);
+  if (aIndex < intensities.size()) return intensities[aIndex];
   mLink->warn_once(fun, "there is no intensity " + std::to_string(aIndex) +
                             ": the simulated rangers measure ranges only; intensities read 0");
   return 0.0;

@@ -260,6 +260,43 @@ struct Converter {
 
 }  // namespace
 
+PlayerCommand to_player(const DeviceDrawing& drawing) {
+  const auto colour_of = [](const sim::Colour& colour) {
+    player::Color converted;
+    converted.alpha = colour.a;
+    converted.red = colour.r;
+    converted.green = colour.g;
+    converted.blue = colour.b;
+    return converted;
+  };
+  const auto points_of = [&](auto payload) {
+    for (const sim::Vec2& point : drawing.points) {
+      payload.points.push_back({point.x(), point.y()});
+    }
+    payload.color = colour_of(drawing.colour);
+    return payload;
+  };
+  using Kind = DeviceDrawing::Kind;
+  switch (drawing.kind) {
+    case Kind::kPoints:
+      return command_of(PLAYER_GRAPHICS2D_CMD_POINTS, points_of(player::Graphics2dCmdPoints()));
+    case Kind::kPolyline:
+      return command_of(PLAYER_GRAPHICS2D_CMD_POLYLINE, points_of(player::Graphics2dCmdPolyline()));
+    case Kind::kMultiline:
+      return command_of(PLAYER_GRAPHICS2D_CMD_MULTILINE,
+                        points_of(player::Graphics2dCmdMultiline()));
+    case Kind::kPolygon: {
+      auto payload = points_of(player::Graphics2dCmdPolygon());
+      payload.fill_color = colour_of(drawing.fill);
+      payload.filled = flag(drawing.filled);
+      return command_of(PLAYER_GRAPHICS2D_CMD_POLYGON, payload);
+    }
+    case Kind::kClear:
+      break;
+  }
+  return command_of(PLAYER_GRAPHICS2D_CMD_CLEAR, player::Empty{});
+}
+
 std::optional<PlayerCommand> to_player(unsigned interface, const sim::Command& command) {
   return std::visit(Converter{interface}, command);
 }

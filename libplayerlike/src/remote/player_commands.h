@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "playerlike/session/device_graphics.h"
 #include "sim/devices/device.h"
 
 namespace playerlike {
@@ -19,5 +20,7 @@ struct PlayerCommand {
 /// Converts a command for a device of an interface. @return nothing if Player has no such command.
 [[nodiscard]] std::optional<PlayerCommand> to_player(unsigned interface,
                                                      const sim::Command& command);
+/// Converts a drawing for a device of the interface graphics2d.
+[[nodiscard]] PlayerCommand to_player(const DeviceDrawing& drawing);
 
 }  // namespace playerlike

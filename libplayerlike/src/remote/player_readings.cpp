@@ -87,6 +87,12 @@ Made scan_of(const player::LaserData& data) {
   reading->angle_min_rad = double{data.min_angle};
   reading->resolution_rad = double{data.resolution};
   reading->range_max_m = double{data.max_range};
+  // Some drivers send an intensity for each range, some none, and some send zeros.
+  const bool has_any = std::any_of(data.intensity.begin(), data.intensity.end(),
+                                   [](std::uint8_t intensity) { return intensity != 0; });
+  if (has_any && data.intensity.size() == data.ranges.size()) {
+    reading->intensities = {data.intensity.begin(), data.intensity.end()};
+  }
   return reading;
 }
 
@@ -95,10 +101,10 @@ Made scan(std::uint8_t subtype, std::string_view payload) {
   if (subtype == PLAYER_LASER_DATA_SCANPOSE) {
     return scan_of(decode<player::LaserDataScanpose>(payload).scan);
   }
-  return nullptr;  // beams at any angles, or intensities
+  return nullptr;  // beams at any angles
 }
 
-Made ring(std::vector<double> ranges_m, const DeviceInfo& device) {
+std::shared_ptr<sim::RangerReading> ring(std::vector<double> ranges_m, const DeviceInfo& device) {
   const auto reading = std::make_shared<sim::RangerReading>();
   reading->ranges_m = std::move(ranges_m);
   reading->range_max_m = setting_of(device.properties, "range_max");
@@ -106,6 +112,12 @@ Made ring(std::vector<double> ranges_m, const DeviceInfo& device) {
   for (const Mounting& mounting : element_mountings(device.properties)) {
     reading->X_BS.push_back({mounting.x_m, mounting.y_m, mounting.yaw_rad});
   }
+  return reading;
+}
+
+Made infrared(const player::IrData& data, const DeviceInfo& device) {
+  const auto reading = ring(doubles(data.ranges), device);
+  if (data.voltages.size() == data.ranges.size()) reading->voltages_v = doubles(data.voltages);
   return reading;
 }
 
@@ -120,12 +132,34 @@ Made ranger_scan(std::vector<double> ranges_m, const DeviceInfo& device) {
   return reading;
 }
 
-Made ranger(std::uint8_t subtype, std::string_view payload, const DeviceInfo& device) {
+/// Drivers send intensities after the ranges to which they belong.
+Made with_intensities(const std::vector<double>& intensities, const sim::SharedReading& last) {
+  const auto complete = [&](const auto& reading) -> Made {
+    if (reading.ranges_m.size() != intensities.size()) return nullptr;
+    auto whole = std::make_shared<std::decay_t<decltype(reading)>>(reading);
+    whole->intensities = intensities;
+    return whole;
+  };
+  if (const auto* scan = dynamic_cast<const sim::LaserReading*>(last.get())) return complete(*scan);
+  if (const auto* round = dynamic_cast<const sim::RangerReading*>(last.get())) {
+    return complete(*round);
+  }
+  return nullptr;
+}
+
+Made ranger(std::uint8_t subtype, std::string_view payload, const DeviceInfo& device,
+            const sim::SharedReading& last) {
   if (subtype == PLAYER_RANGER_DATA_RANGE) {
     return ranger_scan(decode<player::RangerDataRange>(payload).ranges, device);
   }
   if (subtype == PLAYER_RANGER_DATA_RANGESTAMPED) {
     return ranger_scan(decode<player::RangerDataRangestamped>(payload).data.ranges, device);
+  }
+  if (subtype == PLAYER_RANGER_DATA_INTNS) {
+    return with_intensities(decode<player::RangerDataIntns>(payload).intensities, last);
+  }
+  if (subtype == PLAYER_RANGER_DATA_INTNSSTAMPED) {
+    return with_intensities(decode<player::RangerDataIntnsstamped>(payload).data.intensities, last);
   }
   return nullptr;
 }
@@ -160,6 +194,8 @@ Made gps(std::uint8_t subtype, std::string_view payload) {
   reading->utm_northing_m = data.utm_n * 0.01;
   reading->satellites = as_int(data.num_sats);
   reading->quality = as_int(data.quality);
+  // Player's client library divides the dilutions by 10.
+  reading->accuracy = {data.err_horz, data.err_vert, data.hdop * 0.1, data.vdop * 0.1};
   return reading;
 }
 
@@ -425,13 +461,13 @@ Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,
     case PLAYER_LASER_CODE:
       return scan(subtype, payload);
     case PLAYER_RANGER_CODE:
-      return ranger(subtype, payload, device);
+      return ranger(subtype, payload, device, last);
     case PLAYER_SONAR_CODE:
       if (subtype != PLAYER_SONAR_DATA_RANGES) return nullptr;
       return ring(doubles(decode<player::SonarData>(payload).ranges), device);
     case PLAYER_IR_CODE:
       if (subtype != PLAYER_IR_DATA_RANGES) return nullptr;
-      return ring(doubles(decode<player::IrData>(payload).ranges), device);
+      return infrared(decode<player::IrData>(payload), device);
     case PLAYER_POWER_CODE:
       return battery(subtype, payload);
     case PLAYER_GPS_CODE:
@@ -476,7 +512,10 @@ sim::SharedReading PlayerReadings::convert(std::uint8_t subtype, double time_s,
   constexpr double kLatest_s = 9e9;  // nanoseconds fit 64 bits until the year 2255
   if (time_s >= 0.0 && time_s <= kLatest_s) time_ns_ = sim::from_seconds(time_s);
   made->time_ns = time_ns_;
-  made->sequence = ++sequence_;
+  const bool completes_last =
+      interface_ == PLAYER_RANGER_CODE &&
+      (subtype == PLAYER_RANGER_DATA_INTNS || subtype == PLAYER_RANGER_DATA_INTNSSTAMPED);
+  made->sequence = completes_last ? sequence_ : ++sequence_;
   last_ = made;
   return made;
 }

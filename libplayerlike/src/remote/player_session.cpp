@@ -409,6 +409,24 @@ void PlayerSession::send(DeviceId device, const sim::Command& command) {
   });
 }
 
+// --- Drawings
+
+void PlayerSession::draw(unsigned index, const DeviceDrawing& drawing) {
+  require_open();
+  const auto found = by_interface_.find({PLAYER_GRAPHICS2D_CODE, index});
+  if (found == by_interface_.end()) {
+    throw SessionError(SessionError::Code::kNoSuchDevice,
+                       "the Player server at " + settings_.server.text() +
+                           " has no graphics2d:" + std::to_string(index));
+  }
+  Address& address = *found->second;
+  const PlayerCommand message = to_player(drawing);
+  with_link([&](PlayerLink& link) {
+    open(link, address);
+    link.command(address.at, message.subtype, message.payload);
+  });
+}
+
 // --- Readings
 
 void PlayerSession::on_data(const player::Msghdr& header, std::string_view payload) {
@@ -431,6 +449,16 @@ void PlayerSession::on_data(const player::Msghdr& header, std::string_view paylo
   }
   if (reading == nullptr) return;
   time_ns_ = reading->time_ns;
+  // A message may complete the reading of the last one, see PlayerReadings::convert().
+  const auto incomplete = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& w) {
+    return w.address == &address && w.reading->sequence == reading->sequence;
+  });
+  if (incomplete != waiting_.end()) {
+    incomplete->reading = std::move(reading);
+    incomplete->bytes += payload.size();
+    waiting_bytes_ += payload.size();
+    return;
+  }
   const auto of_address = [&](const Waiting& w) { return w.address == &address; };
   const auto drop = [&](auto it) {
     waiting_bytes_ -= it->bytes;

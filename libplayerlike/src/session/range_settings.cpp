@@ -101,6 +101,12 @@ std::shared_ptr<sim::LaserReading> part_of(const sim::LaserReading& scan,
   for (std::size_t i = 0; i < window.shown; ++i) {
     part->ranges_m[i] = scan.ranges_m[window.first + i * window.stride];
   }
+  if (scan.intensities.size() == scan.ranges_m.size()) {
+    part->intensities.resize(window.shown);
+    for (std::size_t i = 0; i < window.shown; ++i) {
+      part->intensities[i] = scan.intensities[window.first + i * window.stride];
+    }
+  }
   return part;
 }
 

@@ -51,6 +51,12 @@ struct ShownBeams {
   BeamWindow window;
 };
 
+/// The nearest number that a byte has.
+std::uint8_t to_byte(double value) {
+  if (!(value > 0.0)) return 0;
+  return static_cast<std::uint8_t>(std::min(value, 255.0));
+}
+
 /// LaserProxy's counterpart.
 class LaserDevice final : public RobotDevice {
  public:
@@ -72,11 +78,16 @@ class LaserDevice final : public RobotDevice {
     scan_.id = static_cast<std::uint32_t>(scan->sequence);
     const BeamWindow& window = beams_.window;
     scan_.ranges.resize(window.shown);
-    scan_.intensity.resize(window.shown);  // there are none, but clients expect one per range
+    // Clients expect an intensity for each range; simulated lasers measure none.
+    scan_.intensity.assign(window.shown, 0);
+    const bool has_intensities = scan->intensities.size() == scan->ranges_m.size();
     for (std::size_t i = 0; i < window.shown; ++i) {
       const double range_m = scan->ranges_m[window.first + i * window.stride];
       scan_.ranges[i] = static_cast<float>(
           range_res_m_ > 0.0 ? limited_range_m(range_m, range_res_m_, 0.0, range_max_m_) : range_m);
+      if (has_intensities) {
+        scan_.intensity[i] = to_byte(scan->intensities[window.first + i * window.stride]);
+      }
     }
     constexpr std::size_t kOtherFields = 64;
     sink.data(PLAYER_LASER_DATA_SCAN, encode_long(scan_, kOtherFields + 5 * window.shown));
@@ -314,9 +325,12 @@ class IrDevice final : public RingDevice {
     const double shift = setting("voltage_shift");
     data_.ranges.clear();
     data_.voltages.clear();
-    for (const double range_m : ring->ranges_m) {
+    for (std::size_t i = 0; i < ring->ranges_m.size(); ++i) {
+      const double range_m = ring->ranges_m[i];
       data_.ranges.push_back(static_cast<float>(range_m));
-      data_.voltages.push_back(static_cast<float>(sim::infrared_voltage_v(range_m, gain, shift)));
+      data_.voltages.push_back(static_cast<float>(
+          i < ring->voltages_v.size() ? ring->voltages_v[i]
+                                      : sim::infrared_voltage_v(range_m, gain, shift)));
     }
     sink.data(PLAYER_IR_DATA_RANGES, player::encode(data_));
   }

@@ -99,6 +99,34 @@ void expect_same(Recorded& recorded, unsigned interface, unsigned type, unsigned
       << interface << ' ' << type << ' ' << subtype;
 }
 
+Script with_laser() {
+  Script script;
+  script.devices = {{0, 6665, PLAYER_LASER_CODE, 0}, {0, 6665, PLAYER_POSITION2D_CODE, 0}};
+  return script;
+}
+
+player::LaserData scan() {
+  player::LaserData data;
+  data.min_angle = -1.0F;
+  data.max_angle = 1.0F;
+  data.resolution = 1.0F;
+  data.max_range = 8.0F;
+  data.ranges = {1.0F, 2.0F, 3.0F};
+  return data;
+}
+
+template <typename Action>
+std::string error_of(Action action) {
+  try {
+    action();
+  } catch (const PlayerError& e) {
+    return e.GetErrorStr();
+  } catch (const SessionError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
 // --- The beginning of a connection
 
 TEST(PlayerSession, GreetsAsPlayersClientDoes) {
@@ -159,6 +187,34 @@ TEST(PlayerSession, ReadsScans) {
   EXPECT_DOUBLE_EQ(laser.GetSize().sl, 0.16);
 }
 
+TEST(PlayerSession, ReadsIntensitiesOfScans) {
+  Recorded recorded("laser_fixture");
+  PlayerCc::LaserProxy laser(&recorded.client, kIndex);
+  EXPECT_FALSE(laser.IntensityOn());
+  recorded.client.Read();
+  EXPECT_TRUE(laser.IntensityOn());
+  const std::vector<int> intensities = {0, 1, 2, 3, 4, 5, 255};
+  for (uint32_t i = 0; i < 7; ++i) EXPECT_EQ(laser.GetIntensity(i), intensities[i]);
+  // Each second beam from -1 rad on: beams 1, 3 and 5.
+  laser.Configure(-1.0, 1.0, 5730, 0, true, 10.0);
+  ASSERT_EQ(laser.GetCount(), 3U);
+  for (uint32_t i = 0; i < 3; ++i) EXPECT_EQ(laser.GetIntensity(i), 2 * static_cast<int>(i) + 1);
+}
+
+TEST(PlayerSession, CountsZerosAsNoIntensities) {
+  Script script = with_laser();
+  player::LaserData data = scan();
+  data.intensity = {0, 0, 0};
+  script.rounds = {test::data_message(PLAYER_LASER_CODE, 0, PLAYER_LASER_DATA_SCAN, 1.0, data)};
+  ScriptedPlayerServer server(std::move(script));
+  PlayerClient client(server.host(), 6665);
+  PlayerCc::LaserProxy laser(&client, 0);
+  client.Read();
+  ASSERT_EQ(laser.GetCount(), 3U);
+  EXPECT_FALSE(laser.IntensityOn());
+  EXPECT_EQ(laser.GetIntensity(1), 0);
+}
+
 TEST(PlayerSession, ReadsRangersAsRings) {
   Recorded recorded("ranger_fixture");  // two elements
   PlayerCc::RangerProxy ranger(&recorded.client, kIndex);
@@ -170,6 +226,11 @@ TEST(PlayerSession, ReadsRangersAsRings) {
   ASSERT_EQ(ranger.GetElementCount(), 2U);
   EXPECT_DOUBLE_EQ(ranger.GetElementPose(1).px, 0.30000000000000004);
   EXPECT_DOUBLE_EQ(ranger.GetMaxRange(), 8.0);
+  // They come in a message of their own.
+  while (ranger.GetIntensityCount() == 0) recorded.client.Read();
+  ASSERT_EQ(ranger.GetIntensityCount(), 5U);
+  EXPECT_EQ(ranger.GetRangeCount(), 5U);
+  for (uint32_t i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(ranger.GetIntensity(i), 0.25 * i);
 }
 
 TEST(PlayerSession, ReadsRangersAsScans) {
@@ -181,6 +242,10 @@ TEST(PlayerSession, ReadsRangersAsScans) {
   EXPECT_DOUBLE_EQ(ranger.GetRange(0), 3.129099349832011);
   EXPECT_DOUBLE_EQ(ranger.GetMinAngle(), -1.5707963267948966);
   EXPECT_DOUBLE_EQ(ranger.GetAngularRes(), 0.08490790955648089);
+  while (ranger.GetIntensityCount() == 0) recorded.client.Read();
+  ASSERT_EQ(ranger.GetIntensityCount(), 37U);
+  EXPECT_DOUBLE_EQ(ranger.GetIntensity(36), 1.0);
+  EXPECT_EQ(ranger.GetRangeCount(), 37U);
 }
 
 TEST(PlayerSession, ReadsSonarsAndInfraredRangers) {
@@ -196,6 +261,7 @@ TEST(PlayerSession, ReadsSonarsAndInfraredRangers) {
   infrared.client.Read();
   ASSERT_EQ(ir.GetCount(), 3U);
   EXPECT_DOUBLE_EQ(ir.GetRange(2), 0.5);
+  for (uint32_t i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(ir.GetVoltage(i), 1.0 + i);
   EXPECT_EQ(ir.GetPoseCount(), 3U);
   EXPECT_DOUBLE_EQ(ir.GetPose(1).px, 1.1);
 }
@@ -214,6 +280,10 @@ TEST(PlayerSession, ReadsGpsAndPower) {
   EXPECT_DOUBLE_EQ(gps.GetCourse(), report.at("course"));
   EXPECT_EQ(gps.GetSatellites(), 9U);
   EXPECT_EQ(gps.GetQuality(), 1U);
+  EXPECT_DOUBLE_EQ(gps.GetErrHorizontal(), 2.5);
+  EXPECT_DOUBLE_EQ(gps.GetErrVertical(), 4.5);
+  EXPECT_DOUBLE_EQ(gps.GetHdop(), 1.2);
+  EXPECT_DOUBLE_EQ(gps.GetVdop(), 1.5);
 
   Recorded battery("power");
   PlayerCc::PowerProxy power(&battery.client, kIndex);
@@ -533,35 +603,28 @@ TEST(PlayerSession, SendsSignals) {
   expect_same(digital, PLAYER_DIO_CODE, PLAYER_MSGTYPE_CMD, PLAYER_DIO_CMD_VALUES);
 }
 
-// --- Errors
-
-Script with_laser() {
-  Script script;
-  script.devices = {{0, 6665, PLAYER_LASER_CODE, 0}, {0, 6665, PLAYER_POSITION2D_CODE, 0}};
-  return script;
-}
-
-player::LaserData scan() {
-  player::LaserData data;
-  data.min_angle = -1.0F;
-  data.max_angle = 1.0F;
-  data.resolution = 1.0F;
-  data.max_range = 8.0F;
-  data.ranges = {1.0F, 2.0F, 3.0F};
-  return data;
-}
-
-template <typename Action>
-std::string error_of(Action action) {
-  try {
-    action();
-  } catch (const PlayerError& e) {
-    return e.GetErrorStr();
-  } catch (const SessionError& e) {
-    return e.what();
+TEST(PlayerSession, SendsDrawings) {
+  Recorded recorded("graphics2d_stage");
+  PlayerCc::Graphics2dProxy sheet(&recorded.client, recorded.server.script.devices.front().index);
+  player_point_2d_t points[] = {{0.0, 0.0}, {1.0, 0.5}, {2.0, -0.25}, {-1.0, 1.0}};
+  const player_color_t fill = {128, 200, 100, 50};
+  sheet.Color(10, 20, 30, 255);
+  sheet.DrawPoints(points, 4);
+  sheet.DrawPolyline(points, 3);
+  sheet.DrawMultiline(points, 4);
+  sheet.DrawPolygon(points, 4, true, fill);
+  sheet.DrawPolygon(points, 3, false, fill);
+  sheet.Clear();
+  for (unsigned subtype = PLAYER_GRAPHICS2D_CMD_CLEAR; subtype <= PLAYER_GRAPHICS2D_CMD_MULTILINE;
+       ++subtype) {
+    expect_same(recorded, PLAYER_GRAPHICS2D_CODE, PLAYER_MSGTYPE_CMD, subtype);
   }
-  return "no error";
+  EXPECT_THAT(error_of([&] { sheet.DrawPoints(nullptr, 1); }), HasSubstr("null pointer"));
+  points[1].px = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(error_of([&] { sheet.DrawPolyline(points, 4); }), HasSubstr("a point's x"));
 }
+
+// --- Errors
 
 TEST(PlayerErrors, NameTheDevicesThatExist) {
   ScriptedPlayerServer server(with_laser());

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "sim/devices/device.h"
@@ -24,6 +25,14 @@ struct GpsParams {
   double latency_s = 0.0;         ///< [0, 10] [s]
 };
 
+/// Statement of a receiver about the errors of its position.
+struct GpsAccuracy {
+  double horizontal_m = 0.0;
+  double vertical_m = 0.0;
+  double horizontal_dilution = 0.0;  ///< of precision (HDOP)
+  double vertical_dilution = 0.0;    ///< VDOP
+};
+
 /// Position of a receiver. Without a fix (quality 0), all numbers except time and satellites are 0.
 struct GpsReading final : Reading {
   double latitude_rad = 0.0;   ///< north > 0
@@ -35,6 +44,9 @@ struct GpsReading final : Reading {
   double utm_northing_m = 0.0;
   int satellites = 0;
   int quality = 0;  ///< 1: a fix, 0: none
+  /// What a real receiver states about its errors; nothing: the device's settings tell, as of all
+  /// simulated receivers.
+  std::optional<GpsAccuracy> accuracy;
 };
 
 /// A point on an ellipsoid of revolution.

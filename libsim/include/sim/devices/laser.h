@@ -34,6 +34,9 @@ struct LaserReading final : Reading {
   double resolution_rad = 0.0;
   double range_max_m = 0.0;
   Pose X_WB;  ///< pose of the robot (for pictures; not sent to clients)
+  /// Strength of each beam's echo, as a real laser states it; empty: not measured, as by all
+  /// simulated lasers.
+  std::vector<double> intensities;
 
   /// The least of ranges_m; range_max_m before the first scan. O(beams).
   [[nodiscard]] double least_range_m() const;

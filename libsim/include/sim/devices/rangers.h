@@ -53,12 +53,14 @@ struct SonarParams : RangerParams {
 
 /// One measurement of all transducers. Their directions are the x axes of the frames X_BS.
 struct RangerReading final : Reading {
-  std::vector<double> ranges_m;    ///< one per transducer, in [0, range_max_m]; range_max_m:
-                                   ///< nothing met
-  std::vector<Pose> X_BS;          ///< mountings of the transducers on the body
-  double range_max_m = 0.0;        ///< from the settings
-  double field_of_view_rad = 0.0;  ///< full angle of each cone; 0: single rays
-  Pose X_WB;                       ///< pose of the robot (for pictures; not sent to clients)
+  std::vector<double> ranges_m;     ///< one per transducer, in [0, range_max_m]; range_max_m:
+                                    ///< nothing met
+  std::vector<Pose> X_BS;           ///< mountings of the transducers on the body
+  double range_max_m = 0.0;         ///< from the settings
+  double field_of_view_rad = 0.0;   ///< full angle of each cone; 0: single rays
+  Pose X_WB;                        ///< pose of the robot (for pictures; not sent to clients)
+  std::vector<double> intensities;  ///< of the echoes of real rangers; empty: not measured
+  std::vector<double> voltages_v;   ///< of real infrared rangers; empty: as infrared_voltage_v()
 };
 
 /// Infrared or sonar rangers.
