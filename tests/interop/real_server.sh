@@ -214,7 +214,7 @@ if [[ -d $player/examples/libplayerc++ ]]; then
   example camera 10 0 0 ''
   example ptz 10 0 0 ''
   example clientgraphics3d 10 0 0 ''
-else
+elif wanted examples; then
   row examples - "there is no folder $player/examples/libplayerc++"
 fi
 

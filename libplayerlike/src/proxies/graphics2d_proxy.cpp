@@ -8,6 +8,7 @@
 #include "devices/errors.h"
 #include "libCCMorse/Drawing.h"
 #include "libplayerc++/graphics2dproxy.h"
+#include "playerlike/session/device_graphics.h"
 #include "proxies/link.h"
 
 namespace PlayerCc {
@@ -100,8 +101,9 @@ class Layer final : public Graphics2dProxy::Sheet, private CCMorse::Drawing {
 /// A device of a server that draws by itself.
 class RemoteSheet final : public Graphics2dProxy::Sheet {
  public:
-  RemoteSheet(std::shared_ptr<playerlike::ClientCore> core, unsigned index)
-      : core_(std::move(core)), index_(index) {}
+  RemoteSheet(std::shared_ptr<playerlike::ClientCore> core, playerlike::DeviceGraphics& device,
+              unsigned index)
+      : core_(std::move(core)), device_(device), index_(index) {}
 
   void set_colour(const player_color_t& colour) override {
     const std::lock_guard lock(mutex_);
@@ -141,11 +143,12 @@ class RemoteSheet final : public Graphics2dProxy::Sheet {
     playerlike::translated((std::string("Graphics2dProxy::") + function).c_str(), [&] {
       const std::lock_guard lock(core_->mutex());
       core_->require_usable();
-      core_->session().device_graphics()->draw(index_, drawing);
+      device_.draw(index_, drawing);
     });
   }
 
   const std::shared_ptr<playerlike::ClientCore> core_;
+  playerlike::DeviceGraphics& device_;  // the core's session
   const unsigned index_;
   std::mutex mutex_;
   player_color_t colour_{};  // guarded by mutex_
@@ -163,8 +166,8 @@ void Graphics2dProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "Graphics2dProxy::Graphics2dProxy";
   Attach(PLAYER_GRAPHICS2D_CODE, aIndex, fun, /*aHasReadings=*/false);
   const std::shared_ptr<playerlike::ClientCore>& core = mLink->core;
-  if (core->session().device_graphics() != nullptr) {
-    mSheet = std::make_unique<RemoteSheet>(core, aIndex);
+  if (auto* device = dynamic_cast<playerlike::DeviceGraphics*>(&core->session())) {
+    mSheet = std::make_unique<RemoteSheet>(core, *device, aIndex);
     return;
   }
   const sim::LayerId layer = playerlike::translated(fun, [&] {

@@ -26,7 +26,8 @@ struct DeviceDrawing {
   sim::Colour fill{};
 };
 
-/// Draws by devices of a server.
+/// Draws by devices of a server. Sessions with servers whose devices draw, and that have no canvas,
+/// derive from it: those with Player servers.
 class DeviceGraphics {
  public:
   /// Sends a drawing to the device with this index of the interface graphics2d.
