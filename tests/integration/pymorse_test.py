@@ -6,6 +6,7 @@ Usage: pymorse_test.py PLAYPEN REPOSITORY
 
 Ends with status 77 (ctest: skipped) if this Python has no pymorse.
 """
+import json
 import math
 import os
 import re
@@ -33,10 +34,15 @@ TIMEOUT = float(os.environ.get("PLAYPEN_TEST_PATIENCE_S", 900))
 class Server:
     """`playpen serve` on ports that are free."""
 
-    def __init__(self, *options):
+    def __init__(self, *options, world=None):
         self.folder = tempfile.TemporaryDirectory()
+        path = WORLD
+        if world is not None:
+            path = os.path.join(self.folder.name, "world.json")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(world, file)
         self.process = subprocess.Popen(
-            [PLAYPEN, "serve", WORLD, "--port", "0", "--stream-port", "0",
+            [PLAYPEN, "serve", path, "--port", "0", "--stream-port", "0",
              "--out", self.folder.name, *options],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1)
         self.log = ""
@@ -251,6 +257,99 @@ class Lockstep(unittest.TestCase):
         self.assertEqual(first[0]["timestamp"], 1.5)
         self.assertEqual(first[1], "Arrived")
         self.assertEqual(first, self.run_once())
+
+
+class Space(unittest.TestCase):
+    """MORSE's components of space, at ten times the pace of the clock."""
+
+    WORLD = {
+        "arena": {"size": [20, 20], "origin": [-10, -10],
+                  "obstacles": [{"name": "box", "center": [0, 5], "tags": ["Object"]},
+                                {"name": "wall", "center": [5, 0], "size": [0.2, 4],
+                   "height": 1}]},
+        "robots": [
+            {"name": "robot", "model": "omni", "pose": {"x": 0, "y": 0}, "elevation": {"z": 0.5},
+             "devices": {
+                 "laser": None,
+                 "ptu": {"type": "ptz", "tilt_max_deg": 90, "pan_max_deg": 180, "z": 1.0},
+                 "gyro": {"type": "gyroscope", "on": "ptu"}, "posture": {"of": "ptu"},
+                 "arm": {"type": "actarray", "joints": [{"name": "one"}, {"name": "two"}]},
+                 "joints": {"type": "posture", "of": "arm"},
+                 "orientation": {}, "teleport": {}, "velocity": {}, "proximity": {"range": 20},
+                 "barometer": {}}},
+            {"name": "hidden", "pose": {"x": 8, "y": 0}, "tags": ["friend"]},
+            {"name": "near", "pose": {"x": -3, "y": 0}}]}
+
+    def setUp(self):
+        self.server = Server("--time", "10", world=self.WORLD)
+        self.simu = pymorse.Morse("localhost", self.server.port)
+        self.simu.sleep(0.5)  # all sensors have readings then
+
+    def tearDown(self):
+        close(self.simu)
+        self.server.stop()
+
+    def test_a_head_carries_its_sensors(self):
+        ptu = self.simu.robot.ptu
+        ptu.set_pan_tilt(0.5, 0.25).result(TIMEOUT)
+        self.assertEqual(ptu.get_pan_tilt().result(TIMEOUT), [0.5, 0.25])
+        self.assertTrue(wait_for(
+            lambda: abs(ptu.gyro.get_local_data().result(TIMEOUT)["yaw"] - 0.5) < 1e-6, self.simu))
+        gyro = ptu.gyro.get_local_data().result(TIMEOUT)
+        self.assertAlmostEqual(gyro["pitch"], 0.25)
+        self.assertAlmostEqual(ptu.posture.get(TIMEOUT)["tilt"], 0.25)
+        ptu.look_at_object("box").result(TIMEOUT)
+        pan, tilt = ptu.get_pan_tilt().result(TIMEOUT)
+        self.assertAlmostEqual(pan, math.pi / 2)
+        self.assertAlmostEqual(tilt, math.atan2(1.5, 5))  # 1.5 m over the floor: down
+        with self.assertRaises(pymorse.MorseServiceFailed):
+            ptu.look_at_object("nothing").result(TIMEOUT)
+
+    def test_an_arm_moves_by_names(self):
+        arm = self.simu.robot.arm
+        self.assertEqual(arm.get_joints().result(TIMEOUT), ["one", "two"])
+        arm.set_rotation("two", 0.5).result(TIMEOUT)
+        self.assertTrue(wait_for(
+            lambda: arm.joints.get_local_data().result(TIMEOUT).get("two") == 0.5, self.simu))
+        arm.rotate("one", 0.25).result(TIMEOUT)
+        self.assertTrue(wait_for(
+            lambda: abs(arm.joints.get_local_data().result(TIMEOUT)["one"] - 0.25) < 1e-9,
+            self.simu))
+        self.assertEqual(set(arm.joints.get_joints_length().result(TIMEOUT)), {"one", "two"})
+        for wrong in (arm.set_rotation("three", 0), arm.set_translation("one", 0)):
+            with self.assertRaises(pymorse.MorseServiceFailed):
+                wrong.result(TIMEOUT)
+
+    def test_height_and_inclination_are_values(self):
+        robot = self.simu.robot
+        robot.orientation.publish({"yaw": 0.5, "pitch": 0.25, "roll": -0.125})
+        self.assertTrue(wait_for(lambda: robot.pose.get(TIMEOUT)["roll"] == -0.125, self.simu))
+        self.assertEqual(robot.pose.last()["pitch"], 0.25)
+        robot.teleport.publish({"x": 1, "y": 1, "z": 100.5, "yaw": 0, "pitch": 0, "roll": 0})
+        self.assertTrue(wait_for(lambda: robot.pose.get(TIMEOUT)["z"] == 100.5, self.simu))
+        self.assertTrue(wait_for(
+            lambda: abs(robot.barometer.get(TIMEOUT)["pressure"] - 100129.0) < 1.0, self.simu))
+
+    def test_a_robot_drives_to_the_side(self):
+        robot = self.simu.robot
+        robot.motion.set_speed(0.0, 0.5, 0.0).result(TIMEOUT)
+        self.assertTrue(wait_for(
+            lambda: abs(robot.velocity.get(TIMEOUT)["linear_velocity"][1] - 0.5) < 1e-6, self.simu))
+        robot.motion.publish({"x": 0.0, "y": 0.0, "w": 0.0})
+        self.assertTrue(wait_for(
+            lambda: robot.velocity.get(TIMEOUT)["linear_velocity"][1] == 0.0, self.simu))
+
+    def test_robots_see_each_other(self):
+        simu = self.simu
+        ask = lambda *names: simu.rpc("communication", "distance_and_view", *names)
+        self.assertEqual(ask("robot", "near")[1], True)
+        self.assertEqual(ask("robot", "hidden")[1], False)
+        self.assertAlmostEqual(ask("near", "hidden")[0], 11.0)
+        self.assertRaises(pymorse.MorseServiceFailed, ask)
+        self.assertRaises(pymorse.MorseServiceFailed, ask, "robot", "nobody")
+        simu.robot.proximity.set_tracked_tag("friend").result(TIMEOUT)
+        self.assertTrue(wait_for(
+            lambda: list(simu.robot.proximity.get(TIMEOUT)["near_objects"]) == ["hidden"], simu))
 
 
 class Guide(unittest.TestCase):

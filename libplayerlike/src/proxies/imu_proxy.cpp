@@ -8,6 +8,7 @@
 #include "session/player_values.h"
 #include "sim/devices/compass.h"
 #include "sim/devices/imu.h"
+#include "sim/devices/space_sensors.h"
 
 namespace PlayerCc {
 
@@ -20,9 +21,16 @@ ImuProxy::ImuProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex
 ImuProxy::~ImuProxy() { ClientProxy::Unsubscribe(); }
 
 player_pose3d_t ImuProxy::GetPose() const {
-  // The device is a compass or an IMU; the reading of the other type counts as 0.
-  const double yaw_rad = Look(&sim::CompassReading::heading_rad) + Look(&sim::ImuReading::yaw_rad);
-  return {0.0, 0.0, 0.0, 0.0, 0.0, yaw_rad};
+  // The device is a compass, an IMU, a gyroscope or an accelerometer; the readings of the other
+  // types count as 0.
+  const double yaw_rad = Look(&sim::CompassReading::heading_rad) + Look(&sim::ImuReading::yaw_rad) +
+                         Look(&sim::GyroscopeReading::yaw_rad);
+  return {0.0,
+          0.0,
+          0.0,
+          Look(&sim::GyroscopeReading::roll_rad),
+          Look(&sim::GyroscopeReading::pitch_rad),
+          yaw_rad};
 }
 float ImuProxy::GetXAccel() { return GetRawValues().accel_x; }
 float ImuProxy::GetYAccel() { return GetRawValues().accel_y; }
@@ -34,8 +42,13 @@ float ImuProxy::GetXMagn() { return GetRawValues().magn_x; }
 float ImuProxy::GetYMagn() { return GetRawValues().magn_y; }
 float ImuProxy::GetZMagn() { return GetRawValues().magn_z; }
 player_imu_data_calib_t ImuProxy::GetRawValues() const {
-  return Look<ImuReading>(
+  auto values = Look<ImuReading>(
       [](const ImuReading& r) { return playerlike::imu_values<player_imu_data_calib_t>(r); });
+  const auto acceleration = Look(&sim::AccelerometerReading::acceleration_mps2);
+  values.accel_x += static_cast<float>(acceleration[0]);
+  values.accel_y += static_cast<float>(acceleration[1]);
+  values.accel_z += static_cast<float>(acceleration[2]);
+  return values;
 }
 
 void ImuProxy::SetDatatype(int aDatatype) {

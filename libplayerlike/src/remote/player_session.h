@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "playerlike/session/device_graphics.h"
 #include "playerlike/session/session.h"
 #include "remote/player_link.h"
 #include "remote/player_readings.h"
@@ -43,12 +44,12 @@ struct ListedDevice;
 /// The time of readings is the server's. The server never waits for its clients in this class's
 /// view: JoinRequest and NoteLooksRequest do nothing, and SleepRequest takes wall time. There is no
 /// canvas: CanvasInfoRequest returns an empty one, and requests to draw throw kNotAvailable.
-/// Devices of the server's interface graphics2d draw (device_graphics()).
+/// Devices of the server's interface graphics2d draw (DeviceGraphics).
 ///
 /// It has no thread: a thread that waits reads the socket, see PlayerLink. A request that the
 /// server refuses or does not answer in time throws SessionError kNotAvailable; the connection goes
 /// on.
-class PlayerSession final : public Session, private DeviceGraphics, private PlayerLink::Receiver {
+class PlayerSession final : public Session, public DeviceGraphics, private PlayerLink::Receiver {
  public:
   /// Connects. @throws SessionError as PlayerLink::open(), and if the server refuses.
   explicit PlayerSession(PlayerSettings settings);
@@ -65,10 +66,10 @@ class PlayerSession final : public Session, private DeviceGraphics, private Play
   Answer answer(const Request& request) override;
   DrawQueue& draw_queue() noexcept override { return drawings_; }
   std::uint64_t canvas_generation() const noexcept override { return 0; }
-  DeviceGraphics* device_graphics() noexcept override { return this; }
   std::unique_ptr<Session> open_follower() override;
   const void* simulation() const noexcept override { return simulation_; }
   void close() noexcept override;
+  void draw(unsigned index, const DeviceDrawing& drawing) override;
 
  private:
   friend class PlayerWorld;
@@ -97,7 +98,6 @@ class PlayerSession final : public Session, private DeviceGraphics, private Play
 
   void on_data(const player::Msghdr& header, std::string_view payload) override;
   void on_round(std::uint32_t dropped) override;
-  void draw(unsigned index, const DeviceDrawing& drawing) override;
 
   void require_open() const;
   [[nodiscard]] std::shared_ptr<PlayerLink> link() const;

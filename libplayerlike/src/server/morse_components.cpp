@@ -8,15 +8,20 @@
 #include <utility>
 
 #include "protocol/codec.h"
+#include "server/morse_records.h"
+#include "sim/devices/actarray.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/gps.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
+#include "sim/devices/orientation.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/rangers.h"
+#include "sim/devices/teleport.h"
 #include "sim/devices/waypoint.h"
+#include "sim/world/robot_model.h"
 
 namespace playerlike::server {
 namespace {
@@ -30,27 +35,43 @@ struct Kind {
 };
 constexpr std::string_view kProperties = "robot_properties";
 constexpr std::array kKinds{
+    Kind{"accelerometer", "Accelerometer", StreamDirection::kOut},
+    Kind{"actarray", "Armature", StreamDirection::kIn},
+    Kind{"airspeed", "Airspeed", StreamDirection::kOut},
+    Kind{"altimeter", "RadarAltimeter", StreamDirection::kOut},
+    Kind{"attitude", "Attitude", StreamDirection::kOut},
+    Kind{"barometer", "Barometer", StreamDirection::kOut},
     Kind{"battery", "Battery", StreamDirection::kOut},
+    Kind{"blinkenlight", "Light", StreamDirection::kIn},
+    Kind{"clock", "Clock", StreamDirection::kOut},
     Kind{"collision", "Collision", StreamDirection::kOut},
     Kind{"gps", "GPS", StreamDirection::kOut},
+    Kind{"gyroscope", "Gyroscope", StreamDirection::kOut},
     Kind{"imu", "IMU", StreamDirection::kOut},
     Kind{"infrared", "Infrared", StreamDirection::kOut},
     Kind{"laser", "LaserScanner", StreamDirection::kOut},
     Kind{"motion", "MotionVW", StreamDirection::kIn},
     Kind{"odometry", "Odometry", StreamDirection::kOut},
+    Kind{"orientation", "Orientation", StreamDirection::kIn},
     Kind{"pen", "Pen", StreamDirection::kNone},
     Kind{"pose", "Pose", StreamDirection::kOut},
+    Kind{"posture", "Posture", StreamDirection::kOut},
     Kind{"proximity", "Proximity", StreamDirection::kOut},
+    Kind{"ptz", "PTU", StreamDirection::kIn},
     Kind{kProperties, "RobotProperties", StreamDirection::kOut},
+    Kind{"semantic_camera", "SemanticCamera", StreamDirection::kOut},
     Kind{"sonar", "Sonar", StreamDirection::kOut},
     Kind{"teleport", "Teleport", StreamDirection::kIn},
+    Kind{"thermometer", "Thermometer", StreamDirection::kOut},
+    Kind{"velocity", "Velocity", StreamDirection::kOut},
     Kind{"waypoint", "Waypoint", StreamDirection::kIn},
 };
 
 MorseComponent component(const RobotInfo& robot, int index, const std::string& name,
-                         std::string_view type, std::optional<DeviceId> device) {
+                         std::string_view type, std::optional<DeviceId> device,
+                         std::string_view carrier = {}) {
   MorseComponent made;
-  made.name = robot.name + '.' + name;
+  made.name = robot.name + '.' + (carrier.empty() ? "" : std::string(carrier) + '.') + name;
   made.type = type;
   made.robot = index;
   made.device = device;
@@ -62,20 +83,27 @@ MorseComponent component(const RobotInfo& robot, int index, const std::string& n
   return made;
 }
 
-// Writes a planar pose with MORSE's keys.
-void put_pose(json& object, const sim::Pose& pose) {
-  object["x"] = pose.x_m;
-  object["y"] = pose.y_m;
-  object["z"] = 0.0;
+// Writes a pose with MORSE's keys, in the coordinates of the messages.
+void put_pose(json& object, const sim::Pose& pose, const sim::Elevation& elevation,
+              const sim::CoordinateParams& coordinates = {}) {
+  const Eigen::Vector3d p = to_message(coordinates, {pose.x_m, pose.y_m, elevation.z_m});
+  object["x"] = p.x();
+  object["y"] = p.y();
+  object["z"] = p.z();
   object["yaw"] = pose.yaw_rad;
-  object["pitch"] = 0.0;
-  object["roll"] = 0.0;
+  object["pitch"] = elevation.pitch_rad;
+  object["roll"] = elevation.roll_rad;
+  if (coordinates.ned) {
+    object["yaw"] = elevation.roll_rad;
+    object["pitch"] = -elevation.pitch_rad;
+    object["roll"] = 0.5 * std::numbers::pi - pose.yaw_rad;
+  }
 }
 
 void put_odometry(json& object, const sim::PoseReading& reading, sim::OdometryLevel level) {
   switch (level) {
     case sim::OdometryLevel::kIntegrated: {
-      put_pose(object, reading.pose);
+      put_pose(object, reading.pose, reading.elevation);
       // MORSE's velocities are in the world's axes, not in the robot's.
       const double c = std::cos(reading.pose.yaw_rad);
       const double s = std::sin(reading.pose.yaw_rad);
@@ -143,14 +171,22 @@ double number(const json& object, const char* key, std::optional<double> otherwi
 
 }  // namespace
 
-std::vector<MorseComponent> morse_components(const std::vector<RobotInfo>& robots) {
+std::vector<MorseComponent> morse_components(const std::vector<RobotInfo>& robots,
+                                             const sim::Simulation& simulation) {
   std::vector<MorseComponent> all;
   for (std::size_t r = 0; r < robots.size(); ++r) {
     const RobotInfo& robot = robots[r];
     const int index = static_cast<int>(r);
     bool taken = false;
     for (const DeviceInfo& device : robot.devices) {
-      all.push_back(component(robot, index, device.name, device.type, device.id));
+      const sim::Device& made = simulation.device(device.id.robot, device.id.device);
+      all.push_back(component(robot, index, device.name, device.type, device.id, made.carrier()));
+      const sim::RobotModel* model = sim::find_robot_model(simulation.world(), robot.model);
+      const bool is_holonomic =
+          model != nullptr && model->drive.kind == sim::DriveKind::kOmnidirectional;
+      if (device.type == "motion" && is_holonomic) {
+        all.back().class_name = "MotionXYW";
+      }
       taken = taken || device.name == kProperties;
     }
     if (!taken) {
@@ -160,13 +196,14 @@ std::vector<MorseComponent> morse_components(const std::vector<RobotInfo>& robot
   return all;
 }
 
-json morse_record(const sim::Reading& reading, std::optional<sim::OdometryLevel> level) {
+json morse_record(const sim::Reading& reading, const StreamFormat& format) {
   json object{{"timestamp", sim::to_seconds(reading.time_ns)}};
+  if (put_space_record(object, reading, format)) return object;
   if (const auto* pose = dynamic_cast<const sim::PoseReading*>(&reading)) {
-    if (level) {
-      put_odometry(object, *pose, *level);
+    if (format.odometry) {
+      put_odometry(object, *pose, *format.odometry);
     } else {
-      put_pose(object, pose->pose);
+      put_pose(object, pose->pose, pose->elevation, format.coordinates);
     }
   } else if (const auto* laser = dynamic_cast<const sim::LaserReading*>(&reading)) {
     put_ranges(object, laser->ranges_m, laser->range_max_m, [&](std::size_t beam, double range_m) {
@@ -185,13 +222,6 @@ json morse_record(const sim::Reading& reading, std::optional<sim::OdometryLevel>
     object["charge"] = battery->charge_percent;
     object["status"] = std::string(to_string(battery->status));
     object["voltage"] = battery->voltage_v;
-  } else if (const auto* gps = dynamic_cast<const sim::GpsReading*>(&reading)) {
-    constexpr double kDegrees = 180.0 / std::numbers::pi;
-    object["latitude"] = gps->latitude_rad * kDegrees;
-    object["longitude"] = gps->longitude_rad * kDegrees;
-    object["altitude"] = gps->altitude_m;
-    object["velocity"] = gps->speed_mps;
-    object["heading"] = gps->course_rad * kDegrees;
   } else if (const auto* imu = dynamic_cast<const sim::ImuReading*>(&reading)) {
     object["angular_velocity"] = imu->rate_radps;
     object["linear_acceleration"] = imu->acceleration_mps2;
@@ -215,7 +245,7 @@ json morse_record(const sim::Reading& reading, std::optional<sim::OdometryLevel>
 
 json morse_properties_record(const RobotInfo& robot, sim::SimTime now_ns) {
   json pose;
-  put_pose(pose, robot.initial_pose);
+  put_pose(pose, robot.initial_pose, {});
   json drivers = json::array();
   for (const sim::DriverDescription& driver : robot.drivers) {
     drivers.push_back({{"type", driver.type}, {"settings", driver.settings}});
@@ -238,33 +268,100 @@ json morse_properties_record(const RobotInfo& robot, sim::SimTime now_ns) {
           {"devices", std::move(devices)}};
 }
 
-std::optional<sim::OdometryLevel> odometry_level(const sim::Simulation& simulation,
-                                                 DeviceId device) {
+StreamFormat stream_format(const sim::Simulation& simulation, DeviceId device) {
   const sim::DeviceDescription& description =
       simulation.world()
           .robots.at(static_cast<std::size_t>(device.robot))
           .devices.at(static_cast<std::size_t>(device.device));
-  if (description.type != "odometry") return std::nullopt;
-  // A device without settings in the world has no params; it has the default level.
-  const auto* params = std::any_cast<sim::OdometryParams>(&description.params);
-  return params != nullptr ? params->level : sim::OdometryParams{}.level;
+  StreamFormat format;
+  // A device without settings in the world has no params; it has the defaults.
+  if (description.type == "odometry") {
+    const auto* params = std::any_cast<sim::OdometryParams>(&description.params);
+    format.odometry = params != nullptr ? params->level : sim::OdometryParams{}.level;
+  } else if (const auto* pose = std::any_cast<sim::PoseParams>(&description.params)) {
+    format.coordinates = *pose;
+  } else if (const auto* gps = std::any_cast<sim::GpsParams>(&description.params)) {
+    format.coordinates = *gps;
+    format.gps = gps->level;
+  } else if (const auto* teleport = std::any_cast<sim::TeleportParams>(&description.params)) {
+    format.coordinates = *teleport;
+  }
+  return format;
 }
+
+namespace {
+
+sim::Command place_command(const json& object, const StreamFormat& format) {
+  const auto given = [&](const char* key) -> std::optional<double> {
+    if (!object.contains(key)) return std::nullopt;
+    return number(object, key);
+  };
+  std::optional<double> z_m = given("z");
+  std::optional<double> roll = given("roll");
+  std::optional<double> pitch = given("pitch");
+  Eigen::Vector3d p(number(object, "x"), number(object, "y"), z_m.value_or(0.0));
+  double yaw = number(object, "yaw", format.coordinates.ned ? 0.0 : std::optional<double>());
+  if (format.coordinates.any()) {
+    p = from_message(format.coordinates, p);
+    if (z_m) z_m = p.z();
+  }
+  if (format.coordinates.ned) {
+    yaw = std::exchange(roll, yaw).value_or(0.0);
+    yaw = 0.5 * std::numbers::pi - yaw;
+    if (pitch) pitch = -*pitch;
+  }
+  return sim::PlaceCommand{{p.x(), p.y(), sim::normalize_angle(yaw)}, z_m, roll, pitch};
+}
+
+sim::Command twist_command(const json& object) {
+  // MORSE's MotionXYW has x, y and w, its MotionVW v and w.
+  if (!object.contains("v") && object.contains("x")) {
+    return sim::TwistCommand{{number(object, "x"), number(object, "w"), number(object, "y", 0.0)}};
+  }
+  return sim::TwistCommand{{number(object, "v"), number(object, "w"), 0.0}};
+}
+
+// The values of joints by their names; the others keep their positions.
+sim::Command joints_command(const json& object, const sim::ActArray& arm) {
+  std::vector<double> positions = arm.positions();
+  const std::vector<std::string> names = arm.joint_names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    positions[i] = number(object, names[i].c_str(), positions[i]);
+  }
+  return sim::JointCommand{sim::JointCommand::Mode::kPlace, 0, positions};
+}
+
+}  // namespace
 
 sim::Command morse_command(const MorseComponent& component, const json& object,
                            const sim::Simulation& simulation) {
   if (!object.is_object()) refuse("expected an object, " + found(object));
   const DeviceId id = component.device.value();
-  if (component.type == "motion") {
-    return sim::TwistCommand{{number(object, "v"), number(object, "w"), 0.0}};
-  }
+  const sim::Device& device = simulation.device(id.robot, id.device);
+  if (component.type == "motion") return twist_command(object);
   if (component.type == "waypoint") {
-    const auto& device = dynamic_cast<const sim::Waypoint&>(simulation.device(id.robot, id.device));
+    const auto& waypoint = dynamic_cast<const sim::Waypoint&>(device);
     return sim::GotoCommand{{number(object, "x"), number(object, "y")},
-                            number(object, "tolerance", device.params().tolerance_m),
-                            number(object, "speed", device.params().speed_mps)};
+                            number(object, "tolerance", waypoint.params().tolerance_m),
+                            number(object, "speed", waypoint.params().speed_mps)};
   }
-  return sim::PlaceCommand{
-      {number(object, "x"), number(object, "y"), sim::normalize_angle(number(object, "yaw"))}};
+  if (component.type == "orientation") {
+    return sim::OrientCommand{number(object, "roll", 0.0), number(object, "pitch", 0.0),
+                              number(object, "yaw")};
+  }
+  if (component.type == "ptz") {
+    // MORSE's tilt is positive downwards.
+    return sim::PointCommand{number(object, "pan"), -number(object, "tilt"), 0.0, 0.0, 0.0};
+  }
+  if (component.type == "actarray") {
+    return joints_command(object, dynamic_cast<const sim::ActArray&>(device));
+  }
+  if (component.type == "blinkenlight") {
+    const auto emit = object.find("emit");
+    if (emit == object.end() || !emit->is_boolean()) refuse("expected true or false for \"emit\"");
+    return sim::LightCommand{emit->get<bool>(), {}, {}, {}};
+  }
+  return place_command(object, stream_format(simulation, id));
 }
 
 json morse_scene_object(const sim::SceneObject& object) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "playerlike/messages/messages.h"
+#include "sim/devices/gps.h"
 #include "sim/devices/localization.h"
 #include "sim/simulation/simulation.h"
 
@@ -33,25 +34,29 @@ struct MorseComponent {
 };
 
 /// All components, in the order of the robots: for each robot its devices in order, then
-/// robot_properties, unless a device has that name.
-[[nodiscard]] std::vector<MorseComponent> morse_components(const std::vector<RobotInfo>& robots);
+/// robot_properties, unless a device has that name. A device that is carried by another one has its
+/// name in between: "r1.ptu.camera".
+[[nodiscard]] std::vector<MorseComponent> morse_components(const std::vector<RobotInfo>& robots,
+                                                           const sim::Simulation& simulation);
+
+/// What the world says of the form of a device's messages.
+struct StreamFormat {
+  std::optional<sim::OdometryLevel> odometry;  ///< of an odometry device
+  sim::GpsLevel gps = sim::GpsLevel::kExtended;
+  sim::CoordinateParams coordinates;
+};
+[[nodiscard]] StreamFormat stream_format(const sim::Simulation& simulation, DeviceId device);
 
 /// The object that a sensor's stream carries for a reading. Lengths in m, angles in rad, times in s
 /// of simulated time.
-/// @param level  of an odometry device; none for other devices.
-[[nodiscard]] nlohmann::json morse_record(const sim::Reading& reading,
-                                          std::optional<sim::OdometryLevel> level);
+[[nodiscard]] nlohmann::json morse_record(const sim::Reading& reading, const StreamFormat& format);
 
 /// The object that the stream of robot_properties carries: the robot as the world describes it.
 [[nodiscard]] nlohmann::json morse_properties_record(const RobotInfo& robot, sim::SimTime now_ns);
 
-/// The level of an odometry device; nullopt for other devices.
-[[nodiscard]] std::optional<sim::OdometryLevel> odometry_level(const sim::Simulation& simulation,
-                                                               DeviceId device);
-
 /// The command in a line that a client writes to a device's stream; ignores keys that the command
 /// does not use.
-/// @param component  of type "motion", "waypoint" or "teleport".
+/// @param component  with a stream of direction kIn.
 /// @throws protocol::ProtocolError that names the key, the expected value and the value found.
 [[nodiscard]] sim::Command morse_command(const MorseComponent& component,
                                          const nlohmann::json& object,

@@ -5,6 +5,7 @@
 #include "protocol/codec.h"
 #include "server/morse_services.h"
 #include "server/morse_state.h"
+#include "server/python_json.h"
 
 namespace playerlike::server {
 namespace {
@@ -60,7 +61,7 @@ json arguments_of(std::string_view text) {
 
 std::string line_of(const std::string& id, std::string_view status, const json& result) {
   std::string line = id + ' ' + std::string(status);
-  if (!result.is_null()) line += ' ' + result.dump(-1, ' ', false, json::error_handler_t::replace);
+  if (!result.is_null()) line += ' ' + python_json(result);
   return line + '\n';
 }
 
@@ -86,10 +87,7 @@ void MorseConnection::answer(const std::string& id, std::string_view status, con
 }
 
 std::string MorseConnection::farewell(const protocol::ProtocolError& error) {
-  return "- FAILED " +
-         json(error.id() + ": " + error.what())
-             .dump(-1, ' ', false, json::error_handler_t::replace) +
-         '\n';
+  return "- FAILED " + python_json(json(error.id() + ": " + error.what())) + '\n';
 }
 
 void MorseConnection::on_message(std::string_view line) {

@@ -51,9 +51,20 @@ json set_speed(MorseCall& call) {
                call.arguments.number(1, -kFar_m, kFar_m));
 }
 json stop_motion(MorseCall& call) { return drive(call, 0.0, 0.0); }
+json set_holonomic_speed(MorseCall& call) {
+  call.state.command(device_of(call),
+                     sim::TwistCommand{{call.arguments.number(0, -kFar_m, kFar_m),
+                                        call.arguments.number(2, -kFar_m, kFar_m),
+                                        call.arguments.number(1, -kFar_m, kFar_m)}});
+  return nullptr;
+}
 
 constexpr MorseService kMotion[] = {
     {"set_speed", "v, w", Right::kRobot, set_speed},
+    {"stop", "", Right::kRobot, stop_motion},
+};
+constexpr MorseService kHolonomicMotion[] = {
+    {"set_speed", "x, y, w", Right::kRobot, set_holonomic_speed},
     {"stop", "", Right::kRobot, stop_motion},
 };
 
@@ -159,7 +170,7 @@ json get_local_data(MorseCall& call) {
       throw MorseRefusal(call.component->name +
                          " has no reading yet: simulated time has not come so far");
     }
-    return morse_record(sensor.reading(), odometry_level(simulation, device));
+    return morse_record(sensor.reading(), stream_format(simulation, device));
   });
 }
 
@@ -251,7 +262,8 @@ void require_truth(const MorseCall& call) {
 }
 
 bool is_world_component(std::string_view component) noexcept {
-  return component == "simulation" || component == "time" || component == "arena";
+  return component == "simulation" || component == "time" || component == "arena" ||
+         component == "communication";
 }
 
 // --- Arguments
@@ -307,9 +319,12 @@ std::span<const MorseService> morse_services(std::string_view kind) {
   if (kind == "time") return time_services();
   if (kind == "arena") return arena_services();
   if (kind == "motion") return kMotion;
+  if (kind == "MotionXYW") return kHolonomicMotion;
   if (kind == "waypoint") return kWaypoint;
   if (kind == "teleport") return kTeleport;
   if (kind == "pen") return pen_services();
+  if (kind == "communication") return communication_services();
+  if (const auto services = device_services(kind); !services.empty()) return services;
   if (kind == "sensor") return kSensor;
   if (kind == "component") return kComponent;
   return {};
@@ -321,7 +336,10 @@ std::vector<const MorseService*> services_of(const MorseComponent& component) {
     for (const MorseService& service : morse_services(kind)) all.push_back(&service);
   };
   // The services of the device's type; sensors have none of their own type.
-  if (component.device) add(component.type);
+  if (component.device) {
+    add(component.class_name == "MotionXYW" ? component.class_name
+                                            : std::string_view(component.type));
+  }
   if (component.stream == StreamDirection::kOut) add("sensor");
   add("component");
   return all;
@@ -354,6 +372,10 @@ std::optional<json> call_service(MorseState& state, MorseConnection& from, const
   if (list.size() < least || list.size() > most) {
     const std::string wanted =
         std::to_string(least) + (most > least ? " to " + std::to_string(most) : "");
+    if (list.empty()) {
+      throw MorseRefusal("parameters expected for service " + std::string(service) + "! Expected " +
+                         wanted + " (" + std::string(chosen.arguments) + ")");
+    }
     throw MorseRefusal("wrong # of parameters for service " + std::string(service) + " of " +
                        std::string(component) + ": expected " + wanted + " (" +
                        std::string(chosen.arguments) + "), found " + std::to_string(list.size()));

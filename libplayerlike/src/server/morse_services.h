@@ -99,6 +99,9 @@ struct MorseService {
 [[nodiscard]] std::span<const MorseService> time_services();
 [[nodiscard]] std::span<const MorseService> arena_services();
 [[nodiscard]] std::span<const MorseService> pen_services();
+[[nodiscard]] std::span<const MorseService> communication_services();
+/// The services of ptz, actarray, posture, proximity and blinkenlight devices; empty for others.
+[[nodiscard]] std::span<const MorseService> device_services(std::string_view type);
 
 /// Whether this is a component that belongs to no robot: `simulation`, `time` or `arena`.
 [[nodiscard]] bool is_world_component(std::string_view component) noexcept;

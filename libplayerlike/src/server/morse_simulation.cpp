@@ -59,7 +59,10 @@ json details(MorseCall& call) {
 json list_streams(MorseCall& call) {
   json names = json::array();
   for (const MorseComponent& component : call.state.components()) {
-    if (component.stream != StreamDirection::kNone) names.push_back(component.name);
+    // Playpen's own robot_properties has a stream, but no program of MORSE expects it in the list.
+    if (component.stream != StreamDirection::kNone && component.device) {
+      names.push_back(component.name);
+    }
   }
   return names;
 }
@@ -76,7 +79,7 @@ json get_stream_port(MorseCall& call) {
 json get_all_stream_ports(MorseCall& call) {
   json ports = json::object();
   for (const MorseComponent& component : call.state.components()) {
-    if (component.stream == StreamDirection::kNone) continue;
+    if (component.stream == StreamDirection::kNone || !component.device) continue;
     ports[component.name] = call.state.streams().port(component);
   }
   return ports;

@@ -21,7 +21,9 @@ const sim::Waypoint& waypoint_of(const sim::Simulation& simulation, DeviceId dev
 MorseState::MorseState(Hub& hub)
     : hub_(hub),
       postbox_(std::make_shared<Postbox>(hub)),
-      components_(morse_components(hub.host().robots())),
+      components_(with([&](const sim::Simulation& simulation) {
+        return morse_components(hub.host().robots(), simulation);
+      })),
       streams_(std::make_unique<MorseStreams>(*this)) {}
 
 MorseState::~MorseState() {
@@ -92,12 +94,13 @@ void MorseState::answer_on_arrival(MorseConnection& from, const std::string& id,
   });
   if (refusal) throw MorseRefusal(*refusal);
   for (auto it = pending_.begin(); it != pending_.end();) {
-    it = it->second.waypoint == waypoint ? end(it, "PREEMPTED", nullptr) : std::next(it);
+    it = it->second.device == waypoint ? end(it, "PREEMPTED", nullptr) : std::next(it);
   }
   PendingRequest pending;
   pending.from = &from;
   pending.id = id;
-  pending.waypoint = waypoint;
+  pending.device = waypoint;
+  pending.result = "Arrived";
   pending.outcome = std::make_shared<std::atomic<Outcome>>(Outcome::kNone);
   Alarm alarm;
   alarm.condition = [waypoint, goal_number,
@@ -113,18 +116,39 @@ void MorseState::answer_on_arrival(MorseConnection& from, const std::string& id,
   add_pending(std::move(pending), std::move(alarm));
 }
 
+void MorseState::answer_when(MorseConnection& from, const std::string& id, DeviceId device,
+                             const sim::Command& command,
+                             std::function<bool(const sim::Device&)> done) {
+  this->command(device, command);
+  for (auto it = pending_.begin(); it != pending_.end();) {
+    it = it->second.device == device ? end(it, "PREEMPTED", nullptr) : std::next(it);
+  }
+  PendingRequest pending;
+  pending.from = &from;
+  pending.id = id;
+  pending.device = device;
+  pending.outcome = std::make_shared<std::atomic<Outcome>>(Outcome::kNone);
+  Alarm alarm;
+  alarm.condition = [device, done = std::move(done),
+                     outcome = pending.outcome](const sim::Simulation& simulation) {
+    if (done(simulation.device(device.robot, device.device))) *outcome = Outcome::kArrived;
+    return *outcome != Outcome::kNone;
+  };
+  add_pending(std::move(pending), std::move(alarm));
+}
+
 void MorseState::on_alarm(Number number) {
   const auto it = pending_.find(number);
   if (it == pending_.end()) return;
   const PendingRequest& pending = it->second;
-  if (!pending.waypoint) {
+  if (!pending.device) {
     const bool slept = host().time().sim_time_ns >= pending.until_ns;
     end(it, slept ? "SUCCESS" : "FAILED", slept ? nlohmann::json() : nlohmann::json(kRunIsOver));
     return;
   }
   switch (pending.outcome->load()) {
     case Outcome::kArrived:
-      end(it, "SUCCESS", "Arrived");
+      end(it, "SUCCESS", nlohmann::json(pending.result));
       return;
     case Outcome::kReplaced:
       end(it, "PREEMPTED", nullptr);
@@ -154,7 +178,7 @@ void MorseState::cancel(MorseConnection& from, const std::string& id) {
       ++it;
       continue;
     }
-    if (it->second.waypoint) stopped.push_back(*it->second.waypoint);
+    if (it->second.device) stopped.push_back(*it->second.device);
     it = end(it, "PREEMPTED", nullptr);
   }
   for (const DeviceId device : stopped) {

@@ -95,6 +95,11 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   /// that waits for this device is answered with PREEMPTED. @throws MorseRefusal as command().
   void answer_on_arrival(MorseConnection& from, const std::string& id, DeviceId waypoint,
                          const sim::GotoCommand& goal);
+  /// Sends a command to a device, and answers without a result when done(device) is true. An
+  /// earlier request that waits for this device is answered with PREEMPTED. @throws MorseRefusal as
+  /// command().
+  void answer_when(MorseConnection& from, const std::string& id, DeviceId device,
+                   const sim::Command& command, std::function<bool(const sim::Device&)> done);
   /// Answers the connection's requests with this id with PREEMPTED; a goto also stops its robot.
   void cancel(MorseConnection& from, const std::string& id);
   /// Called when the connection has ended: its actions continue without an answer.
@@ -125,8 +130,9 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   struct PendingRequest {
     MorseConnection* from = nullptr;
     std::string id;
-    std::optional<DeviceId> waypoint;
-    sim::SimTime until_ns = 0;  ///< end of a sleep
+    std::optional<DeviceId> device;  ///< that executes it; none: a sleep
+    nlohmann::json result;           ///< of the answer if the device has done it
+    sim::SimTime until_ns = 0;       ///< end of a sleep
     AlarmId alarm = 0;
     std::shared_ptr<std::atomic<Outcome>> outcome;
   };

@@ -8,6 +8,8 @@
 #include "protocol/codec.h"
 #include "server/morse_components.h"
 #include "server/morse_state.h"
+#include "server/python_json.h"
+#include "sim/devices/contact_sensors.h"
 
 namespace playerlike::server {
 namespace {
@@ -17,8 +19,12 @@ using nlohmann::json;
 /// Period of robot_properties [simulated time].
 constexpr sim::SimTime kPropertiesPeriod_ns = sim::kNanosecondsPerSecond;
 
-std::string line_of(const json& object) {
-  return object.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
+std::string line_of(const json& object) { return python_json(object) + '\n'; }
+
+/// As in MORSE, a collision sensor says nothing while nothing touches.
+bool is_silent(const sim::Reading& reading) {
+  const auto* collision = dynamic_cast<const sim::CollisionReading*>(&reading);
+  return collision != nullptr && !collision->collision;
 }
 
 /// The token in a line {"playpen_token": "..."}.
@@ -119,7 +125,7 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
       client_->session().request(ReplaceRequest{std::nullopt, false});
       client_->session().request(SubscribeRequest{device});
       sequence_ = state_.with([&](sim::Simulation& simulation) {
-        level_ = odometry_level(simulation, device);
+        format_ = stream_format(simulation, device);
         return sensor(simulation, device).reading().sequence;
       });
     }
@@ -158,7 +164,8 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
       static_cast<void>(client_->session().take(kept));
       for (const auto& reading : kept.readings) {
         sequence_ = reading->sequence;
-        write(std::make_shared<const std::string>(line_of(morse_record(*reading, level_))));
+        if (is_silent(*reading)) continue;
+        write(std::make_shared<const std::string>(line_of(morse_record(*reading, format_))));
       }
     } else {
       write(std::make_shared<const std::string>(properties()));
@@ -187,7 +194,7 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   const MorseComponent& component_;
   std::vector<StreamConnection*> readers_;
   std::unique_ptr<EventClient> client_;
-  std::optional<sim::OdometryLevel> level_;
+  StreamFormat format_;
   std::uint64_t sequence_ = 0;  ///< of the newest reading sent
   std::optional<AlarmId> alarm_;
   std::uint64_t generation_ = 0;  ///< number of starts; tells a stale alarm from a current one

@@ -12,6 +12,8 @@
 #include "sim/devices/camera.h"
 #include "sim/devices/compass.h"
 #include "sim/devices/gps.h"
+#include "sim/devices/imu.h"
+#include "sim/devices/space_sensors.h"
 #include "sim/devices/wifi.h"
 #include "wire/robot_device.h"
 
@@ -162,6 +164,12 @@ class Imu final : public RobotDevice {
       send_data(compass->heading_rad, {}, false, sink);
     } else if (const auto* unit = reading_as<sim::ImuReading>(reading)) {
       send_data(unit->yaw_rad, imu_values<player::ImuDataCalib>(*unit), true, sink);
+    } else if (const auto* gyroscope = reading_as<sim::GyroscopeReading>(reading)) {
+      send_data(gyroscope->yaw_rad, {}, false, sink);
+    } else if (const auto* motion = reading_as<sim::AccelerometerReading>(reading)) {
+      sim::ImuReading values;
+      values.acceleration_mps2 = motion->acceleration_mps2;
+      send_data(0.0, imu_values<player::ImuDataCalib>(values), true, sink);
     }
   }
 

@@ -26,13 +26,6 @@ Eigen::Vector3d vector_of(JointAxis axis) {
   return (index < 3 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(index % 3);
 }
 
-Eigen::Matrix3d rotation_of(double roll_rad, double pitch_rad, double yaw_rad) {
-  return (Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
 }  // namespace
 
 JointTravel travel_of(const JointParams& joint) {
@@ -123,25 +116,63 @@ JointMotion advance_with_current(JointMotion motion, double current_share,
           final_speed + difference * (1.0 - gone)};
 }
 
-std::vector<std::array<double, 3>> arm_points_m(const ActArrayParams& arm,
-                                                const std::vector<double>& positions) {
-  Eigen::Vector3d p(arm.X_BA.x_m, arm.X_BA.y_m, arm.height_m);
-  Eigen::Matrix3d R = rotation_of(arm.roll_rad, arm.pitch_rad, arm.X_BA.yaw_rad);
-  std::vector<std::array<double, 3>> points = {{p.x(), p.y(), p.z()}};
+namespace {
+
+// The frame of the base, then the frame at the end of each joint's link, in B.
+std::vector<Eigen::Isometry3d> arm_frames(const ActArrayParams& arm,
+                                          const std::vector<double>& positions) {
+  Eigen::Isometry3d X = in_space(arm.X_BA, {arm.height_m, arm.roll_rad, arm.pitch_rad});
+  std::vector<Eigen::Isometry3d> frames = {X};
   for (std::size_t i = 0; i < arm.joints.size(); ++i) {
     const JointParams& joint = arm.joints[i];
     const double position = i < positions.size() ? positions[i] : 0.0;
     const Eigen::Vector3d axis = vector_of(joint.axis);
-    R = R * rotation_of(joint.roll_rad, joint.pitch_rad, joint.yaw_rad);
+    X.linear() *= rotation_of(joint.roll_rad, joint.pitch_rad, joint.yaw_rad);
     if (joint.type == JointType::kLinear) {
-      p += R * (position * axis);
+      X.translation() += X.linear() * (position * axis);
     } else {
-      R = R * Eigen::AngleAxisd(position, axis).toRotationMatrix();
+      X.linear() *= Eigen::AngleAxisd(position, axis).toRotationMatrix();
     }
-    p += R * Eigen::Vector3d(joint.length_m, 0.0, 0.0);
+    X.translation() += X.linear() * Eigen::Vector3d(joint.length_m, 0.0, 0.0);
+    frames.push_back(X);
+  }
+  return frames;
+}
+
+}  // namespace
+
+std::vector<std::array<double, 3>> arm_points_m(const ActArrayParams& arm,
+                                                const std::vector<double>& positions) {
+  std::vector<std::array<double, 3>> points;
+  for (const Eigen::Isometry3d& frame : arm_frames(arm, positions)) {
+    const Eigen::Vector3d p = frame.translation();
     points.push_back({p.x(), p.y(), p.z()});
   }
   return points;
+}
+
+Eigen::Isometry3d ActArray::end_in_body() const { return arm_frames(params_, positions()).back(); }
+
+bool ActArray::at_rest() const noexcept {
+  return std::ranges::all_of(joints_, [](const Joint& joint) {
+    return joint.mode == Mode::kStill ||
+           (joint.mode == Mode::kGoal && joint.motion.position == joint.goal &&
+            joint.motion.speed == 0.0);
+  });
+}
+
+std::vector<std::string> ActArray::joint_names() const {
+  std::vector<std::string> names;
+  for (const JointParams& joint : params_.joints) {
+    names.push_back(joint.name.empty() ? "joint" + std::to_string(names.size() + 1) : joint.name);
+  }
+  return names;
+}
+
+std::vector<double> ActArray::positions() const {
+  std::vector<double> all;
+  for (const Joint& joint : joints_) all.push_back(joint.motion.position);
+  return all;
 }
 
 // --- one joint
@@ -285,6 +316,10 @@ std::optional<std::string> ActArray::apply(const JointCommand& command) {
       case JointCommand::Mode::kHome:
         joint.go_to(value);
         break;
+      case JointCommand::Mode::kPlace:
+        joint.motion = {std::clamp(value, joint.travel.min, joint.travel.max), 0.0};
+        joint.stop();
+        break;
       case JointCommand::Mode::kSpeed:
         joint.move_at(value);
         break;
@@ -376,10 +411,8 @@ void ActArray::measure(const StepContext& context) {
 }
 
 void ActArray::show(SimTime, RobotSnapshot& shot) const {
-  std::vector<double> positions;
-  for (const Joint& joint : joints_) positions.push_back(joint.motion.position);
   std::vector<Vec2>& seen = shot.arms.emplace_back();
-  for (const std::array<double, 3>& p : arm_points_m(params_, positions)) {
+  for (const std::array<double, 3>& p : arm_points_m(params_, positions())) {
     seen.emplace_back(p[0], p[1]);
   }
 }
@@ -469,6 +502,8 @@ constexpr const char* kJointAxes[] = {"x", "y", "z", "-x", "-y", "-z"};
 constexpr const char* kJointStates[] = {"idle", "moving", "braked", "stalled"};
 
 constexpr Field kJointParams[] = {
+    field<&JointParams::name>("name", "",
+                              "for posture devices; `\"\"`: joint1, joint2, ... by place"),
     field<&JointParams::type>("type", "", "whether the joint turns or slides").one_of(kJointTypes),
     field<&JointParams::length_m>("length", "m", "of the link between this joint and the next one")
         .within(0.0, 10.0),

@@ -8,12 +8,14 @@
 // written by hand, since linkers drop self-registering objects from static libraries.
 // clang-format off
 #define SIM_DEVICE_KINDS(KIND) \
-  KIND(actarray) KIND(aio) KIND(amcl) KIND(battery) KIND(bumper) KIND(blinkenlight) KIND(blobfinder) \
-  KIND(camera) KIND(collision) KIND(compass) KIND(fiducial) KIND(gps) \
-  KIND(gripper) KIND(imu) KIND(dio) KIND(infrared) KIND(laser) \
-  KIND(motion) KIND(odometry) KIND(opaque) KIND(pen) KIND(pose) \
-  KIND(proximity) KIND(ptz) KIND(sonar) KIND(speech) KIND(teleport) \
-  KIND(wander) KIND(waypoint) KIND(wifi)
+  KIND(accelerometer) KIND(actarray) KIND(aio) KIND(airspeed) KIND(altimeter) KIND(amcl) \
+  KIND(attitude) KIND(barometer) KIND(battery) KIND(bumper) KIND(blinkenlight) \
+  KIND(blobfinder) KIND(camera) KIND(clock) KIND(collision) KIND(compass) KIND(fiducial) \
+  KIND(gps) KIND(gripper) KIND(gyroscope) KIND(imu) KIND(dio) KIND(infrared) KIND(laser) \
+  KIND(motion) KIND(odometry) KIND(opaque) KIND(orientation) KIND(pen) KIND(pose) \
+  KIND(posture) KIND(proximity) KIND(ptz) KIND(semantic_camera) KIND(sonar) KIND(speech) \
+  KIND(teleport) KIND(thermometer) KIND(velocity) KIND(wander) \
+  KIND(waypoint) KIND(wifi)
 // clang-format on
 
 namespace sim {

@@ -59,7 +59,9 @@ void ColumnView::look(const StepContext& context) {
   if (head_ != nullptr) {
     X_BS.yaw_rad += head_->pan_rad();
     pinhole_.field_of_view_rad = head_->view_rad();
-    pinhole_.tilt_rad = head_->tilt_rad();
+    // Pictures are those of at most 60 degrees: the shift of a lens grows without bounds.
+    pinhole_.tilt_rad =
+        std::clamp(head_->tilt_rad(), -std::numbers::pi / 3.0, std::numbers::pi / 3.0);
   }
   focal_px_ = pinhole_.focal_px();
   horizon_px_ = pinhole_.row_px(1.0, 0.0);

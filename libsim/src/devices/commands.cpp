@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kGripActions[] = {"open", "close", "stop", "store", "retrieve"};
 
-constexpr const char* kJointModes[] = {"position", "speed", "current", "home"};
+constexpr const char* kJointModes[] = {"position", "speed", "current", "home", "place"};
 constexpr const char* kJointSettings[] = {"power", "brakes", "speed", "acceleration"};
 
 constexpr Field kTwist[] = {
@@ -35,12 +35,24 @@ constexpr Field kGoto[] = {
 };
 constexpr Field kPlace[] = {
     field<&PlaceCommand::pose>("", "m, rad"),
+    field<&PlaceCommand::z_m>("z", "m"),
+    field<&PlaceCommand::roll_rad>("roll", "rad"),
+    field<&PlaceCommand::pitch_rad>("pitch", "rad"),
 };
 constexpr Field kTranslate[] = {
     field<&TranslateCommand::offset_m>("", "m"),
 };
 constexpr Field kRotate[] = {
     field<&RotateCommand::yaw_rad>("yaw", "rad"),
+};
+constexpr Field kOrient[] = {
+    field<&OrientCommand::roll_rad>("roll", "rad"),
+    field<&OrientCommand::pitch_rad>("pitch", "rad"),
+    field<&OrientCommand::yaw_rad>("yaw", "rad"),
+};
+constexpr Field kTrack[] = {
+    field<&TrackCommand::range_m>("range", "m"),
+    field<&TrackCommand::tag>("tag"),
 };
 constexpr Field kHeading[] = {
     field<&HeadingCommand::v_mps>("v", "m/s"),
@@ -113,6 +125,8 @@ SIM_FIELDS(GotoCommand, kGoto)
 SIM_FIELDS(PlaceCommand, kPlace)
 SIM_FIELDS(TranslateCommand, kTranslate)
 SIM_FIELDS(RotateCommand, kRotate)
+SIM_FIELDS(OrientCommand, kOrient)
+SIM_FIELDS(TrackCommand, kTrack)
 SIM_FIELDS(HeadingCommand, kHeading)
 SIM_FIELDS(PositionCommand, kPosition)
 SIM_FIELDS(CarCommand, kCar)
@@ -131,9 +145,9 @@ SIM_FIELDS(ResumeCommand, {})
 
 std::span<const AlternativeKind<Command>> command_kinds() {
   static constexpr auto kKinds = alternative_kinds<Command>(
-      {"twist",  "motors",  "set_pose", "goto", "stop",   "resume",       "place",  "translate",
-       "rotate", "heading", "position", "car",  "say",    "digital",      "analog", "light",
-       "grip",   "opaque",  "point",    "pan",  "joints", "joint_setting"});
+      {"twist",  "motors",  "set_pose", "goto", "stop",   "resume",        "place",  "translate",
+       "rotate", "heading", "position", "car",  "say",    "digital",       "analog", "light",
+       "grip",   "opaque",  "point",    "pan",  "joints", "joint_setting", "orient", "track"});
   return kKinds;
 }
 

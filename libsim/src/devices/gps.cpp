@@ -95,10 +95,16 @@ void Gps::measure(const StepContext& context) {
       shifted({params_.latitude_rad, params_.longitude_rad}, east_m, north_m, params_.altitude_m);
   reading.latitude_rad = place.latitude_rad;
   reading.longitude_rad = place.longitude_rad;
-  reading.altitude_m = params_.altitude_m + noise_.gaussian(params_.noise_vertical_m);
+  reading.altitude_m =
+      params_.altitude_m + context.body.elevation.z_m + noise_.gaussian(params_.noise_vertical_m);
   const Vec2 utm = utm_m(place, zone_);
   reading.utm_easting_m = utm.x();
   reading.utm_northing_m = utm.y();
+
+  reading.position_m = {c * north_m + s * east_m, s * north_m - c * east_m,
+                        reading.altitude_m - params_.altitude_m};
+  const double heading_rad = normalize_angle(params_.north_rad - X_WB.yaw_rad);
+  reading.heading_rad = heading_rad < 0.0 ? heading_rad + 2.0 * std::numbers::pi : heading_rad;
 
   const Twist& twist = context.body.twist;
   reading.speed_mps = std::hypot(twist.v_mps, twist.lateral_mps);
@@ -108,6 +114,8 @@ void Gps::measure(const StepContext& context) {
     const double course = normalize_angle(params_.north_rad - heading);
     reading.course_rad = course < 0.0 ? course + 2.0 * std::numbers::pi : course;
   }
+  reading.velocity_mps = {reading.speed_mps * std::sin(reading.course_rad),
+                          reading.speed_mps * std::cos(reading.course_rad), 0.0};
 }
 
 void Gps::archive(StateArchive& archive) {
@@ -127,7 +135,10 @@ constexpr ModifierParameter kGpsNoise[] = {
        gps.noise_m = gps.noise_vertical_m = value;
      }},
 };
-constexpr Modifier kGpsModifiers[] = {{kGpsNoiseNames, kGpsNoise}};
+constexpr Modifier kGpsModifiers[] = {{kGpsNoiseNames, kGpsNoise}, kUtmModifier<GpsParams>,
+                                      kNedModifier<GpsParams>,     kFeetModifier<GpsParams>,
+                                      kEcefModifier<GpsParams>,    kGeodeticModifier<GpsParams>};
+constexpr const char* kGpsLevels[] = {"simple", "raw", "extended"};
 
 constexpr Field kGpsSettings[] = {
     frequency_field<&GpsParams::frequency_hz>(),
@@ -148,6 +159,9 @@ constexpr Field kGpsSettings[] = {
         .with_realism(0.0, 4.24),
     field<&GpsParams::satellites>("satellites", "", "in view; with fewer than 4 there is no fix")
         .within(0, 64),
+    field<&GpsParams::level>(
+        "level", "", "form of MORSE's stream: `\"simple\"`, `\"raw\"` or `\"extended\"`, see below")
+        .one_of(kGpsLevels),
     latency_field<&GpsParams::latency_s>(),
     modifiers_field<kGpsModifiers>(),
 };
@@ -163,6 +177,9 @@ constexpr Field kGpsReading[] = {
     field<&GpsReading::utm_northing_m>("utm_northing", "m"),
     field<&GpsReading::satellites>("satellites"),
     field<&GpsReading::quality>("quality"),
+    field<&GpsReading::position_m>("position", "m"),
+    field<&GpsReading::velocity_mps>("velocity", "m/s"),
+    field<&GpsReading::heading_rad>("heading", "rad"),
 };
 SIM_FIELDS(GpsReading, kGpsReading)
 

@@ -11,6 +11,12 @@
 namespace sim {
 namespace {
 
+void add_noise(RandomStream& noise, double length_m, double angle_rad, Elevation& elevation) {
+  elevation.z_m += noise.gaussian(length_m);
+  elevation.roll_rad = normalize_angle(elevation.roll_rad + noise.gaussian(angle_rad));
+  elevation.pitch_rad = normalize_angle(elevation.pitch_rad + noise.gaussian(angle_rad));
+}
+
 double sinc(double x) { return std::abs(x) < 1e-8 ? 1.0 : std::sin(x) / x; }
 
 }  // namespace
@@ -19,8 +25,14 @@ PoseSensor::PoseSensor(std::string name, const PoseParams& params, const Pose& X
                        RandomStream noise)
     : SensorOf(std::move(name), "pose", params.frequency_hz, params.latency_s),
       params_(params),
+      mounting_(params),
       noise_(std::move(noise)),
       X_WB_(X_WB_start) {}
+
+std::optional<std::string> PoseSensor::connect(std::string_view robot,
+                                               const DeviceDirectory& devices) {
+  return mounting_.connect(robot, devices);
+}
 
 std::optional<std::string> PoseSensor::apply(const Command& command) {
   const auto* set = std::get_if<SetPoseCommand>(&command);
@@ -34,7 +46,15 @@ void PoseSensor::integrate(const StepContext& context) { X_WB_ = context.body.X_
 void PoseSensor::measure(const StepContext& context) {
   auto& reading = next(context);
   // While the frame has not been set, the true pose passes unchanged, to the bit.
-  reading.pose = X_FW_ == Pose{} ? X_WB_ : X_FW_ * X_WB_;
+  Pose X_WS = X_WB_;
+  reading.elevation = context.body.elevation;
+  if (!mounting_.is_trivial()) {
+    const Eigen::Isometry3d place = mounting_.in_world(context.body);
+    const EulerAngles angles = euler_angles_of(place.linear());
+    X_WS = {place.translation().x(), place.translation().y(), angles.yaw_rad};
+    reading.elevation = {place.translation().z(), angles.roll_rad, angles.pitch_rad};
+  }
+  reading.pose = X_FW_ == Pose{} ? X_WS : X_FW_ * X_WS;
   if (params_.noise_m > 0.0) {
     reading.pose.x_m += noise_.gaussian(params_.noise_m);
     reading.pose.y_m += noise_.gaussian(params_.noise_m);
@@ -42,6 +62,9 @@ void PoseSensor::measure(const StepContext& context) {
   if (params_.noise_yaw_rad > 0.0) {
     reading.pose.yaw_rad =
         normalize_angle(reading.pose.yaw_rad + noise_.gaussian(params_.noise_yaw_rad));
+  }
+  if (params_.noise_in_space) {
+    add_noise(noise_, params_.noise_m, params_.noise_yaw_rad, reading.elevation);
   }
   reading.twist = context.body.twist;
   reading.stalled = context.body.stalled;
@@ -141,6 +164,10 @@ void Odometry::measure(const StepContext& context) {
     reading.pose.yaw_rad =
         normalize_angle(reading.pose.yaw_rad + noise_.gaussian(params_.noise_pose_yaw_rad));
   }
+  reading.elevation = {};
+  if (params_.noise_in_space) {
+    add_noise(noise_, params_.noise_pose_m, params_.noise_pose_yaw_rad, reading.elevation);
+  }
   reading.twist = context.body.twist;
   if (slipping_motors_ != nullptr) {
     const WheelPath path = turned(context.body);
@@ -177,7 +204,14 @@ constexpr ModifierParameter kPoseNoise[] = {
     {"rot_std", kMorseRotation_rad, kNoiseAngle, "noise_yaw_deg",
      [](void* params, double value) { static_cast<PoseParams*>(params)->noise_yaw_rad = value; }},
 };
-constexpr Modifier kPoseModifiers[] = {{kPoseNoiseNames, kPoseNoise}};
+constexpr Modifier kPoseModifiers[] = {
+    {kPoseNoiseNames, kPoseNoise, nullptr,
+     [](void* params) { static_cast<PoseParams*>(params)->noise_in_space = true; }},
+    kUtmModifier<PoseParams>,
+    kNedModifier<PoseParams>,
+    kFeetModifier<PoseParams>,
+    kEcefModifier<PoseParams>,
+    kGeodeticModifier<PoseParams>};
 
 OdometryParams& odometry(void* params) { return *static_cast<OdometryParams*>(params); }
 
@@ -215,8 +249,10 @@ constexpr ModifierParameter kOdometryNoise[] = {
        odometry(params).heading_noise_rad = value * std::sqrt(odometry(params).frequency_hz);
      }},
 };
-constexpr Modifier kOdometryModifiers[] = {{kOdometryNoiseNames, kOdometryNoise},
-                                           {kPoseNoiseNames, kOdometryPoseNoise}};
+constexpr Modifier kOdometryModifiers[] = {
+    {kOdometryNoiseNames, kOdometryNoise},
+    {kPoseNoiseNames, kOdometryPoseNoise, nullptr,
+     [](void* params) { odometry(params).noise_in_space = true; }}};
 
 }  // namespace
 
@@ -230,6 +266,7 @@ constexpr Field kPoseSettings[] = {
         .within(0.0, 360.0)
         .with_realism(0.0, 0.5),
     latency_field<&PoseParams::latency_s>(),
+    include<PoseParams, SensorMount>(),
     modifiers_field<kPoseModifiers>(),
 };
 SIM_FIELDS(PoseParams, kPoseSettings)
@@ -303,6 +340,9 @@ constexpr Field kPoseReading[] = {
     field<&PoseReading::stalled>("stalled"),
     field<&PoseReading::path_length_m>("path_length", "m"),
     field<&PoseReading::increment>("increment", "m, rad"),
+    field<&PoseReading::elevation, &Elevation::z_m>("z", "m"),
+    field<&PoseReading::elevation, &Elevation::roll_rad>("roll", "rad"),
+    field<&PoseReading::elevation, &Elevation::pitch_rad>("pitch", "rad"),
 };
 SIM_FIELDS(PoseReading, kPoseReading)
 

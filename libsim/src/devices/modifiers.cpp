@@ -47,8 +47,10 @@ void read_modifiers(io::Reader& settings, std::span<const Modifier> modifiers, v
                     "a second one with the same parameters", "leave one of the two out", "name");
     }
     used.push_back(modifier);
-    // All noise is that of a flat world, with "_2D" or without.
-    static_cast<void>(element.boolean("_2D", true));
+    if (modifier->use != nullptr) modifier->use(params);
+    // By default all noise is that of a flat world.
+    const bool is_flat = element.boolean("_2D", true);
+    if (!is_flat && modifier->in_space != nullptr) modifier->in_space(params);
     for (const ModifierParameter& parameter : modifier->parameters) {
       const double value = element.number(parameter.name, parameter.fallback, parameter.range);
       if (const std::string key = stated_key(settings, parameter); !key.empty()) {

@@ -24,10 +24,16 @@ void Ptz::Axis::step(double dt_s) {
 
 Ptz::Ptz(std::string name, const PtzParams& params)
     : SensorOf(std::move(name), "ptz", params.frequency_hz),
+      mount_(params),
       pan_{-params.pan_max_rad, params.pan_max_rad, params.pan_speed_radps, 0.0, 0.0, 0.0},
       tilt_{-params.tilt_max_rad, params.tilt_max_rad, params.tilt_speed_radps, 0.0, 0.0, 0.0},
       view_{params.view_min_rad, params.view_max_rad, params.zoom_speed_radps,
             params.view_max_rad, params.view_max_rad, 0.0} {}
+
+Eigen::Isometry3d Ptz::head_in_body() const {
+  // A positive tilt looks upwards, a positive pitch downwards.
+  return mount_.transform() * in_space({0.0, 0.0, pan_.now}, {0.0, 0.0, -tilt_.now});
+}
 
 std::optional<std::string> Ptz::apply(const Command& command) {
   if (const auto* point = std::get_if<PointCommand>(&command)) {
@@ -61,7 +67,7 @@ void Ptz::measure(const StepContext& context) {
   reading.pan_speed_radps = pan_.moved;
   reading.tilt_speed_radps = tilt_.moved;
   reading.zoom_speed_radps = view_.moved;
-  reading.moving = pan_.now != pan_.goal || tilt_.now != tilt_.goal || view_.now != view_.goal;
+  reading.moving = moving();
 }
 
 void Ptz::archive(StateArchive& archive) {
@@ -91,7 +97,7 @@ constexpr Field kPtzSettings[] = {
     field<&PtzParams::pan_max_rad>("pan_max_deg", "degrees", "maximum pan to either side")
         .within(0.0, 180.0),
     field<&PtzParams::tilt_max_rad>("tilt_max_deg", "degrees", "maximum tilt, up and down")
-        .within(0.0, 60.0),
+        .within(0.0, 90.0),
     field<&PtzParams::view_min_rad>("field_of_view_min_deg", "degrees",
                                     "of the lens, from side to side, zoomed in")
         .within(0.01, 170.0),
@@ -105,6 +111,7 @@ constexpr Field kPtzSettings[] = {
     field<&PtzParams::zoom_speed_radps>("zoom_speed_deg", "degrees/s",
                                         "maximum rate of change of the field of view")
         .above(0.0, 3600.0),
+    include<PtzParams, MountPose>(),
 };
 SIM_FIELDS(PtzParams, kPtzSettings, check_ptz_view)
 

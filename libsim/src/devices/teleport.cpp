@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "devices/device_kind.h"
+#include "devices/modifiers.h"
 
 namespace sim {
 
@@ -27,10 +28,23 @@ std::optional<std::string> Teleport::execute(const Command& command, RobotContro
     return "a robot can be put only where all of x, y and heading are finite numbers";
   }
   X_WB.yaw_rad = normalize_angle(X_WB.yaw_rad);
-  return robot.place(X_WB);
+  auto refusal = robot.place(X_WB);
+  if (const auto* place = std::get_if<PlaceCommand>(&command); place != nullptr && !refusal) {
+    const Elevation& now = robot.body().elevation;
+    robot.elevate({place->z_m.value_or(now.z_m), place->roll_rad.value_or(now.roll_rad),
+                   place->pitch_rad.value_or(now.pitch_rad)});
+  }
+  return refusal;
 }
 
-SIM_FIELDS(TeleportParams, {})
+constexpr Modifier kTeleportModifiers[] = {
+    kUtmModifier<TeleportParams>, kNedModifier<TeleportParams>, kFeetModifier<TeleportParams>,
+    kEcefModifier<TeleportParams>, kGeodeticModifier<TeleportParams>};
+
+constexpr Field kTeleportSettings[] = {
+    modifiers_field<kTeleportModifiers>(),
+};
+SIM_FIELDS(TeleportParams, kTeleportSettings)
 
 DeviceKind teleport_kind() { return device_kind<Teleport, TeleportParams, void>("teleport", {}); }
 

@@ -7,6 +7,7 @@
 
 #include "devices/device_kind.h"
 #include "sim/core/number_text.h"
+#include "sim/world/description.h"
 
 namespace sim {
 
@@ -52,6 +53,7 @@ std::optional<std::string> Waypoint::execute(const Command& command, RobotContro
   }
   if (std::holds_alternative<StopCommand>(command)) {
     status_ = WaypointStatus::kStop;
+    rolling_mps_ = params_.stop_deceleration_mps2 > 0.0 ? robot.body().twist.v_mps : 0.0;
     return std::nullopt;
   }
   if (std::holds_alternative<ResumeCommand>(command)) {
@@ -69,8 +71,11 @@ void Waypoint::act(RobotControl& robot) {
   if (status_ == WaypointStatus::kTransit && distance_m() > goal_.tolerance_m) {
     robot.drive(waypoint_twist(X_WB_, goal_, params_));
   } else if (controls_motors_) {
-    robot.drive({});
-    controls_motors_ = false;
+    const double lost_mps =
+        params_.stop_deceleration_mps2 * to_seconds(robot.context().world.simulation.step_ns);
+    rolling_mps_ = status_ == WaypointStatus::kStop ? std::max(0.0, rolling_mps_ - lost_mps) : 0.0;
+    robot.drive({rolling_mps_, 0.0, 0.0});
+    controls_motors_ = rolling_mps_ > 0.0;
   }
 }
 
@@ -115,7 +120,7 @@ void Waypoint::measure(const StepContext& context) {
 void Waypoint::archive(StateArchive& archive) {
   SensorOf::archive(archive);
   archive.fields(goal_);
-  archive(goal_number_, has_goal_, controls_motors_, X_WB_);
+  archive(goal_number_, has_goal_, controls_motors_, X_WB_, rolling_mps_);
   archive.choice(status_, WaypointStatus::kStop);
 }
 
@@ -138,6 +143,10 @@ constexpr Field kWaypointSettings[] = {
     field<&WaypointParams::max_turn_rate_radps>("max_turn_rate_deg", "degrees/s",
                                                 "maximum on the way to a goal; default 2 rad/s")
         .above(0.0, 3600.0),
+    field<&WaypointParams::stop_deceleration_mps2>(
+        "stop_deceleration", "m/s^2", "of the robot after a stop on the way; 0: it stops at once")
+        .within(0.0, 1000.0)
+        .unlisted(0.0),
 };
 SIM_FIELDS(WaypointParams, kWaypointSettings)
 

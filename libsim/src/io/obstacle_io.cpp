@@ -10,6 +10,7 @@
 #include "io/controller_io.h"
 #include "io/document.h"
 #include "io/motion_io.h"
+#include "io/robot_io.h"
 #include "sim/world/outline.h"
 
 namespace sim::io {
@@ -113,6 +114,7 @@ void read_blocks(Reader& arena, const char* key, const char* prefix, bool separa
       if (!separators) {
         read_kind(reader, block);
         block.fiducial = read_fiducial(reader);
+        block.tags = read_tags(reader);
         block.portable = reader.boolean("portable", block.portable);
         if (reader.has("colour")) block.colour = reader.colour("colour", {});
         read_motion(reader, block);

@@ -257,6 +257,31 @@ std::map<std::string, std::vector<std::string>> read_interfaces(
   return interfaces;
 }
 
+Elevation read_elevation(Reader& robot) {
+  Elevation elevation;
+  std::optional<Reader> reader = robot.object("elevation");
+  if (!reader) return elevation;
+  elevation.z_m = reader->number("z", 0.0, {-kFarthest_m, kFarthest_m, false, "m"});
+  elevation.roll_rad = reader->angle_deg("roll_deg", 0.0);
+  elevation.pitch_rad = reader->angle_deg("pitch_deg", 0.0);
+  reader->finish();
+  return elevation;
+}
+
+std::vector<std::string> read_tags(Reader& owner) {
+  std::set<std::string> tags;
+  for (Reader& element : owner.array("tags", 64)) {
+    const std::string tag = element.is_string() ? element.scalar_text().value_or("") : "";
+    if (!is_valid_name(tag)) {
+      element.issue("world/bad-name", "a tag of 1 to 64 letters, digits, _ or -",
+                    element.description_for_message());
+    } else {
+      tags.insert(tag);
+    }
+  }
+  return {tags.begin(), tags.end()};
+}
+
 std::optional<RealRobotDescription> read_real_robot(Reader& robot) {
   std::optional<Reader> reader = robot.object("real");
   if (!reader) return std::nullopt;

@@ -496,6 +496,8 @@ class WorldReader {
     const bool model_is_valid = load_model(reader, robot.model);
     if (!model_is_valid) robot.model = default_robot_model().name;
     robot.pose = reader.pose("pose", robot.pose);
+    robot.elevation = read_elevation(reader);
+    robot.tags = read_tags(reader);
     robot.colour = reader.colour("colour", robot.colour);
     robot.port = read_port(reader, "port");
     if (!model_is_valid) return;  // the rest depends on the model

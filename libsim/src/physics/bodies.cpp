@@ -365,7 +365,9 @@ void Bodies::set_pose(Robot& r, const Pose& X_WB) {
     r.body->SetAngularVelocity(0.0F);
     r.body->SetAwake(true);
   }
+  const Elevation elevation = r.state->elevation;
   *r.state = {};
+  r.state->elevation = elevation;
   r.state->X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
   r.stall_clock_s = 0.0;
   order_fresh_ = false;

@@ -23,6 +23,7 @@ void archive_robot_state(StateArchive& archive, Robot& r) {
   archive.unbounded(r.wall_until_m);
   archive.unbounded(r.wall_at_travel_m);
   archive(s.X_WB, s.twist, s.commanded, s.travel_m, s.turn_rad, s.stalled, s.side_m);
+  archive(s.elevation.z_m, s.elevation.roll_rad, s.elevation.pitch_rad);
   for (const double x : {r.X_WB.x_m, r.X_WB.y_m, r.target.v_mps, r.target.lateral_mps,
                          r.target.omega_radps, r.X_WB.yaw_rad}) {
     archive.expect(std::abs(x) <= kFarthest_m, "robots within reach");

@@ -93,6 +93,10 @@ void PhysicsWorld::set_suspended(int robot, bool suspended) {
 
 bool PhysicsWorld::suspended(int robot) const { return impl_->bodies.robot(robot).suspended; }
 
+void PhysicsWorld::set_elevation(int robot, const Elevation& elevation) {
+  impl_->bodies.robot(robot).state->elevation = elevation;
+}
+
 void PhysicsWorld::set_pose(int robot, const Pose& X_WB) {
   impl_->bodies.set_pose(impl_->bodies.robot(robot), X_WB);
   impl_->sensor_view.robot_was_placed();

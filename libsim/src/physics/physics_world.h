@@ -59,6 +59,8 @@ class PhysicsWorld {
   void set_target(int robot, const Twist& target);
   /// Places a robot at a pose, at rest.
   void set_pose(int robot, const Pose& X_WB);
+  /// Sets a robot's height and inclination, which have no effect on the physics.
+  void set_elevation(int robot, const Elevation& elevation);
   /// Makes a robot stand still like a part of the floor (true), or lets it move again. A suspended
   /// robot has a target of zero; set_pose() still works.
   void set_suspended(int robot, bool suspended);

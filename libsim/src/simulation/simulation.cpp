@@ -82,6 +82,9 @@ class Simulation::Impl::Control final : public RobotControl {
     if (motion != nullptr) static_cast<void>(motion->apply(TwistCommand{twist}));
   }
   std::optional<std::string> place(const Pose& X_WB) override { return impl_.place(robot_, X_WB); }
+  void elevate(const Elevation& elevation) override {
+    impl_.physics->set_elevation(static_cast<int>(robot_), elevation);
+  }
   void say(const std::string& text) override { impl_.say(robot_, text); }
   [[nodiscard]] StepContext context() const override {
     return {impl_.now_ns, body(), *impl_.physics, static_cast<int>(robot_), impl_.world};
@@ -154,6 +157,7 @@ void Simulation::Impl::add_robot(const RobotDescription& robot) {
   parts.model = find_robot_model(world, robot.model);
   SIM_ASSERT(parts.model != nullptr);
   const int index = physics->add_robot(*parts.model, robot.pose);
+  physics->set_elevation(index, robot.elevation);
   for (const Vec2& v : parts.model->footprint) {
     parts.radius_m = std::max(parts.radius_m, v.norm());
   }
@@ -396,6 +400,13 @@ int Simulation::robot_count() const noexcept { return static_cast<int>(impl_->ro
 
 const RobotModel& Simulation::model(int robot) const {
   return *impl_->robots.at(static_cast<std::size_t>(robot)).model;
+}
+
+bool Simulation::sees(int robot, int other) const {
+  const PhysicsWorld& physics = *impl_->physics;
+  return physics.is_line_free(physics.body(robot).X_WB.position(),
+                              physics.body(other).X_WB.position(), 0.5 * physics.height_m(robot),
+                              robot, {other, PhysicsWorld::Contact::Kind::kRobot, other});
 }
 
 const BodyState& Simulation::body(int robot) const {

@@ -39,6 +39,7 @@ void add(StateHash& hash, const ObstacleDescription& box) {
   hash.add(box.height_m);
   hash.add(static_cast<int>(box.state));
   hash.add(box.fiducial);
+  for (const std::string& tag : box.tags) hash.add(tag);
   hash.add(box.colour.has_value() ? 1 : 0);
   if (box.colour) add(hash, *box.colour);
   hash.add(box.portable ? 1 : 0);
@@ -102,6 +103,13 @@ void add(StateHash& hash, const RobotDescription& robot, const WorldDescription&
   hash.add(robot.model);
   if (const RobotModel* model = find_robot_model(world, robot.model)) add(hash, *model);
   add(hash, robot.pose);
+  // A robot on the floor has the hash that it had before robots had an elevation.
+  if (robot.elevation != Elevation{}) {
+    hash.add(robot.elevation.z_m);
+    hash.add(robot.elevation.roll_rad);
+    hash.add(robot.elevation.pitch_rad);
+  }
+  for (const std::string& tag : robot.tags) hash.add(tag);
   add(hash, robot.colour);
   hash.add(robot.port);
   hash.add(robot.fiducial);

@@ -175,7 +175,7 @@ TEST_F(MorseProtocol, BadRequestsAreToldWhatIsWrongAndTheConnectionStays) {
            {"x simulation details 3", "x", "found number"},
            {"x simulation details [1e999]", "x", "protocol/"},
            {"x simulation details [1]", "x", "wrong # of parameters"},
-           {"x r1.motion set_speed", "x", "wrong # of parameters"},
+           {"x r1.motion set_speed", "x", "parameters expected"},
            {"x r1.motion set_speed [1, 2, 3]", "x", "expected 2 (v, w), found 3"},
            {"x r1.waypoint goto [1, 2]", "x", "wrong # of parameters"},
            {"x r1.motion set_speed [true, 0]", "x", "argument 1 of set_speed(v, w)"},
@@ -512,7 +512,7 @@ TEST_F(MorseProtocol, ArenaRefusesWhatIsUnknownOrWrong) {
   for (const auto& [request, part] : std::vector<std::pair<std::string, std::string>>{
            {"set_configuration [\"opne\"]", "did you mean \"open\"? this world has: closed, open"},
            {"set_configuration [3]", "argument 1 of set_configuration(name): expected a text"},
-           {"set_configuration", "wrong # of parameters"},
+           {"set_configuration", "parameters expected"},
            {"extend [\"gaet\"]", "did you mean \"gate\"?"},
            {"extend [\"wall1\"]", "static"},
            {"retract [\"nothing\"]", "there is no dynamic block named \"nothing\""},
@@ -1101,8 +1101,9 @@ std::string text_of(const std::string& file) {
 TEST(MorsePage, HasARowForEachService) {
   const std::string page = text_of(PLAYPEN_SOURCE_DIR "/docs/morse.md");
   int services = 0;
-  for (const char* kind : {"simulation", "time", "arena", "motion", "waypoint", "teleport", "pen",
-                           "sensor", "component"}) {
+  for (const char* kind :
+       {"simulation", "time", "arena", "motion", "MotionXYW", "waypoint", "teleport", "pen", "ptz",
+        "posture", "proximity", "communication", "sensor", "component"}) {
     for (const server::MorseService& service : server::morse_services(kind)) {
       ++services;
       const std::string call =

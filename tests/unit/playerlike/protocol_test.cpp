@@ -22,6 +22,7 @@
 #include "protocol/framing.h"
 #include "sim/devices/actarray.h"
 #include "sim/devices/aio.h"
+#include "sim/devices/air_sensors.h"
 #include "sim/devices/amcl.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/blinkenlight.h"
@@ -39,9 +40,12 @@
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/opaque.h"
+#include "sim/devices/posture.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/ptz.h"
 #include "sim/devices/rangers.h"
+#include "sim/devices/semantic_camera.h"
+#include "sim/devices/space_sensors.h"
 #include "sim/devices/waypoint.h"
 #include "sim/devices/wifi.h"
 
@@ -1183,8 +1187,8 @@ TEST(Readings, LookAsTheReferenceSays) {
   reading.pose = {0.5, 1.25, 0.0};
   EXPECT_EQ(encode(encode_reading({0, 4}, "pose", reading, Encoding::kJson), Encoding::kJson),
             R"({"device":[0,4],"increment":{"x":0.0,"y":0.0,"yaw":0.0},"lateral":0.0,"omega":0.0,)"
-            R"("path_length":0.0,"seq":1,"stalled":false,"t":100000000,"type":"pose","v":0.0,)"
-            R"("x":0.5,"y":1.25,"yaw":0.0})"
+            R"("path_length":0.0,"pitch":0.0,"roll":0.0,"seq":1,"stalled":false,"t":100000000,)"
+            R"("type":"pose","v":0.0,"x":0.5,"y":1.25,"yaw":0.0,"z":0.0})"
             "\n");
 }
 
@@ -1197,6 +1201,16 @@ TEST(Readings, MayHaveMoreKeysThanAreKnown) {
 TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
   const std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> readings = [] {
     std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> all;
+    all.emplace_back("accelerometer", std::make_unique<sim::AccelerometerReading>());
+    all.emplace_back("airspeed", std::make_unique<sim::AirspeedReading>());
+    all.emplace_back("altimeter", std::make_unique<sim::AltimeterReading>());
+    all.emplace_back("attitude", std::make_unique<sim::AttitudeReading>());
+    all.emplace_back("barometer", std::make_unique<sim::BarometerReading>());
+    all.emplace_back("gyroscope", std::make_unique<sim::GyroscopeReading>());
+    all.emplace_back("posture", std::make_unique<sim::PostureReading>());
+    all.emplace_back("semantic_camera", std::make_unique<sim::SemanticCameraReading>());
+    all.emplace_back("thermometer", std::make_unique<sim::ThermometerReading>());
+    all.emplace_back("velocity", std::make_unique<sim::VelocityReading>());
     all.emplace_back("actarray", std::make_unique<sim::ActArrayReading>());
     all.emplace_back("aio", std::make_unique<sim::AioReading>());
     all.emplace_back("battery", std::make_unique<sim::BatteryReading>());

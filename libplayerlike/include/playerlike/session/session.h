@@ -13,7 +13,6 @@
 
 #include "playerlike/messages/messages.h"
 #include "playerlike/messages/requests.h"
-#include "playerlike/session/device_graphics.h"
 #include "playerlike/session/draw_queue.h"
 #include "sim/canvas/layers.h"
 
@@ -94,9 +93,6 @@ class Session {
   /// The queue of drawings, for callers that draw cell by cell: push() is draw() without a virtual
   /// call. If a push fails, send a FlushDrawingsRequest and try again.
   [[nodiscard]] virtual DrawQueue& draw_queue() noexcept = 0;
-  /// The devices that draw for this session, if drawings go to a server's devices instead of the
-  /// canvas: Player servers. Null: the session has a canvas.
-  [[nodiscard]] virtual DeviceGraphics* device_graphics() noexcept { return nullptr; }
   /// Number of resizes of the canvas by any client. The result of a CanvasInfoRequest is valid
   /// until this number changes. Cheap.
   [[nodiscard]] virtual std::uint64_t canvas_generation() const noexcept = 0;

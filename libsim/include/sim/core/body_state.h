@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "sim/core/elevation.h"
 #include "sim/core/pose.h"
 
 namespace sim {
@@ -15,6 +16,7 @@ struct BodyState {
   bool stalled = false;   ///< the commanded twist has not been achieved for 0.2 s
   double side_m = 0.0;    ///< motion to the left in the last step [m]: driven by an omnidirectional
                           ///< robot, or caused by a push
+  Elevation elevation;    ///< height and inclination, which the physics ignores
 };
 
 }  // namespace sim

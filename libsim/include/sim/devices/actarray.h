@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/elevation.h"
 #include "sim/core/pose.h"
 #include "sim/core/state_archive.h"
 #include "sim/core/time.h"
@@ -37,6 +38,7 @@ enum class JointAxis {
 /// The joint turns about or slides along its axis in this frame. Its link extends along the x axis
 /// of the moved frame.
 struct JointParams {
+  std::string name;  ///< for posture devices; empty: "joint1", "joint2", ... by place
   JointType type = JointType::kRotary;  ///< whether it turns or slides
   double length_m = 0.1;                ///< of the link, [0, 10] [m]
   double roll_rad = 0.0;   ///< orientation at position 0 relative to the previous link [rad]
@@ -178,6 +180,15 @@ class ActArray final : public SensorOf<ActArrayReading> {
 
   /// The settings, with the default joints if the world has none.
   [[nodiscard]] const ActArrayParams& params() const noexcept { return params_; }
+
+  /// Whether all joints are at rest.
+  [[nodiscard]] bool at_rest() const noexcept;
+  /// Names of all joints, in their order.
+  [[nodiscard]] std::vector<std::string> joint_names() const;
+  /// Positions of all joints now [m or rad].
+  [[nodiscard]] std::vector<double> positions() const;
+  /// Pose of the end of the last link in B.
+  [[nodiscard]] Eigen::Isometry3d end_in_body() const;
 
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;

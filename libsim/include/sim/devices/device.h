@@ -84,6 +84,10 @@ struct ResumeCommand {};
 /// Place the robot at a pose, at rest (teleport).
 struct PlaceCommand {
   Pose pose;  ///< X_WB
+  /// Height and inclination; members without a value keep theirs (Elevation).
+  std::optional<double> z_m = {};
+  std::optional<double> roll_rad = {};
+  std::optional<double> pitch_rad = {};
 };
 /// Move the robot to another position at once, with the same heading, at rest (teleport).
 struct TranslateCommand {
@@ -92,6 +96,17 @@ struct TranslateCommand {
 /// Rotate the robot on the spot at once and leave it at rest (teleport).
 struct RotateCommand {
   double yaw_rad;  ///< counter-clockwise [rad]
+};
+/// Turn the body to these angles and hold them (orientation).
+struct OrientCommand {
+  double roll_rad = 0.0;   ///< about the body's x axis [rad]
+  double pitch_rad = 0.0;  ///< about the body's y axis; positive: nose down [rad]
+  double yaw_rad = 0.0;    ///< heading in W, counter-clockwise [rad]
+};
+/// Change what a proximity sensor detects; members without a value keep their settings.
+struct TrackCommand {
+  std::optional<double> range_m = {};   ///< (0, 1000] [m]
+  std::optional<std::string> tag = {};  ///< empty: everything
 };
 /// Drive at this speed, turn to a heading and hold it, until another command (motion).
 struct HeadingCommand {
@@ -170,6 +185,7 @@ struct JointCommand {
     kSpeed,     ///< at speeds [m/s or rad/s], until another command or a limit
     kCurrent,   ///< with currents through the motors [A], until another command
     kHome,      ///< to the home positions; takes no values
+    kPlace,     ///< to positions at once [m or rad]
   };
   Mode mode = Mode::kPosition;
   int joint = 0;               ///< first joint, counted from 0; -1: all joints
@@ -195,7 +211,7 @@ using Command =
                  ResumeCommand, PlaceCommand, TranslateCommand, RotateCommand, HeadingCommand,
                  PositionCommand, CarCommand, SayCommand, DigitalOutputCommand, AnalogOutputCommand,
                  LightCommand, GripCommand, OpaqueCommand, PointCommand, PanCommand, JointCommand,
-                 JointSettingCommand>;
+                 JointSettingCommand, OrientCommand, TrackCommand>;
 
 class Device;
 class Sensor;
@@ -232,6 +248,8 @@ class RobotControl {
   /// Places the robot at a pose, at rest. Notifies all its devices (Device::placed).
   /// @return nothing on success, otherwise the reason, which names the obstacle in the way.
   virtual std::optional<std::string> place(const Pose& X_WB) = 0;
+  /// Sets the robot's height and inclination (BodyState::elevation).
+  virtual void elevate(const Elevation& elevation) = 0;
   /// Publishes a text that the robot says, for the log and the run's report.
   virtual void say(const std::string& text) = 0;
 
@@ -319,6 +337,9 @@ class Device {
   /// A localisation device's current estimate of the robot's pose, in its own frame and without the
   /// noise of single readings; nullopt for other devices.
   [[nodiscard]] virtual std::optional<Pose> pose_estimate() const { return std::nullopt; }
+
+  /// Name of the device of the same robot that carries this one; empty: the body does.
+  [[nodiscard]] virtual std::string_view carrier() const noexcept { return {}; }
 
   /// @name Special kinds of devices
   /// @{

@@ -1,19 +1,29 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
 
+#include "sim/devices/coordinates.h"
 #include "sim/devices/device.h"
 
 namespace sim {
 
+/// Which part of its data a gps device shows to clients that use MORSE's protocol, by MORSE's
+/// names.
+enum class GpsLevel {
+  kSimple,    ///< x, y, z in W
+  kRaw,       ///< latitude, longitude, altitude and velocity
+  kExtended,  ///< the same, and date, time and heading
+};
+
 /// Settings of a satellite receiver. The origin of W has a latitude and a longitude on the Earth,
 /// by default in Prague.
-struct GpsParams {
+struct GpsParams : CoordinateParams {
   double frequency_hz = 10.0;                                 ///< (0, 1000]
   double latitude_rad = 50.0764 * std::numbers::pi / 180.0;   ///< of W's origin, north > 0
   double longitude_rad = 14.4178 * std::numbers::pi / 180.0;  ///< of W's origin, east > 0
@@ -23,6 +33,7 @@ struct GpsParams {
   double noise_vertical_m = 0.0;  ///< standard deviation of the altitude [m], >= 0
   int satellites = 8;             ///< in view, 0 to 64; below 4 there is no fix
   double latency_s = 0.0;         ///< [0, 10] [s]
+  GpsLevel level = GpsLevel::kExtended;
 };
 
 /// Statement of a receiver about the errors of its position.
@@ -43,7 +54,10 @@ struct GpsReading final : Reading {
   double utm_easting_m = 0.0;  ///< in the zone of W's origin [m]
   double utm_northing_m = 0.0;
   int satellites = 0;
-  int quality = 0;  ///< 1: a fix, 0: none
+  int quality = 0;                       ///< 1: a fix, 0: none
+  std::array<double, 3> position_m{};    ///< in W, with the same errors [m]
+  std::array<double, 3> velocity_mps{};  ///< to the east, to the north, upwards [m/s]
+  double heading_rad = 0.0;              ///< of the robot, clockwise from north, [0, 2 pi)
   /// What a real receiver states about its errors; nothing: the device's settings tell, as of all
   /// simulated receivers.
   std::optional<GpsAccuracy> accuracy;

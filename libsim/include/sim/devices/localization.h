@@ -6,16 +6,19 @@
 #include <string>
 #include <string_view>
 
+#include "sim/devices/coordinates.h"
 #include "sim/devices/device.h"
+#include "sim/devices/mount.h"
 
 namespace sim {
 
 /// Settings of the arena's localisation (the pose sensor).
-struct PoseParams {
-  double frequency_hz = 10.0;  ///< (0, 1000]
-  double noise_m = 0.0;        ///< standard deviation of x and of y [m], >= 0
-  double noise_yaw_rad = 0.0;  ///< standard deviation of yaw [rad], >= 0
-  double latency_s = 0.0;      ///< from a measurement until its reading, [0, 10] [s]
+struct PoseParams : SensorMount, CoordinateParams {
+  double frequency_hz = 10.0;   ///< (0, 1000]
+  double noise_m = 0.0;         ///< standard deviation of x and of y [m], >= 0
+  double noise_yaw_rad = 0.0;   ///< standard deviation of yaw [rad], >= 0
+  bool noise_in_space = false;  ///< z, roll and pitch get the same noise as x and yaw
+  double latency_s = 0.0;       ///< from a measurement until its reading, [0, 10] [s]
 };
 
 /// Which part of its data an odometry device shows to clients that use MORSE's protocol. Its
@@ -47,6 +50,7 @@ struct OdometryParams {
                                    ///< grows with the square root of time
   double noise_pose_m = 0.0;       ///< of x and y of single readings [m], >= 0
   double noise_pose_yaw_rad = 0.0;  ///< of yaw of single readings [rad], >= 0
+  bool noise_in_space = false;      ///< z, roll and pitch of single readings get noise, too
   /// @}
   double latency_s = 0.0;  ///< from a measurement until its reading, [0, 10] [s]
 };
@@ -57,6 +61,7 @@ struct PoseReading final : Reading {
                          ///< by SetPoseCommand)
   Twist twist;           ///< in B, as achieved in the last step
   bool stalled = false;  ///< see BodyState
+  Elevation elevation;   ///< height and inclination, in W; odometry: zero except for noise
 
   /// @name Since the previous reading, or since the start for the first; zero except for odometry
   /// @{
@@ -78,6 +83,9 @@ class PoseSensor final : public SensorOf<PoseReading> {
   PoseSensor(std::string name, const PoseParams& params, const Pose& X_WB_start,
              RandomStream noise);
 
+  std::optional<std::string> connect(std::string_view robot,
+                                     const DeviceDirectory& devices) override;
+  [[nodiscard]] std::string_view carrier() const noexcept override { return mounting_.carrier(); }
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
   void placed(const Pose& X_WB) override { X_WB_ = X_WB; }
@@ -90,6 +98,7 @@ class PoseSensor final : public SensorOf<PoseReading> {
 
  private:
   PoseParams params_;
+  Mounting mounting_;
   RandomStream noise_;
   Pose X_WB_;  ///< true, at the last step
   Pose X_FW_;  ///< pose of the world in the frame of the reports; identity until set

@@ -14,6 +14,7 @@ struct ProximityParams {
   double frequency_hz = 10.0;  ///< (0, 1000]
   double range_m = 1.0;        ///< detection range [m], (0, 1000]
   bool obstacles = false;      ///< also report obstacles and dock separators
+  std::string track;           ///< report only robots and obstacles with this tag; empty: all
 };
 
 /// Nearby objects.
@@ -36,6 +37,9 @@ struct ProximityReading final : Reading {
 class Proximity final : public SensorOf<ProximityReading> {
  public:
   Proximity(std::string name, const ProximityParams& params);
+
+  std::optional<std::string> apply(const Command& command) override;
+  void archive(StateArchive& archive) override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -7,16 +7,17 @@
 #include <string>
 
 #include "sim/devices/device.h"
+#include "sim/devices/mount.h"
 
 namespace sim {
 
 /// Settings of a head that pans, tilts and zooms. The default angles and speeds of pan and tilt,
 /// and the narrowest field of view, are those of the Sony EVI-D30 of Pioneer robots (from its data
 /// sheet). The default widest field of view is that of the other viewing devices.
-struct PtzParams {
+struct PtzParams : MountPose {
   double frequency_hz = 10.0;                                 ///< (0, 1000]
   double pan_max_rad = 100.0 / 180.0 * std::numbers::pi;      ///< to either side, [0, pi]
-  double tilt_max_rad = 25.0 / 180.0 * std::numbers::pi;      ///< up and down, [0, pi/3]
+  double tilt_max_rad = 25.0 / 180.0 * std::numbers::pi;      ///< up and down, [0, pi/2]
   double view_min_rad = 4.4 / 180.0 * std::numbers::pi;       ///< field of view, zoomed in
   double view_max_rad = std::numbers::pi / 3.0;               ///< field of view, zoomed out
   double pan_speed_radps = 80.0 / 180.0 * std::numbers::pi;   ///< maximum, > 0
@@ -44,6 +45,14 @@ class Ptz final : public SensorOf<PtzReading> {
 
   [[nodiscard]] double pan_rad() const noexcept { return pan_.now; }
   [[nodiscard]] double tilt_rad() const noexcept { return tilt_.now; }
+  /// Whether it is on its way.
+  [[nodiscard]] bool moving() const noexcept {
+    return pan_.now != pan_.goal || tilt_.now != tilt_.goal || view_.now != view_.goal;
+  }
+  /// Its place on the body.
+  [[nodiscard]] const MountPose& mount() const noexcept { return mount_; }
+  /// Pose of the head in the body's frame B: x along the view, z upwards.
+  [[nodiscard]] Eigen::Isometry3d head_in_body() const;
   [[nodiscard]] double view_rad() const noexcept { return view_.now; }
 
   std::optional<std::string> apply(const Command& command) override;
@@ -70,6 +79,7 @@ class Ptz final : public SensorOf<PtzReading> {
     void step(double dt_s);
   };
 
+  MountPose mount_;
   Axis pan_;
   Axis tilt_;
   Axis view_;

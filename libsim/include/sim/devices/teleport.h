@@ -4,12 +4,13 @@
 #include <optional>
 #include <string>
 
+#include "sim/devices/coordinates.h"
 #include "sim/devices/device.h"
 
 namespace sim {
 
-/// Settings of the teleport actuator: none.
-struct TeleportParams {};
+/// Settings of the teleport actuator: the coordinates of its messages in MORSE's protocol.
+struct TeleportParams : CoordinateParams {};
 
 /// Moves its robot to another place at once.
 ///

@@ -23,12 +23,13 @@ enum class WaypointStatus {
 
 /// Settings of the waypoint driver.
 struct WaypointParams {
-  double frequency_hz = 10.0;        ///< of readings, (0, 1000]; each step updates the steering
-  double tolerance_m = 0.5;          ///< default for clients that name no tolerance [m], > 0
-  double speed_mps = 1.0;            ///< default for clients that name no speed [m/s], > 0
-  double turn_gain = 4.0;            ///< turn rate per bearing, see waypoint_twist() [1/s], > 0
-  double approach_gain = 2.0;        ///< speed per distance, see waypoint_twist() [1/s], > 0
-  double max_turn_rate_radps = 2.0;  ///< [rad/s], > 0
+  double frequency_hz = 10.0;           ///< of readings, (0, 1000]; each step updates the steering
+  double tolerance_m = 0.5;             ///< default for clients that name no tolerance [m], > 0
+  double speed_mps = 1.0;               ///< default for clients that name no speed [m/s], > 0
+  double turn_gain = 4.0;               ///< turn rate per bearing, see waypoint_twist() [1/s], > 0
+  double approach_gain = 2.0;           ///< speed per distance, see waypoint_twist() [1/s], > 0
+  double max_turn_rate_radps = 2.0;     ///< [rad/s], > 0
+  double stop_deceleration_mps2 = 0.0;  ///< after StopCommand, >= 0 [m/s^2]; 0: at once
 };
 
 /// The twist with which a differential drive moves towards a point.
@@ -109,6 +110,7 @@ class Waypoint final : public SensorOf<WaypointReading> {
   std::uint64_t goal_number_ = 0;
   bool has_goal_ = false;  ///< since the start or the last reset
   WaypointStatus status_ = WaypointStatus::kArrived;
+  double rolling_mps_ = 0.0;      ///< speed that is left after StopCommand
   bool controls_motors_ = false;  ///< drives the motors, and must stop them when not in transit
   Pose X_WB_;                     ///< pose at the last step
 };

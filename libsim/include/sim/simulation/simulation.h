@@ -92,6 +92,8 @@ class Simulation {
   [[nodiscard]] int robot_count() const noexcept;
   [[nodiscard]] const RobotModel& model(int robot) const;
   [[nodiscard]] const BodyState& body(int robot) const;
+  /// Whether no solid as high as the first robot's centre of height is between two robots' centres.
+  [[nodiscard]] bool sees(int robot, int other) const;
   [[nodiscard]] const RobotStatistics& statistics(int robot) const;
   /// The newest collisions, oldest first. At most 1024 are kept; RobotStatistics counts all.
   [[nodiscard]] const std::vector<Collision>& collisions() const noexcept;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sim/core/colour.h"
+#include "sim/core/elevation.h"
 #include "sim/core/pose.h"
 #include "sim/core/time.h"
 #include "sim/world/controller.h"
@@ -49,6 +50,7 @@ struct ObstacleDescription {
   double yaw_rad = 0.0;        ///< turn of its axes against W's [rad]
   double height_m = 0.16;      ///< a sensor mounted at this height or above looks over it [m]
   ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
+  std::vector<std::string> tags;                   ///< as RobotDescription::tags
   int fiducial = 0;                   ///< number that fiducial devices read; 0: they do not see it
   std::optional<Colour> colour = {};  ///< none: pictures use the colour of its type, and
                                       ///< blobfinders do not see it
@@ -210,9 +212,11 @@ struct RobotModel;
 
 /// A robot at the start of the world: model, pose, devices and addresses for clients.
 struct RobotDescription {
-  std::string name;           ///< unique in the world; letters, digits, _ and -
-  std::string model = "s1r";  ///< see find_robot_model()
-  Pose pose;                  ///< X_WB at the start
+  std::string name;               ///< unique in the world; letters, digits, _ and -
+  std::string model = "s1r";      ///< see find_robot_model()
+  Pose pose;                      ///< X_WB at the start
+  Elevation elevation;            ///< height and inclination at the start
+  std::vector<std::string> tags;  ///< properties that sensors may look for, in alphabetical order
   Colour colour{0xff, 0x88, 0x00, 0xff};
   int port = 0;  ///< Player port; default: the shared port, otherwise 6665, 6666, ...
   std::vector<DeviceDescription> devices;  ///< sorted by name

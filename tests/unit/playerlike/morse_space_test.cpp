@@ -1,0 +1,136 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// MORSE's components of space: their names, messages and commands, without a socket.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "playerlike/host/host.h"
+#include "server/morse_components.h"
+#include "server/python_json.h"
+#include "sim/simulation/simulation.h"
+
+namespace playerlike::server {
+namespace {
+
+using nlohmann::json;
+using testing::Contains;
+
+TEST(PythonJson, IsWrittenAsPythonDoes) {
+  // Each text is what json.dumps() of Python 3.11 gives.
+  EXPECT_EQ(python_json(json{{"a", {1, 2.0, true, nullptr}}, {"b", "x"}}),
+            R"({"a": [1, 2.0, true, null], "b": "x"})");
+  EXPECT_EQ(python_json(json::array()), "[]");
+  EXPECT_EQ(python_json(json::object()), "{}");
+  EXPECT_EQ(python_json("\xc3\xa9\n\""), R"("\u00e9\n\"")");
+  EXPECT_EQ(python_json(0.1), "0.1");
+  EXPECT_EQ(python_json(-0.0), "-0.0");
+  EXPECT_EQ(python_json(1e-5), "1e-05");
+  EXPECT_EQ(python_json(0.0001), "0.0001");
+  EXPECT_EQ(python_json(1e16), "1e+16");
+  EXPECT_EQ(python_json(123456789012345.0), "123456789012345.0");
+  EXPECT_EQ(python_json(std::numeric_limits<double>::infinity()), "Infinity");
+  EXPECT_EQ(python_json(-std::numeric_limits<double>::infinity()), "-Infinity");
+  EXPECT_EQ(python_json(std::nan("")), "NaN");
+}
+
+class MorseSpace : public testing::Test {
+ protected:
+  explicit MorseSpace()
+      : host_(Host::create(sim::load_world_text(R"({
+          "arena": {"size": [20, 20], "origin": [-10, -10]},
+          "robots": [{"name": "r1", "model": "omni", "pose": {"x": 0, "y": 0}, "devices": {
+            "laser": null,
+            "ptu": {"type": "ptz"}, "gyro": {"type": "gyroscope", "on": "ptu"},
+            "posture": {"of": "ptu"}, "orientation": {}, "altimeter": {"range": 1},
+            "teleport": {"modifiers": [{"name": "NED"}]},
+            "gps": {"level": "simple", "modifiers": [{"name": "UTM", "x_offset": 100}]},
+            "far": {"type": "gps", "longitude_deg": 43.6, "latitude_deg": 1.4333}
+          }}]})"))) {}
+
+  std::vector<MorseComponent> components() {
+    std::vector<MorseComponent> all;
+    host_->with_simulation(
+        [&](sim::Simulation& simulation) { all = morse_components(host_->robots(), simulation); });
+    return all;
+  }
+  MorseComponent component(const std::string& name) {
+    for (const MorseComponent& one : components()) {
+      if (one.name == name) return one;
+    }
+    ADD_FAILURE() << "there is no " << name;
+    return {};
+  }
+  sim::Command command(const std::string& name, const json& object) {
+    std::optional<sim::Command> made;
+    const MorseComponent target = component(name);
+    host_->with_simulation(
+        [&](sim::Simulation& simulation) { made = morse_command(target, object, simulation); });
+    return *made;
+  }
+  json record(const std::string& name, int steps) {
+    json made;
+    const DeviceId id = component(name).device.value();
+    host_->with_simulation([&](sim::Simulation& simulation) {
+      for (int i = 0; i < steps; ++i) simulation.step();
+      made = morse_record(simulation.device(id.robot, id.device).sensor()->reading(),
+                          stream_format(simulation, id));
+    });
+    return made;
+  }
+
+  std::shared_ptr<Host> host_;
+};
+
+TEST_F(MorseSpace, CarriedSensorsHaveTheirCarrierInTheirName) {
+  std::vector<std::string> names;
+  for (const MorseComponent& one : components()) names.push_back(one.name);
+  EXPECT_THAT(names, Contains("r1.ptu.gyro"));
+  EXPECT_THAT(names, Contains("r1.ptu.posture"));
+  EXPECT_EQ(component("r1.motion").class_name, "MotionXYW");
+  EXPECT_EQ(component("r1.ptu").class_name, "PTU");
+  EXPECT_EQ(component("r1.ptu").stream, StreamDirection::kIn);
+}
+
+TEST_F(MorseSpace, CommandsHaveMorsesSigns) {
+  const auto point = std::get<sim::PointCommand>(command("r1.ptu", {{"pan", 0.5}, {"tilt", 0.2}}));
+  EXPECT_EQ(point.pan_rad, 0.5);
+  EXPECT_EQ(point.tilt_rad, -0.2);  // MORSE's tilt is positive downwards
+  const auto twist =
+      std::get<sim::TwistCommand>(command("r1.motion", {{"x", 1.0}, {"y", 2.0}, {"w", 3.0}}));
+  EXPECT_EQ(twist.twist.lateral_mps, 2.0);
+  EXPECT_EQ(twist.twist.omega_radps, 3.0);
+  const auto old = std::get<sim::TwistCommand>(command("r1.motion", {{"v", 1.0}, {"w", 3.0}}));
+  EXPECT_EQ(old.twist.v_mps, 1.0);
+  // NED: x and y change places, z points down; roll is pi/2 - yaw.
+  const auto place = std::get<sim::PlaceCommand>(
+      command("r1.teleport", {{"x", 2.0}, {"y", 1.0}, {"z", -3.0}, {"roll", 0.0}, {"yaw", 0.1}}));
+  EXPECT_EQ(place.pose.x_m, 1.0);
+  EXPECT_EQ(place.pose.y_m, 2.0);
+  EXPECT_EQ(place.z_m, 3.0);
+  EXPECT_NEAR(place.pose.yaw_rad, 0.5 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(place.roll_rad, 0.1);
+  EXPECT_ANY_THROW(static_cast<void>(command("r1.orientation", {{"pitch", 1.0}})));
+}
+
+TEST_F(MorseSpace, RecordsHaveMorsesKeys) {
+  const json simple = record("r1.gps", 20);
+  EXPECT_NEAR(simple["x"], 100.0, 1e-9);
+  EXPECT_FALSE(simple.contains("latitude"));
+  const json extended = record("r1.far", 1);
+  EXPECT_NEAR(extended["longitude"], 43.6, 1e-9);
+  EXPECT_EQ(extended["velocity"], json::parse("[0.0, 0.0, 0.0]"));
+  EXPECT_EQ(extended["date"], "010170");
+  EXPECT_EQ(extended["time"], "000000");
+  EXPECT_EQ(record("r1.ptu.posture", 1)["tilt"], 0.0);
+  const json gyro = record("r1.ptu.gyro", 1);
+  for (const char* angle : {"yaw", "pitch", "roll"}) EXPECT_EQ(gyro[angle], 0.0);
+  // The robot stands on the floor: the altimeter is in range.
+  EXPECT_EQ(record("r1.altimeter", 1)["z"], 0.0);
+}
+
+}  // namespace
+}  // namespace playerlike::server
