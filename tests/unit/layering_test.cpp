@@ -524,7 +524,7 @@ TEST(LayeringRules, LetDriversUseProxiesAndNotTheOtherWayRound) {
   EXPECT_THAT(violations({"libplayerlike/src/playerc/x.cpp", "#include \"playerc/device.h\"\n"}),
               IsEmpty());
   EXPECT_THAT(
-      violations({"libplayerlike/src/proxies/x.cpp", "#include \"drivers/snd_thread.h\"\n"}),
+      violations({"libplayerlike/src/proxies/x.cpp", "#include \"drivers/goal_thread.h\"\n"}),
       ElementsAre(HasSubstr("from proxies to drivers")));
 }
 

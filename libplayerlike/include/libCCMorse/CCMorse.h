@@ -12,6 +12,7 @@
 #include "libCCMorse/GridMapLayer.h"
 #include "libCCMorse/ImagePoint.h"
 #include "libCCMorse/LaserProxy.h"
+#include "libCCMorse/LocalDriver.h"
 #include "libCCMorse/MapProxy.h"
 #include "libCCMorse/MorseActuator.h"
 #include "libCCMorse/MorseBattery.h"

@@ -2,14 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
-#include "libCCMorse/PlayerClient.h"
-
-namespace playerlike {
-class ClientCore;
-class SndThread;
-}  // namespace playerlike
+#include "libCCMorse/LocalDriver.h"
 
 namespace CCMorse {
 
@@ -47,26 +41,9 @@ struct SndSettings {
 ///
 /// Frames: goals are in the frame of the position device. Index 0 is the arena's localisation,
 /// whose frame is the world.
-///
-/// Time: in lockstep the driver's thread takes part, and simulated time advances only while the
-/// program's own clients wait. Goals, cancellations and settings given at simulated time t take
-/// effect at the driver's first reading after t. A run is therefore repeatable although it has
-/// several threads.
-///
-/// Errors: members throw PlayerError kDisconnected once the client is gone, kRunIsOver in the same
-/// cases as the client's proxies, and kBadArgument for invalid values.
-///
-/// Threads: all members may be called from any thread.
-class SndDriver {
+/// LocalDriver documents goals, time, errors and threads.
+class SndDriver : public LocalDriver {
  public:
-  /// State of the newest goal.
-  enum Status {
-    IDLE,     ///< there is no goal, or it was cancelled
-    MOVING,   ///< the robot is driving to the goal
-    REACHED,  ///< the robot has stopped within the tolerances
-    BLOCKED   ///< the driver has given up and stopped the robot; see SndSettings::patience
-  };
-
   /// Starts the driver's thread. When the constructor returns, the thread has joined the lockstep.
   /// @param aClient    a client on the robot's port; it must outlive all uses of the driver.
   /// @param aPosition  index of the position2d that measures the robot's pose and drives it.
@@ -75,25 +52,6 @@ class SndDriver {
   ///         the robot has no motors, kBadArgument for a null pointer or settings out of range.
   explicit SndDriver(PlayerClient* aClient, uint32_t aPosition = 0, uint32_t aLaser = 0,
                      const SndSettings& aSettings = SndSettings());
-  SndDriver(const SndDriver&) = delete;
-  SndDriver& operator=(const SndDriver&) = delete;
-  /// Ends the thread and stops a moving robot. Simulated time does not advance.
-  ~SndDriver();
-
-  /// Drives to a position [m], with any final heading.
-  void SetGoal(double aX, double aY);
-  /// Drives to a position [m] and turns to a heading [rad].
-  void SetGoal(double aX, double aY, double aYaw);
-  /// Drops the goal and stops the robot.
-  void Cancel();
-  Status GetStatus() const;
-
-  /// Reads the client, so that simulated time advances, until the goal is reached, blocked or
-  /// cancelled.
-  /// @param aTimeout  longest simulated time to wait [s]; negative: no limit.
-  /// @return the final status; MOVING after a timeout.
-  /// @throws PlayerError kRunIsOver if the run ends meanwhile.
-  Status WaitForGoal(double aTimeout = -1.0);
 
   /// Returns the settings in use; none of them is SND_FROM_ROBOT.
   SndSettings GetSettings() const;
@@ -107,10 +65,6 @@ class SndDriver {
 
  private:
   void Apply(const SndSettings& aSettings);
-
-  std::shared_ptr<playerlike::ClientCore> mCore;
-  std::unique_ptr<playerlike::SndThread> mThread;
-  uint32_t mPosition;
 };
 
 }  // namespace CCMorse

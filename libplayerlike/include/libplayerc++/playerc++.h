@@ -28,6 +28,7 @@
 #include "libplayerc++/mutex.h"
 #include "libplayerc++/opaqueproxy.h"
 #include "libplayerc++/otherproxies.h"
+#include "libplayerc++/plannerproxy.h"
 #include "libplayerc++/playerbase.h"
 #include "libplayerc++/playerc++config.h"
 #include "libplayerc++/playerclient.h"

@@ -70,6 +70,9 @@ bool is_of_world(std::string_view interface) {
 
 // The end of a message about an interface that a port does not have.
 std::string where_else(std::string_view interface) {
+  if (interface == "planner") {
+    return "; a driver \"wavefront\" provides it, as in worlds/examples/wavefront.json";
+  }
   const std::string world = example_world(interface);
   return world.empty()
              ? "; no world that comes with Playpen has a device for " + std::string(interface)
@@ -102,8 +105,21 @@ std::vector<std::size_t> sharing(const std::vector<RobotInfo>& robots, int port)
   return found;
 }
 
+// Name of the interface of planners, which only drivers provide.
+constexpr std::string_view kPlanner = "planner";
+
+// The device that measures the pose for a planner; null if the robot has none.
+const DeviceInfo* pose_source(const RobotInfo& robot, const PlannerInfo& planner) {
+  const bool localizes = planner.settings.localize >= 0;
+  const auto devices = carriers(robot, localizes ? "localize" : "position2d");
+  const int index = localizes ? planner.settings.localize : planner.settings.position;
+  const auto i = static_cast<std::size_t>(std::max(index, 0));
+  return i < devices.size() ? devices[i] : nullptr;
+}
+
 // Calls visit(interface, index, robot, device, driver) for every address of a port. `driver` is
-// null except for the positions of a robot's drivers, which only the robot's own port offers.
+// null except for the addresses of a robot's drivers, of which it is the type. Only the robot's own
+// port offers these.
 template <typename Visit>
 void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visit) {
   const std::vector<std::size_t> shown = sharing(robots, port);
@@ -128,11 +144,20 @@ void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visi
           visit(interface, static_cast<int>(i), static_cast<int>(r), *devices[i], nullptr);
         }
         if (interface != "position2d") continue;
-        for (const SndDriverDescription& driver : robot.snd_drivers) {
+        for (const GoalDriverInfo& driver : robot.goal_drivers) {
           visit(interface, driver.index, static_cast<int>(r),
-                *devices[static_cast<std::size_t>(driver.position)], &driver);
+                *devices[static_cast<std::size_t>(driver.position)], driver.type());
         }
       }
+    }
+  }
+  if (!shown.empty()) return;
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    if (robots[r].port != port) continue;
+    for (const PlannerInfo& planner : robots[r].planners) {
+      const DeviceInfo* const source = pose_source(robots[r], planner);
+      if (source == nullptr) continue;
+      visit(kPlanner, planner.index, static_cast<int>(r), *source, PlannerInfo::type());
     }
   }
 }
@@ -148,8 +173,8 @@ std::optional<InterfaceBinding> look_up(const std::vector<RobotInfo>& robots, in
   if (const auto* addresses = server_addresses(robots, port)) {
     for (const PlayerAddress& address : *addresses) {
       if (address.interface != interface || address.index != index) continue;
-      return InterfaceBinding{address.reading, address.motion, address.reading.robot, nullptr,
-                              &address};
+      return InterfaceBinding{address.reading, address.motion, address.reading.robot,
+                              nullptr,         nullptr,        &address};
     }
     return std::nullopt;
   }
@@ -172,8 +197,15 @@ std::optional<InterfaceBinding> look_up(const std::vector<RobotInfo>& robots, in
     return InterfaceBinding{devices[static_cast<std::size_t>(index)]->id, std::nullopt, number,
                             nullptr};
   }
+  if (interface == kPlanner) {
+    for (const PlannerInfo& planner : robot->planners) {
+      const DeviceInfo* const source = pose_source(*robot, planner);
+      if (planner.index != index || source == nullptr) continue;
+      return InterfaceBinding{source->id, std::nullopt, number, nullptr, &planner};
+    }
+  }
   if (interface != "position2d" || devices.empty()) return std::nullopt;
-  for (const SndDriverDescription& driver : robot->snd_drivers) {
+  for (const GoalDriverInfo& driver : robot->goal_drivers) {
     if (driver.index != index) continue;
     return InterfaceBinding{devices[static_cast<std::size_t>(driver.position)]->id, std::nullopt,
                             number, &driver};
@@ -339,9 +371,6 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
       robot.radius_m = std::max(robot.radius_m, v.norm());
     }
     robot.mass_kg = model.mass_kg;
-    robot.snd_drivers = read_drivers(
-        description, simulation.world().file, "/robots/" + std::to_string(r),
-        snd_settings_for(robot.radius_m, robot.max_speed_mps, robot.max_turn_rate_radps));
     robot.length_m = high.x() - low.x();
     robot.width_m = high.y() - low.y();
     robot.center_m = 0.5 * (low + high);
@@ -357,6 +386,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
       }
       robot.devices.push_back(std::move(info));
     }
+    read_drivers(robot, simulation.world().file, "/robots/" + std::to_string(r));
     robots.push_back(std::move(robot));
   }
   note_shared_ports(robots);
@@ -388,14 +418,14 @@ SessionError no_such_device(const std::vector<RobotInfo>& robots, int port,
                 (known.tellp() > 0 ? known.str() : std::string("nothing"))};
   }
   bool has_others = is_of_world(interface);  // whether the interface exists under another index
-  for_each_address(robots, port,
-                   [&](std::string_view name, int i, int robot, const DeviceInfo& device,
-                       const SndDriverDescription* driver) {
-                     has_others = has_others || name == interface;
-                     known << (known.tellp() > 0 ? ", " : "") << name << ':' << i << " ("
-                           << robots[static_cast<std::size_t>(robot)].name << '.'
-                           << (driver == nullptr ? device.name : "snd") << ')';
-                   });
+  for_each_address(
+      robots, port,
+      [&](std::string_view name, int i, int robot, const DeviceInfo& device, const char* driver) {
+        has_others = has_others || name == interface;
+        known << (known.tellp() > 0 ? ", " : "") << name << ':' << i << " ("
+              << robots[static_cast<std::size_t>(robot)].name << '.'
+              << (driver == nullptr ? device.name : std::string(driver)) << ')';
+      });
   if (is_open(robots, port)) {
     for (const std::string_view name : kWorldInterfaces) {
       known << (known.tellp() > 0 ? ", " : "") << name << ":0 (the world)";
@@ -440,10 +470,9 @@ std::vector<InterfaceAddress> list_interfaces(const std::vector<RobotInfo>& robo
   }
   for_each_address(
       robots, port,
-      [&](std::string_view name, int i, int robot, const DeviceInfo& device,
-          const SndDriverDescription* driver) {
+      [&](std::string_view name, int i, int robot, const DeviceInfo& device, const char* driver) {
         addresses.push_back({std::string(name), i, robots[static_cast<std::size_t>(robot)].name,
-                             driver == nullptr ? device.name : "snd"});
+                             driver == nullptr ? device.name : std::string(driver)});
       });
   if (!is_open(robots, port)) return addresses;
   for (const std::string_view name : kWorldInterfaces) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "protocol/codec.h"
+#include "sim/core/error.h"
 
 namespace playerlike::protocol {
 namespace {
@@ -106,12 +107,6 @@ constexpr auto fields_of(std::type_identity<sim::DriverDescription> /*type*/) {
   return std::tuple(field("type", &T::type), field("settings", &T::settings));
 }
 
-constexpr auto fields_of(std::type_identity<SndDriverDescription> /*type*/) {
-  using T = SndDriverDescription;
-  return std::tuple(field("index", &T::index, kAnyInt), field("position", &T::position, kAnyInt),
-                    field("laser", &T::laser, kAnyInt), field("", &T::settings));
-}
-
 constexpr auto fields_of(std::type_identity<RobotInfo> /*type*/) {
   using T = RobotInfo;
   return std::tuple(
@@ -122,7 +117,7 @@ constexpr auto fields_of(std::type_identity<RobotInfo> /*type*/) {
       field("mass", &T::mass_kg, Presence::kOptional), field("max_speed", &T::max_speed_mps),
       field("max_turn_rate", &T::max_turn_rate_radps), field("proxies", &T::proxies, kAnyInt),
       field("interfaces", &T::interfaces), field("drivers", &T::drivers),
-      field("snd_drivers", &T::snd_drivers), field("devices", &T::devices));
+      field("devices", &T::devices));
 }
 
 constexpr auto fields_of(std::type_identity<sim::ArenaTrigger> /*type*/) {
@@ -168,13 +163,6 @@ constexpr const char* kListOf<BlackboardEntry> = "a list of entries";
 
 constexpr std::string_view kLayerKinds[] = {"colour", "binary", "grey"};
 constexpr std::string_view kTimeModes[] = {"lockstep", "paced"};
-
-/// The key of a driver's setting on the wire, where angles are in radians (no "_deg").
-std::string wire_key(const SndSettingRow& row) {
-  std::string_view key = row.key;
-  if (key.ends_with("_deg")) key.remove_suffix(4);
-  return std::string(key);
-}
 
 template <HasFields Struct>
 void encode_fields(const Struct& from, Encoding encoding, json& message);
@@ -349,8 +337,6 @@ void encode_field(const Struct& from, const MessageField<Struct, Value>& field, 
   if constexpr (std::is_same_v<Value, sim::Vec2>) {
     message[std::string(field.key) + "_x"] = value.x();
     message[std::string(field.key) + "_y"] = value.y();
-  } else if constexpr (std::is_same_v<Value, SndSettings>) {
-    for (const SndSettingRow& row : snd_setting_table()) message[wire_key(row)] = value.*row.value;
   } else {
     message[field.key] = encode_value(value, encoding);
   }
@@ -369,13 +355,6 @@ void decode_field(const json& message, const MessageField<Struct, Value>& field,
     const std::string key = field.key;
     value = {require_number(message, (key + "_x").c_str()),
              require_number(message, (key + "_y").c_str())};
-  } else if constexpr (std::is_same_v<Value, SndSettings>) {
-    for (const SndSettingRow& row : snd_setting_table()) {
-      value.*row.value = require_number(message, wire_key(row).c_str());
-    }
-    if (const std::string fault = fault_of(value); !fault.empty()) {
-      throw ProtocolError("protocol/bad-value", fault);
-    }
   } else if constexpr (kIsOptional<Value>) {
     if (field.presence == Presence::kAlways && require(message, field.key).is_null()) return;
     value = decode_value<typename Value::value_type>(message, field.key, field.range, encoding);
@@ -520,6 +499,26 @@ json encode_robots(const std::vector<RobotInfo>& robots) {
   return encode_value(robots, Encoding::kJson);
 }
 
+namespace {
+
+// Parses a robot's drivers. A newer server may have types that this program does not know.
+void read_known_drivers(RobotInfo& robot, std::size_t number) {
+  RobotInfo known = robot;
+  std::erase_if(known.drivers, [](const sim::DriverDescription& driver) {
+    return std::ranges::find(driver_types(), driver.type, &DriverType::name) ==
+           driver_types().end();
+  });
+  try {
+    read_drivers(known, "the robots of the server", "/robots/" + std::to_string(number));
+  } catch (const sim::ConfigError& e) {
+    throw ProtocolError("protocol/bad-value", e.what());
+  }
+  robot.goal_drivers = std::move(known.goal_drivers);
+  robot.planners = std::move(known.planners);
+}
+
+}  // namespace
+
 std::vector<RobotInfo> decode_robots(const json& robots) {
   auto decoded = decode_list<std::vector<RobotInfo>>(robots, "robots", Encoding::kJson);
   for (std::size_t r = 0; r < decoded.size(); ++r) {
@@ -530,6 +529,7 @@ std::vector<RobotInfo> decode_robots(const json& robots) {
                    encode_device_id(devices[d].id));
     }
   }
+  for (std::size_t r = 0; r < decoded.size(); ++r) read_known_drivers(decoded[r], r);
   note_shared_ports(decoded);
   return decoded;
 }

@@ -9,6 +9,14 @@
 
 namespace playerlike {
 
+/// State of the drive to a goal.
+enum class GoalState {
+  kIdle,     ///< there is no goal
+  kMoving,   ///< on the way
+  kReached,  ///< arrived: the robot has stopped within the tolerances
+  kBlocked,  ///< given up: the robot has stopped, having made no progress for a while
+};
+
 /// Drives a robot to goals in its own thread; it implements Position2dProxy::GoTo() for the index
 /// of a driver. Proxies use drivers through this interface only.
 ///
@@ -34,6 +42,8 @@ class GoalDriver {
   virtual void go_to(const Goal& goal) = 0;
   /// Drops the goal and sends no further commands; does not stop the robot.
   virtual void cancel() = 0;
+  /// State of the newest goal, as of the driver's last round before now.
+  [[nodiscard]] virtual GoalState state() const = 0;
 };
 
 /// The driver for a binding of find_interface(). All callers share one driver as long as one of

@@ -118,12 +118,13 @@ struct detail::CoreAccess {
 };
 
 /// Player's name of the driver at an address: that of a Player server, otherwise the type of
-/// device, "snd" or "world".
+/// device or driver, or "world".
 [[nodiscard]] inline std::string driver_name(const playerlike::ClientCore& core,
                                              const playerlike::InterfaceBinding& binding) {
   if (binding.address != nullptr) return binding.address->driver;
   if (binding.is_world()) return "world";
-  return binding.driver != nullptr ? "snd" : core.info_of(binding.reading).type;
+  const char* const type = binding.driver_type();
+  return type != nullptr ? type : core.info_of(binding.reading).type;
 }
 
 }  // namespace PlayerCc

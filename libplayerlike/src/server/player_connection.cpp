@@ -274,7 +274,7 @@ std::optional<std::string> PlayerConnection::driver_of(const Devaddr& address) c
     const auto& robots = session_.robots();
     const InterfaceBinding binding = find_interface(robots, robot_port_, name, address.index);
     if (binding.is_world()) return "world";
-    if (binding.driver != nullptr) return "snd";
+    if (const char* const type = binding.driver_type()) return type;
     return require_device(robots, binding.reading).type;
   } catch (const SessionError&) {
     return std::nullopt;  // no such device

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Devices that tell and set where a robot is, and drive it: position2d and localize.
+// Devices that tell and set where a robot is, and drive it: position2d, localize and planner.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,6 +7,7 @@
 #include "libplayerc++/playererror.h"
 #include "libplayerinterface/player_constants.h"
 #include "proxies/goal_driver.h"
+#include "proxies/planner.h"
 #include "session/player_values.h"
 #include "sim/devices/amcl.h"
 #include "sim/devices/localization.h"
@@ -15,6 +16,16 @@
 namespace playerlike::wire {
 namespace {
 
+// Calls share_driver() or share_planner(), whose errors become those of sessions.
+template <typename Make>
+auto made_driver(Make make) {
+  try {
+    return make();
+  } catch (const PlayerCc::PlayerError& e) {
+    throw SessionError(SessionError::Code::kNotAvailable, e.GetErrorStr());
+  }
+}
+
 /// Position2dProxy's counterpart.
 class Position2d final : public RobotDevice {
  public:
@@ -22,7 +33,9 @@ class Position2d final : public RobotDevice {
       : RobotDevice(context),
         max_speed_mps_(robot().max_speed_mps),
         max_turn_rate_radps_(robot().max_turn_rate_radps) {
-    if (binding().driver != nullptr) driver_ = shared_driver();
+    if (binding().driver != nullptr) {
+      driver_ = made_driver([&] { return share_driver(session(), binding()); });
+    }
     if (!binding().motion) return;
     const DeviceSettings& limits = device_of(*binding().motion).properties;
     const auto tighten = [&](const char* name, double& value) {
@@ -95,14 +108,6 @@ class Position2d final : public RobotDevice {
  private:
   [[nodiscard]] const DeviceInfo& device_of(DeviceId device) const {
     return robot().devices.at(static_cast<std::size_t>(device.device));
-  }
-
-  [[nodiscard]] std::shared_ptr<GoalDriver> shared_driver() const {
-    try {
-      return share_driver(session(), binding());
-    } catch (const PlayerCc::PlayerError& e) {
-      throw SessionError(SessionError::Code::kNotAvailable, e.GetErrorStr());
-    }
   }
 
   void send_to_motors(const sim::Command& command) const {
@@ -232,6 +237,64 @@ class Localize final : public RobotDevice {
   std::optional<player::Pose2d> pose_;  // of a measured pose; none before the first reading
 };
 
+/// PlannerProxy's counterpart.
+class PlannerDevice final : public RobotDevice {
+ public:
+  explicit PlannerDevice(const DeviceContext& context)
+      : RobotDevice(context),
+        planner_(made_driver([&] { return share_planner(session(), binding()); })) {}
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& /*reading*/, DataSink& sink) override {
+    const PlannerState state = planner_->state();
+    player::PlannerData data;
+    data.valid = state.valid ? 1 : 0;
+    data.done = state.done ? 1 : 0;
+    data.pos = pose_2d(state.pose);
+    data.goal = pose_2d(state.goal);
+    data.waypoint = pose_2d(state.waypoint);
+    data.waypoint_idx = state.waypoint_index;
+    data.waypoints_count = static_cast<std::uint32_t>(state.waypoints.size());
+    sink.data(PLAYER_PLANNER_DATA_STATE, player::encode(data));
+  }
+
+  void command(std::uint8_t subtype, std::string_view payload) override {
+    if (subtype != PLAYER_PLANNER_CMD_GOAL && subtype != PLAYER_PLANNER_CMD_START) return;
+    const player::Pose2d pose = player::decode<player::PlannerCmd>(payload).goal;
+    for (const double number : {pose.px, pose.py, pose.pa}) {
+      require_number("a coordinate of the pose", number);
+    }
+    const sim::Pose X_W{pose.px, pose.py, sim::normalize_angle(pose.pa)};
+    if (subtype == PLAYER_PLANNER_CMD_GOAL) {
+      planner_->set_goal(X_W);
+    } else {
+      planner_->set_start(X_W);
+    }
+  }
+
+ protected:
+  std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
+    switch (subtype) {
+      case PLAYER_PLANNER_REQ_GET_WAYPOINTS: {
+        const PlannerState state = planner_->state();
+        player::PlannerWaypointsReq reply;
+        reply.waypoints_distance = state.length_m;
+        for (const sim::Pose& waypoint : state.waypoints) {
+          reply.waypoints.push_back(pose_2d(waypoint));
+        }
+        return player::encode(reply);
+      }
+      case PLAYER_PLANNER_REQ_ENABLE:
+        planner_->enable(player::decode<player::PlannerEnableReq>(payload).state != 0);
+        return empty_payload();
+      default:
+        return std::nullopt;
+    }
+  }
+
+ private:
+  std::shared_ptr<Planner> planner_;
+};
+
 }  // namespace
 
 MadeDevice make_driving_device(const DeviceContext& context) {
@@ -240,6 +303,8 @@ MadeDevice make_driving_device(const DeviceContext& context) {
       return std::make_unique<Position2d>(context);
     case PLAYER_LOCALIZE_CODE:
       return std::make_unique<Localize>(context);
+    case PLAYER_PLANNER_CODE:
+      return std::make_unique<PlannerDevice>(context);
     default:
       return nullptr;
   }

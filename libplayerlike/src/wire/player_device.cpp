@@ -100,7 +100,10 @@ RobotDevice::RobotDevice(const DeviceContext& context)
       robot_(context.session.robots().at(static_cast<std::size_t>(context.binding.robot))),
       info_(require_device(context.session.robots(), context.binding.reading)) {}
 
-std::string RobotDevice::driver() const { return binding().driver != nullptr ? "snd" : info_.type; }
+std::string RobotDevice::driver() const {
+  const char* const type = binding().driver_type();
+  return type != nullptr ? type : info_.type;
+}
 
 std::uint32_t RobotDevice::count_setting(const std::string& name, std::uint32_t most) const {
   return std::min(whole_number(setting(name)), most);

@@ -55,7 +55,7 @@ class PlayerDevice {
   /// @throws as command(); the request is then refused, too.
   [[nodiscard]] virtual std::optional<std::string> request(std::uint8_t subtype,
                                                            std::string_view payload);
-  /// Name of the driver in Player's lists of devices: the device's type, "snd" or "world".
+  /// Name of the driver in Player's lists of devices: the device's or driver's type, or "world".
   [[nodiscard]] virtual std::string driver() const = 0;
 };
 

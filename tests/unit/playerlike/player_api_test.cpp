@@ -76,29 +76,20 @@ TEST_F(PlayerApi, ProxyWithoutDeviceSaysWhatThereIsAndWhereElse) {
 }
 
 TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
-  const std::vector<PlayerError> errors = {refusal<AudioProxy>(client),
-                                           refusal<BlobfinderProxy>(client),
-                                           refusal<CameraProxy>(client),
-                                           refusal<CoopObjectProxy>(client),
-                                           refusal<Graphics3dProxy>(client),
-                                           refusal<HealthProxy>(client),
-                                           refusal<LimbProxy>(client),
-                                           refusal<LinuxjoystickProxy>(client),
-                                           refusal<PlannerProxy>(client),
-                                           refusal<Pointcloud3dProxy>(client),
-                                           refusal<Position1dProxy>(client),
-                                           refusal<Position3dProxy>(client),
-                                           refusal<PtzProxy>(client),
-                                           refusal<RFIDProxy>(client),
-                                           refusal<SpeechRecognitionProxy>(client),
-                                           refusal<StereoProxy>(client),
-                                           refusal<VectorMapProxy>(client),
-                                           refusal<WSNProxy>(client)};
+  const std::vector<PlayerError> errors = {
+      refusal<AudioProxy>(client),        refusal<BlobfinderProxy>(client),
+      refusal<CameraProxy>(client),       refusal<CoopObjectProxy>(client),
+      refusal<Graphics3dProxy>(client),   refusal<HealthProxy>(client),
+      refusal<LimbProxy>(client),         refusal<LinuxjoystickProxy>(client),
+      refusal<Pointcloud3dProxy>(client), refusal<Position1dProxy>(client),
+      refusal<Position3dProxy>(client),   refusal<PtzProxy>(client),
+      refusal<RFIDProxy>(client),         refusal<SpeechRecognitionProxy>(client),
+      refusal<StereoProxy>(client),       refusal<VectorMapProxy>(client),
+      refusal<WSNProxy>(client)};
   const std::vector<std::string> interfaces = {
-      "audio",      "blobfinder", "camera",   "coopobject", "graphics3d",
-      "health",     "limb",       "joystick", "planner",    "pointcloud3d",
-      "position1d", "position3d", "ptz",      "rfid",       "speech_recognition",
-      "stereo",     "vectormap",  "wsn"};
+      "audio", "blobfinder",         "camera",       "coopobject", "graphics3d", "health",
+      "limb",  "joystick",           "pointcloud3d", "position1d", "position3d", "ptz",
+      "rfid",  "speech_recognition", "stereo",       "vectormap",  "wsn"};
   ASSERT_EQ(errors.size(), interfaces.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
     EXPECT_EQ(errors[i].GetErrorCode(), PlayerError::kNoSuchDevice);

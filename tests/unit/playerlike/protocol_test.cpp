@@ -493,15 +493,11 @@ void each(sim::DriverDescription& v, F& f) {
   f(v.type), f(v.settings);
 }
 template <typename F>
-void each(SndDriverDescription& v, F& f) {
-  f(v.index), f(v.position), f(v.laser);
-}
-template <typename F>
 void each(RobotInfo& v, F& f) {
   f(v.name), f(v.model), f(v.colour), f(v.initial_pose);
   f(v.length_m), f(v.width_m), f(v.height_m), f(v.center_m);
   f(v.max_speed_mps), f(v.max_turn_rate_radps);
-  f(v.proxies), f(v.interfaces), f(v.drivers), f(v.snd_drivers), f(v.devices);
+  f(v.proxies), f(v.interfaces), f(v.drivers), f(v.devices);
 }
 template <typename F>
 void each(CanvasInfo& v, F& f) {
@@ -1345,12 +1341,6 @@ TEST_P(EachEncoding, RobotsComeOutToTheBit) {
       for (std::size_t d = 0; d < sent[r].devices.size(); ++d) {
         sent[r].devices[d].id = {static_cast<int>(r), static_cast<int>(d)};
       }
-      for (SndDriverDescription& driver : sent[r].snd_drivers) {
-        for (const SndSettingRow& row : snd_setting_table()) {
-          const double share = static_cast<double>(1 + random() % 1000) / 1000.0;
-          driver.settings.*row.value = row.above + share * (row.at_most - row.above);
-        }
-      }
     }
     const std::vector<RobotInfo> received =
         decode_robots(value_through(encode_robots(sent), GetParam()));
@@ -1360,12 +1350,6 @@ TEST_P(EachEncoding, RobotsComeOutToTheBit) {
       for (std::size_t d = 0; d < sent[r].devices.size(); ++d) {
         EXPECT_EQ(received[r].devices[d].id.robot, static_cast<int>(r));
         EXPECT_EQ(received[r].devices[d].id.device, static_cast<int>(d));
-      }
-      for (std::size_t k = 0; k < sent[r].snd_drivers.size(); ++k) {
-        for (const SndSettingRow& row : snd_setting_table()) {
-          EXPECT_EQ(received[r].snd_drivers[k].settings.*row.value,
-                    sent[r].snd_drivers[k].settings.*row.value);
-        }
       }
     }
   }
@@ -1380,9 +1364,16 @@ TEST(Robots, AreRefusedWithDevicesOutOfPlaceAndDriversOutOfRange) {
   EXPECT_EQ(refused(encode_robots({robot})), "protocol/bad-value");
   robot.devices[0].id = {0, 0};
   EXPECT_EQ(refused(encode_robots({robot})), "");
-  robot.snd_drivers.emplace_back();
+  robot.devices.push_back({{0, 1}, "pose", "pose", {}});
+  robot.devices.push_back({{0, 2}, "motion", "motion", {}});
+  robot.drivers = {{"snd", {{"max_speed", "0.25"}}}, {"of_a_newer_server", {{"a", "b"}}}};
   EXPECT_EQ(refused(encode_robots({robot})), "");
-  robot.snd_drivers[0].settings.max_speed_mps = -1.0;
+  const std::vector<RobotInfo> received = decode_robots(encode_robots({robot}));
+  EXPECT_EQ(received[0].drivers.size(), 2U);
+  ASSERT_EQ(received[0].goal_drivers.size(), 1U);
+  EXPECT_EQ(received[0].goal_drivers[0].index, 1);
+  EXPECT_EQ(std::get<SndSettings>(received[0].goal_drivers[0].settings).max_speed_mps, 0.25);
+  robot.drivers[0].settings["max_speed"] = "-1";
   EXPECT_EQ(refused(encode_robots({robot})), "protocol/bad-value");
   EXPECT_EQ(refused(json::object()), "protocol/bad-value");
   EXPECT_EQ(refused({1}), "protocol/bad-value");

@@ -3,90 +3,24 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <utility>
 #include <vector>
 
-#include "sim/world/outline.h"
+#include "ideal_robot.h"
 
 namespace playerlike {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-using sim::Pose;
 using sim::Vec2;
-
-using Segment = std::pair<Vec2, Vec2>;
-
-std::vector<Segment> box(double x_min, double y_min, double x_max, double y_max) {
-  const Vec2 a(x_min, y_min);
-  const Vec2 b(x_max, y_min);
-  const Vec2 c(x_max, y_max);
-  const Vec2 d(x_min, y_max);
-  return {{a, b}, {b, c}, {c, d}, {d, a}};
-}
-
-// A scan of 270 beams over 270 degrees, from 3.5 cm ahead of the axle, as on an S1R.
-SndScan scan_at(const Pose& X_WB, const std::vector<Segment>& walls) {
-  SndScan scan;
-  scan.X_BL = {0.035, 0.0, 0.0};
-  scan.range_max_m = 5.0;
-  scan.resolution_rad = kPi / 180.0;
-  scan.angle_min_rad = -134.5 * scan.resolution_rad;
-  const Pose X_WL = X_WB * scan.X_BL;
-  for (int i = 0; i < 270; ++i) {
-    const double angle_rad = X_WL.yaw_rad + scan.angle_min_rad + i * scan.resolution_rad;
-    const Vec2 u(std::cos(angle_rad), std::sin(angle_rad));
-    double range_m = scan.range_max_m;
-    for (const auto& [a, b] : walls) {
-      // p + r u = a + s (b - a), solved by Cramer's rule.
-      const Vec2 e = b - a;
-      const Vec2 d = a - X_WL.position();
-      const double det = e.x() * u.y() - e.y() * u.x();
-      if (std::abs(det) < 1e-12) continue;
-      const double r = (e.x() * d.y() - e.y() * d.x()) / det;
-      const double s = (u.x() * d.y() - u.y() * d.x()) / det;
-      if (r >= 0.0 && s >= 0.0 && s <= 1.0) range_m = std::min(range_m, r);
-    }
-    scan.ranges_m.push_back(range_m);
-  }
-  return scan;
-}
-
-double distance_to(const Segment& wall, const Vec2& p) {
-  return sim::distance_to_segment_m(p, wall.first, wall.second);
-}
-
-// Drives an ideal robot until the state is no longer kMoving.
-struct Drive {
-  Pose X_WB;
-  double time_s = 0.0;
-  double least_m = std::numeric_limits<double>::infinity();  // between a wall and the centre
-  double turned_rad = 0.0;  // sum of all turning in both directions
-  double fastest_mps = 0.0;
-
-  void run(SmoothNearnessDiagram& navigation, const std::vector<Segment>& walls, double limit_s) {
-    while (navigation.state() == SndState::kMoving && time_s < limit_s) {
-      time_s += 0.1;
-      const sim::Twist twist = navigation.step(time_s, X_WB, scan_at(X_WB, walls));
-      fastest_mps = std::max(fastest_mps, twist.v_mps);
-      turned_rad += std::abs(twist.omega_radps) * 0.1;
-      for (int i = 0; i < 10; ++i) {
-        X_WB = X_WB * Pose{twist.v_mps * 0.01, 0.0, twist.omega_radps * 0.01};
-        for (const Segment& wall : walls) {
-          least_m = std::min(least_m, distance_to(wall, X_WB.position()));
-        }
-      }
-    }
-  }
-};
+using test::box;
+using test::Drive;
+using test::kPi;
+using test::scan_at;
+using test::Segment;
 
 TEST(SmoothNearnessDiagram, WithoutAGoalStandsStill) {
   SmoothNearnessDiagram navigation({});
-  EXPECT_EQ(navigation.state(), SndState::kIdle);
+  EXPECT_EQ(navigation.state(), GoalState::kIdle);
   const sim::Twist twist = navigation.step(0.1, {}, scan_at({}, {}));
   EXPECT_EQ(twist.v_mps, 0.0);
   EXPECT_EQ(twist.omega_radps, 0.0);
@@ -100,7 +34,7 @@ TEST(SmoothNearnessDiagram, InTheOpenDrivesStraightAtFullSpeed) {
   EXPECT_EQ(twist.omega_radps, 0.0);
   Drive drive;
   drive.run(navigation, {}, 30.0);
-  EXPECT_EQ(navigation.state(), SndState::kReached);
+  EXPECT_EQ(navigation.state(), GoalState::kReached);
   EXPECT_LE((drive.X_WB.position() - Vec2(2.0, 0.0)).norm(), 0.05);
   // 1.95 m at 0.3 m/s take 6.5 s, and the slow end adds at most a second.
   EXPECT_LT(drive.time_s, 8.0);
@@ -119,7 +53,7 @@ TEST(SmoothNearnessDiagram, TurnsToTheGoalsHeadingWhenThere) {
   navigation.start({{1.0, 0.5}, -2.0});
   Drive drive;
   drive.run(navigation, {}, 30.0);
-  EXPECT_EQ(navigation.state(), SndState::kReached);
+  EXPECT_EQ(navigation.state(), GoalState::kReached);
   EXPECT_NEAR(drive.X_WB.yaw_rad, -2.0, 0.1);
 }
 
@@ -158,7 +92,7 @@ TEST(SmoothNearnessDiagram, GoesRoundABlockWithoutTouchingIt) {
   navigation.start({{2.0, 0.0}, {}});
   Drive drive;
   drive.run(navigation, block, 60.0);
-  EXPECT_EQ(navigation.state(), SndState::kReached);
+  EXPECT_EQ(navigation.state(), GoalState::kReached);
   EXPECT_GT(drive.least_m, 0.1);
   // "Smooth": it turns out, around and in again by about 40 degrees each, without oscillating.
   EXPECT_LT(drive.turned_rad, kPi);
@@ -171,7 +105,7 @@ TEST(SmoothNearnessDiagram, PassesADoorThatIsWideEnough) {
   navigation.start({{2.0, 0.0}, {}});
   Drive drive;
   drive.run(navigation, walls, 60.0);
-  EXPECT_EQ(navigation.state(), SndState::kReached);
+  EXPECT_EQ(navigation.state(), GoalState::kReached);
   EXPECT_GT(drive.least_m, 0.1);
 }
 
@@ -186,7 +120,7 @@ TEST(SmoothNearnessDiagram, DoesNotTryADoorThatIsTooNarrow) {
   navigation.start({{2.0, 0.0}, {}});
   Drive drive;
   drive.run(navigation, walls, 60.0);
-  EXPECT_EQ(navigation.state(), SndState::kBlocked);
+  EXPECT_EQ(navigation.state(), GoalState::kBlocked);
   EXPECT_GT(drive.least_m, 0.09);
 }
 
@@ -198,7 +132,7 @@ TEST(SmoothNearnessDiagram, GivesUpInAClosedRoomWhenItsPatienceIsOver) {
   navigation.start({{2.0, 0.0}, {}});
   Drive drive;
   drive.run(navigation, room, 60.0);
-  EXPECT_EQ(navigation.state(), SndState::kBlocked);
+  EXPECT_EQ(navigation.state(), GoalState::kBlocked);
   // At most a metre, at 0.3 m/s and slower, and then 3 s.
   EXPECT_LT(drive.time_s, 15.0);
   EXPECT_GT(drive.least_m, 0.1);
@@ -214,7 +148,7 @@ TEST(SmoothNearnessDiagram, ReachesAGoalCloseToAWall) {
   navigation.start({{1.0 - 0.148, 0.3}, {}});
   Drive drive;
   drive.run(navigation, wall, 60.0);
-  EXPECT_EQ(navigation.state(), SndState::kReached);
+  EXPECT_EQ(navigation.state(), GoalState::kReached);
   EXPECT_GT(drive.least_m, 0.1);
 }
 
@@ -222,7 +156,7 @@ TEST(SmoothNearnessDiagram, CancelledIsIdle) {
   SmoothNearnessDiagram navigation({});
   navigation.start({{2.0, 0.0}, {}});
   navigation.cancel();
-  EXPECT_EQ(navigation.state(), SndState::kIdle);
+  EXPECT_EQ(navigation.state(), GoalState::kIdle);
   EXPECT_EQ(navigation.step(0.1, {}, scan_at({}, {})).v_mps, 0.0);
 }
 
@@ -230,8 +164,10 @@ TEST(SndSettings, FollowTheRobotsSizeAndSpeeds) {
   // The S1R: hypot(0.087, 0.045) = 0.0979 m.
   const SndSettings s1r = snd_settings_for(0.0979, 0.5, 3.0);
   const SndSettings defaults;
-  for (const SndSettingRow& row : snd_setting_table()) {
-    EXPECT_DOUBLE_EQ(s1r.*row.value, defaults.*row.value) << row.key;
+  for (const sim::Field& field : sim::fields_of<SndSettings>().fields) {
+    EXPECT_DOUBLE_EQ(*static_cast<const double*>(field.get(&s1r)),
+                     *static_cast<const double*>(field.get(&defaults)))
+        << field.name;
   }
   EXPECT_DOUBLE_EQ(snd_settings_for(0.2, 1.0, 2.0).robot_radius_m, 0.2);  // not rounded up
   const SndSettings unknown = snd_settings_for(0.0, 0.0, 0.0);
@@ -241,12 +177,13 @@ TEST(SndSettings, FollowTheRobotsSizeAndSpeeds) {
 }
 
 TEST(SndSettings, FaultsAreNamedWithTheirRange) {
-  EXPECT_EQ(fault_of({}), "");
-  for (const SndSettingRow& row : snd_setting_table()) {
+  EXPECT_EQ(fault_of(SndSettings{}), "");
+  for (const sim::Field& field : sim::fields_of<SndSettings>().fields) {
     for (const double bad : {0.0, -1.0, 1e9, std::nan("")}) {
       SndSettings settings;
-      settings.*row.value = bad;
-      EXPECT_NE(fault_of(settings).find(row.key), std::string::npos) << row.key << " = " << bad;
+      *static_cast<double*>(field.set(&settings)) = bad;
+      EXPECT_NE(fault_of(settings).find(field.name), std::string::npos)
+          << field.name << " = " << bad;
     }
   }
 }

@@ -22,6 +22,7 @@
 #include "playerlike/host/host.h"
 #include "reachable_host.h"
 #include "sim/core/error.h"
+#include "sim/simulation/simulation.h"
 
 namespace {
 
@@ -188,9 +189,10 @@ TEST_P(SndDriverTest, TakesSizeAndSpeedsFromTheRobotsModel) {
   EXPECT_EQ(driver.GetSettings().max_speed, 0.2);
   // The world's driver also derives its settings from the robot.
   const auto session = host->connect(6665);
-  const playerlike::SndDriverDescription& of_world = session->robots()[0].snd_drivers.at(0);
-  EXPECT_DOUBLE_EQ(of_world.settings.robot_radius_m, 0.28);
-  EXPECT_DOUBLE_EQ(of_world.settings.max_speed_mps, 0.4);
+  const auto& of_world =
+      std::get<playerlike::SndSettings>(session->robots()[0].goal_drivers.at(0).settings);
+  EXPECT_DOUBLE_EQ(of_world.robot_radius_m, 0.28);
+  EXPECT_DOUBLE_EQ(of_world.max_speed_mps, 0.4);
 }
 
 TEST_P(SndDriverTest, APioneerDrivesRoundABlockWithoutTouchingIt) {
@@ -500,7 +502,8 @@ TEST(SndDriversTable, IndicesMustBeFreeAndDevicesMustBeThere) {
 TEST(SndDriversTable, DriversTakeTheFirstFreeIndex) {
   const sim::WorldDescription world = sim::load_world_text(
       R"({"robots": [{"drivers": [{"type": "snd"}, {"type": "snd", "index": 2}, {"type": "snd"}]}]})");
-  const auto drivers = playerlike::read_drivers(world.robots[0], world.file, "/robots/0");
+  const sim::Simulation simulation(world);
+  const auto drivers = playerlike::describe_robots(simulation)[0].goal_drivers;
   ASSERT_EQ(drivers.size(), 3U);
   EXPECT_EQ(drivers[0].index, 3);
   EXPECT_EQ(drivers[1].index, 2);

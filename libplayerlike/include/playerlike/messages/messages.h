@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "playerlike/messages/snd_settings.h"
+#include "playerlike/messages/driver_settings.h"
 #include "sim/core/colour.h"
 #include "sim/core/pose.h"
 #include "sim/core/time.h"
@@ -65,8 +65,9 @@ struct RobotInfo {
                                        ///< on a shared port, from the world file
   std::map<std::string, std::vector<std::string>>
       interfaces;  ///< interface -> device names in order of index, from the world file
-  std::vector<sim::DriverDescription> drivers;    ///< as in the world file
-  std::vector<SndDriverDescription> snd_drivers;  ///< parsed entries of drivers with type "snd"
+  std::vector<sim::DriverDescription> drivers;  ///< as in the world file
+  std::vector<GoalDriverInfo> goal_drivers;     ///< parsed from `drivers`, see read_drivers()
+  std::vector<PlannerInfo> planners;            ///< parsed from `drivers`
   std::vector<DeviceInfo> devices;
   /// All addresses of the port, if the robot is that of a Player server. Otherwise they follow from
   /// the devices' types, see find_interface().
@@ -172,14 +173,21 @@ struct InterfaceBinding {
   DeviceId reading{-1, -1};        ///< device of the readings; none for the world's interfaces
   std::optional<DeviceId> motion;  ///< the robot's motors, for position2d
   int robot = -1;                  ///< index of the robot; -1 for the world's interfaces
-  const SndDriverDescription* driver = nullptr;  ///< driver that receives goals, or null; belongs
-                                                 ///< to the list of robots
+  const GoalDriverInfo* driver = nullptr;  ///< driver that receives goals, or null; belongs to the
+                                           ///< list of robots
+  const PlannerInfo* planner = nullptr;    ///< planner, or null; belongs to the list of robots
   const PlayerAddress* address = nullptr;  ///< of a Player server, or null; belongs to the list of
                                            ///< robots
 
   /// Whether the address belongs to the world instead of a device. The world answers requests and
   /// makes no readings.
   [[nodiscard]] bool is_world() const { return robot < 0; }
+  /// Type of the driver in the world file, e.g. "snd"; null if the address is that of a device or
+  /// of the world.
+  [[nodiscard]] const char* driver_type() const {
+    if (driver != nullptr) return driver->type();
+    return planner != nullptr ? PlannerInfo::type() : nullptr;
+  }
 };
 
 /// Finds the device behind (port, interface, index).
@@ -195,8 +203,9 @@ struct InterfaceBinding {
 /// "laser", "sonar", "ir" (infrared), "ranger" (lasers, then sonar, then infrared), "power"
 /// (batteries), "graphics2d" (pens); interfaces with the names of their devices ("aio",
 /// "blinkenlight", "bumper", "dio", "fiducial", "gps", "gripper", "imu", "opaque", "speech",
-/// "wifi"); and the world's interfaces "log", "map" and "simulation", with index 0 on every port.
-/// The port of a Player server has that server's addresses instead (RobotInfo::addresses).
+/// "wifi"); "planner" (drivers of the world); and the world's interfaces "log", "map" and
+/// "simulation", with index 0 on every port. The port of a Player server has that server's
+/// addresses instead (RobotInfo::addresses).
 /// @throws SessionError kNoSuchDevice, naming the existing addresses and, if the port does not have
 ///         the interface at all, a world that has it (example_world()).
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
