@@ -17,10 +17,10 @@ struct OrientationParams {
 /// Turns its robot to a commanded roll, pitch and yaw (MORSE's Orientation).
 ///
 /// Takes OrientCommand. Each angle that is not at its goal causes a turn rate, at most the maximum
-/// one, on the short way. As in MORSE, the three rates act about the body's axes. So with a pitch, a
-/// turn towards the yaw changes the roll, too, which is corrected when it exceeds the tolerance. The
-/// robot is placed at its new heading in each step (see RobotControl::place), so it does not drive
-/// while it turns. If something is in the way, it waits.
+/// one, on the short way. As in MORSE, the three rates act about the body's axes. So with a pitch,
+/// a turn towards the yaw changes the roll, too, which is corrected when it exceeds the tolerance.
+/// The robot is placed at its new heading in each step (see RobotControl::place), so it does not
+/// drive while it turns. If something is in the way, it waits.
 class Orientation final : public Actuator {
  public:
   Orientation(std::string name, const OrientationParams& params);
