@@ -180,6 +180,8 @@ struct Converter {
     const double value = what.values.empty() ? 0.0 : what.values.front();
     const bool is_multi = what.values.size() > 1;
     switch (what.mode) {
+      case Mode::kPlace:
+        return std::nullopt;  // a real arm cannot
       case Mode::kPosition: {
         if (is_multi) {
           player::ActarrayMultiPositionCmd payload;
@@ -256,6 +258,8 @@ struct Converter {
   Converted operator()(const sim::PlaceCommand& /*what*/) const { return std::nullopt; }
   Converted operator()(const sim::TranslateCommand& /*what*/) const { return std::nullopt; }
   Converted operator()(const sim::RotateCommand& /*what*/) const { return std::nullopt; }
+  Converted operator()(const sim::OrientCommand& /*what*/) const { return std::nullopt; }
+  Converted operator()(const sim::TrackCommand& /*what*/) const { return std::nullopt; }
 };
 
 }  // namespace
