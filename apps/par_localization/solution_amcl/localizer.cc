@@ -57,7 +57,7 @@ class AmclReader final : public Localizer {
   static constexpr double ANYWHERE = 3.0;  // standard deviation of an unknown position [m]
 
   const par::GridFrame map_;
-  mutable CCMorse::LocalizeProxy localize_;  // GetParticles() asks for them
+  mutable PlayerCc::LocalizeProxy localize_;  // GetParticles() asks for them
   Estimate estimate_;
 };
 
