@@ -172,7 +172,8 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"devices", {"messages", "process", "session", "connect", "libCCMorse", "libplayerc++"}},
       {"proxies",
        {"messages", "session", "virtual_time", "connect", "libCCMorse", "libplayerc++", "devices"}},
-      {"drivers", {"messages", "virtual_time", "libCCMorse", "libplayerc++", "devices", "proxies"}},
+      {"drivers",
+       {"messages", "session", "virtual_time", "libCCMorse", "libplayerc++", "devices", "proxies"}},
       {"playerc",
        {"virtual_time", "libplayerinterface", "libplayerc", "libplayerc++", "devices", "proxies"}},
       // Devices in the words of Player's protocol.

@@ -146,11 +146,12 @@ TEST_P(DevicePage, ListsTheKeysThatTheReaderKnowsAndNoOther) {
   ASSERT_EQ(expected.size(), 1U);
   // "one of the keys a, b or c", "no key but type"
   std::string list = expected[0];
+  if (list.rfind("one of ", 0) == 0) list.erase(0, 7);  // a key may be named "of"
   std::replace(list.begin(), list.end(), ',', ' ');
   std::istringstream words(list);
   std::set<std::string> known;
   for (std::string word; words >> word;) known.insert(word);
-  for (const char* word : {"one", "of", "the", "keys", "or", "no", "key", "but"}) known.erase(word);
+  for (const char* word : {"the", "keys", "or", "no", "key", "but"}) known.erase(word);
   ASSERT_EQ(known.erase("type"), 1U) << expected[0];
 
   std::set<std::string> listed;
