@@ -50,15 +50,16 @@ void transform_line(std::span<const double> f, std::span<double> d, std::vector<
   }
 }
 
-// Distance of each cell's centre from the nearest obstacle cell, in cells. The map is surrounded by
-// obstacles.
+// Distance of each cell's centre from the nearest obstacle cell, in cells; the bottom row comes
+// first. The map is surrounded by obstacles.
 std::vector<double> obstacle_distances(const sim::OccupancyMap& map) {
   const auto width = static_cast<std::size_t>(map.width) + 2;
   const auto height = static_cast<std::size_t>(map.height) + 2;
   std::vector<double> squares(width * height, 0.0);
   for (std::size_t y = 1; y + 1 < height; ++y) {
+    const int row = map.height - static_cast<int>(y);  // the map's row 0 is at the top
     for (std::size_t x = 1; x + 1 < width; ++x) {
-      const bool occupied = map.at(static_cast<int>(x) - 1, static_cast<int>(y) - 1) >= kOccupied;
+      const bool occupied = map.at(static_cast<int>(x) - 1, row) >= kOccupied;
       squares[y * width + x] = occupied ? 0.0 : kFar;
     }
   }

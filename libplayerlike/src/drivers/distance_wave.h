@@ -57,7 +57,7 @@ class DistanceWave {
   double cell_size_m_;
   sim::Vec2 origin_;
   double keep_away_m_;
-  std::vector<double> clearance_m_;  ///< by cell
+  std::vector<double> clearance_m_;  ///< by cell, the bottom row first
   std::vector<double> step_factor_;  ///< by cell: cost per metre
 };
 

@@ -22,8 +22,8 @@ sim::OccupancyMap map_of(const std::vector<std::string>& rows, double cell_size_
   map.width = static_cast<int>(rows.front().size());
   map.height = static_cast<int>(rows.size());
   map.cell_size_m = cell_size_m;
-  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
-    for (const char c : *row) map.cells.push_back(c == '#' ? 1.0F : c == '?' ? 0.5F : 0.0F);
+  for (const std::string& row : rows) {
+    for (const char c : row) map.cells.push_back(c == '#' ? 1.0F : c == '?' ? 0.5F : 0.0F);
   }
   return map;
 }
@@ -56,7 +56,7 @@ TEST(DistanceWave, ClearancesAreThoseOfAllPairsOfCells) {
         for (int v = -1; v <= map.height; ++v) {
           for (int u = -1; u <= map.width; ++u) {
             const bool outside = u < 0 || v < 0 || u == map.width || v == map.height;
-            if (outside || map.at(u, v) > 0.5F)
+            if (outside || map.at(u, map.height - 1 - v) > 0.5F)
               nearest = std::min(nearest, std::hypot(u - x, v - y));
           }
         }
