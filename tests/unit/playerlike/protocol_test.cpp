@@ -132,7 +132,7 @@ class Filler {
   void operator()(sim::GripperState& value) { pick(value, 4); }
   void operator()(sim::GripCommand::Action& value) { pick(value, 5); }
   void operator()(sim::JointState& value) { pick(value, 4); }
-  void operator()(sim::JointCommand::Mode& value) { pick(value, 4); }
+  void operator()(sim::JointCommand::Mode& value) { pick(value, 5); }
   void operator()(sim::JointSettingCommand::Setting& value) { pick(value, 4); }
   void operator()(sim::LayerKind& value) { pick(value, 3); }
   void operator()(sim::TimeMode& value) { pick(value, 2); }
@@ -427,6 +427,14 @@ void each(sim::TranslateCommand& v, F& f) {
 template <typename F>
 void each(sim::RotateCommand& v, F& f) {
   f(v.yaw_rad);
+}
+template <typename F>
+void each(sim::OrientCommand& v, F& f) {
+  f(v.roll_rad), f(v.pitch_rad), f(v.yaw_rad);
+}
+template <typename F>
+void each(sim::TrackCommand& v, F& f) {
+  f(v.range_m), f(v.tag);
 }
 template <typename F>
 void each(sim::HeadingCommand& v, F& f) {
@@ -1309,7 +1317,8 @@ TEST(Commands, AreRefusedWhenAnythingIsMissingWrongOrUnknown) {
     for (const auto& [key, value] : whole.items()) {
       json changed = whole;
       changed.erase(key);
-      const bool optional = key == "lateral" || key == "variance" || key == "covariance" ||
+      const bool optional = key == "lateral" || key == "range" || key == "tag" ||
+                            key == "variance" || key == "covariance" ||
                             (whole["kind"] == "light" && key != "kind");
       EXPECT_TRUE(refused(changed) || optional) << whole << " without " << key;
       for (const json& wrong : {json(nullptr), json("x"), json({1}), json(std::nan(""))}) {

@@ -119,6 +119,7 @@ WorldDescription full_world() {
                                    .center = {1.35, 0.26},
                                    .size = {0.04, 0.04},
                                    .height_m = 0.12,
+                                   .tags = {},
                                    .fiducial = 99,
                                    .colour = Colour{0xff, 0, 0, 0xff},
                                    .portable = true});
