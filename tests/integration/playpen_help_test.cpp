@@ -161,7 +161,7 @@ TEST(PlaypenCompletion, OfBashKnowsCommandsOptionsValuesAndNames) {
   EXPECT_THAT(completed({"check", "pioneer2"}), ElementsAre("pioneer2dx"));
   EXPECT_THAT(completed({"new", ""}),
               UnorderedElementsAre("intro", "planning", "exploration", "traps",
-                                   "exploration_changing", "chase", "client"));
+                                   "exploration_changing", "chase", "localization", "client"));
   EXPECT_THAT(completed({"help", "gr"}), ElementsAre("grade"));
   EXPECT_THAT(completed({"run", "cave", "--", "./n"}), ElementsAre("./notes.txt"));
   EXPECT_THAT(completed({"run", "cave", "--", "./x", "no"}), ElementsAre("notes.txt"));
