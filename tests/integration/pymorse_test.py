@@ -189,7 +189,7 @@ class Paced(unittest.TestCase):
     def test_wrong_arguments_are_errors(self):
         simu = self.simu
         self.assertRaises(TypeError, simu.r1.motion.set_speed(1.0).result, TIMEOUT)
-        self.assertRaises(TypeError, simu.r1.waypoint.goto().result, TIMEOUT)
+        self.assertRaises(pymorse.MorseServiceFailed, simu.r1.waypoint.goto().result, TIMEOUT)
         self.assertRaises(TypeError, simu.rpc, "time", "sleep", 1.0, 2.0)
         self.assertRaises(pymorse.MorseServiceFailed, simu.r1.motion.set_speed("a", 0.0).result,
                           TIMEOUT)

@@ -80,6 +80,11 @@ WavefrontThread::~WavefrontThread() {
 void WavefrontThread::round() {
   const sim::SimTime now_ns = thread_.session().request(TimeRequest{}).sim_time_ns;
   const double time_s = sim::to_seconds(now_ns);
+  if (halting_) {
+    // The driver's round at the time of the cancellation may have commanded a speed after it.
+    halting_ = false;
+    if (!driving_) output_.SetSpeed(0.0, 0.0);
+  }
   for (const Request& request : mailbox_.take(now_ns)) take(request);
   const std::optional<sim::Pose> pose = measured_pose();
   if (pose) now_.pose = *pose;
@@ -206,6 +211,7 @@ void WavefrontThread::drive_to_waypoint() {
 void WavefrontThread::stop() {
   if (!driving_) return;
   driving_ = false;
+  halting_ = true;
   output_.SetSpeed(0.0, 0.0);  // cancels the driver's goal
 }
 

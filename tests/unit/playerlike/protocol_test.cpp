@@ -330,6 +330,64 @@ void each(sim::CollisionReading& v, F& f) {
   f(v.collision), f(v.objects);
 }
 template <typename F>
+void each(sim::AccelerometerReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.distance_m), f(v.velocity_mps), f(v.acceleration_mps2), f(v.angular_radps2);
+}
+template <typename F>
+void each(sim::AirspeedReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.pressure_pa);
+}
+template <typename F>
+void each(sim::AltimeterReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.height_m), f(v.in_range);
+}
+template <typename F>
+void each(sim::AttitudeReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.yaw_rad), f(v.pitch_rad), f(v.roll_rad), f(v.rate_radps);
+}
+template <typename F>
+void each(sim::BarometerReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.pressure_pa);
+}
+template <typename F>
+void each(sim::ClockReading& v, F& f) {
+  each_of_reading(v, f);
+}
+template <typename F>
+void each(sim::GyroscopeReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.yaw_rad), f(v.pitch_rad), f(v.roll_rad);
+}
+template <typename F>
+void each(sim::PostureReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.joints), f(v.positions);
+}
+template <typename F>
+void each(sim::SemanticCameraReading::Object& v, F& f) {
+  f(v.name), f(v.type), f(v.position_m), f(v.vector), f(v.scalar);
+}
+template <typename F>
+void each(sim::SemanticCameraReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.objects);
+}
+template <typename F>
+void each(sim::ThermometerReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.temperature_c);
+}
+template <typename F>
+void each(sim::VelocityReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.linear_mps), f(v.angular_radps), f(v.world_mps);
+}
+template <typename F>
 void each(sim::CompassReading& v, F& f) {
   each_of_reading(v, f);
   f(v.heading_rad);
@@ -348,6 +406,7 @@ void each(sim::GpsReading& v, F& f) {
   each_of_reading(v, f);
   f(v.latitude_rad), f(v.longitude_rad), f(v.altitude_m), f(v.speed_mps), f(v.course_rad);
   f(v.utm_easting_m), f(v.utm_northing_m), f(v.satellites), f(v.quality);
+  f(v.position_m), f(v.velocity_mps), f(v.heading_rad);
 }
 template <typename F>
 void each(sim::ImuReading& v, F& f) {
@@ -1149,6 +1208,17 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
     ++sensors;
     EXPECT_EQ(sensor->type(), kind.name);
     EXPECT_TRUE(arrives_if<sim::ActArrayReading>(*sensor, GetParam()) ||
+                arrives_if<sim::AccelerometerReading>(*sensor, GetParam()) ||
+                arrives_if<sim::AirspeedReading>(*sensor, GetParam()) ||
+                arrives_if<sim::AltimeterReading>(*sensor, GetParam()) ||
+                arrives_if<sim::AttitudeReading>(*sensor, GetParam()) ||
+                arrives_if<sim::BarometerReading>(*sensor, GetParam()) ||
+                arrives_if<sim::ClockReading>(*sensor, GetParam()) ||
+                arrives_if<sim::GyroscopeReading>(*sensor, GetParam()) ||
+                arrives_if<sim::PostureReading>(*sensor, GetParam()) ||
+                arrives_if<sim::SemanticCameraReading>(*sensor, GetParam()) ||
+                arrives_if<sim::ThermometerReading>(*sensor, GetParam()) ||
+                arrives_if<sim::VelocityReading>(*sensor, GetParam()) ||
                 arrives_if<sim::AioReading>(*sensor, GetParam()) ||
                 arrives_if<sim::AmclReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BatteryReading>(*sensor, GetParam()) ||
@@ -1323,7 +1393,7 @@ TEST(Commands, AreRefusedWhenAnythingIsMissingWrongOrUnknown) {
       EXPECT_TRUE(refused(changed) || optional) << whole << " without " << key;
       for (const json& wrong : {json(nullptr), json("x"), json({1}), json(std::nan(""))}) {
         changed[key] = wrong;
-        const bool any_text = key == "text" && wrong.is_string();
+        const bool any_text = (key == "text" || key == "tag") && wrong.is_string();
         const bool any_numbers = key == "values" && wrong.is_array();
         EXPECT_TRUE(refused(changed) || any_text || any_numbers) << changed;
       }

@@ -270,23 +270,24 @@ TEST(Proximity, LooksForATagThatChanges) {
 }
 
 TEST(Waypoint, RollsOutAfterAStop) {
-  Simulation simulation(room_with(R"("waypoint": {"stop_deceleration": 4, "approach_gain": 50})"));
+  Simulation simulation(room_with(R"("waypoint": {"stop_deceleration": 1, "approach_gain": 50})"));
   send(simulation, "waypoint", GotoCommand{{18.0, 10.0}, 0.1, 1.0});
   step(simulation, 200);
   const double x_m = simulation.body(0).X_WB.x_m;
   const double v_mps = simulation.body(0).twist.v_mps;
   send(simulation, "waypoint", StopCommand{});
-  step(simulation, 100);
-  // v^2 / 2a, but for a step.
-  EXPECT_NEAR(simulation.body(0).X_WB.x_m - x_m, v_mps * v_mps / 8.0, 0.011);
+  step(simulation, 150);
+  // v^2 / 2a, but for a step. (The motors could stop faster.)
+  EXPECT_NEAR(simulation.body(0).X_WB.x_m - x_m, v_mps * v_mps / 2.0, 0.011);
   EXPECT_EQ(simulation.body(0).twist.v_mps, 0.0);
 }
 
 TEST(Coordinates, AreThoseOfTheEarth) {
   CoordinateParams ecef;
   ecef.ecef = true;
-  ecef.longitude_deg = 43.6;
-  ecef.latitude_deg = 1.4333;
+  // MORSE keeps these in single precision.
+  ecef.longitude_deg = 43.6F;
+  ecef.latitude_deg = 1.4333F;
   ecef.altitude_m = 135.0;
   // Figures from MORSE's own test of its modifier, to its precision.
   const Eigen::Vector3d p = to_message(ecef, {100.0, 200.0, 50.0});

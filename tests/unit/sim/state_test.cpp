@@ -20,6 +20,7 @@
 #include "sim/devices/dio.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/opaque.h"
+#include "sim/devices/posture.h"
 #include "sim/simulation/simulation.h"
 #include "temporary_folder.h"
 
@@ -99,6 +100,7 @@ WorldDescription full_world() {
     robot.devices = devices;
     for (DeviceDescription& device : robot.devices) {
       if (device.type == "opaque") std::any_cast<OpaqueParams&>(device.params).from = {next};
+      if (device.type == "posture") std::any_cast<PostureParams&>(device.params).of = "ptz";
       if (device.type == "laser") {
         auto& laser = std::any_cast<LaserParams&>(device.params);
         laser.noise_m = 0.01;
