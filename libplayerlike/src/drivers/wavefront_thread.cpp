@@ -80,11 +80,7 @@ WavefrontThread::~WavefrontThread() {
 void WavefrontThread::round() {
   const sim::SimTime now_ns = thread_.session().request(TimeRequest{}).sim_time_ns;
   const double time_s = sim::to_seconds(now_ns);
-  if (halting_) {
-    // The driver's round at the time of the cancellation may have commanded a speed after it.
-    halting_ = false;
-    if (!driving_) output_.SetSpeed(0.0, 0.0);
-  }
+  if (std::exchange(stops_again_, false) && !driving_) output_.SetSpeed(0.0, 0.0);
   for (const Request& request : mailbox_.take(now_ns)) take(request);
   const std::optional<sim::Pose> pose = measured_pose();
   if (pose) now_.pose = *pose;
@@ -213,6 +209,8 @@ void WavefrontThread::stop() {
   driving_ = false;
   halting_ = true;
   output_.SetSpeed(0.0, 0.0);  // cancels the driver's goal
+  // The driver's round at this time does not know of it yet, and its command may come later.
+  stops_again_ = true;
 }
 
 void WavefrontThread::draw_path() {

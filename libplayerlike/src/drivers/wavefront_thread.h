@@ -68,6 +68,7 @@ class WavefrontThread final : public Planner {
   bool has_goal_ = false;
   bool enabled_ = true;
   bool driving_ = false;            ///< the driver pursues the current waypoint
+  bool stops_again_ = false;        ///< the next round repeats the command to stop
   std::optional<sim::Pose> start_;  ///< plans from here, without driving
   bool must_plan_ = false;
   bool halting_ = false;         ///< the robot was told to stop in the last round
