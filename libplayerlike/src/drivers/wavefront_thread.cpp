@@ -207,7 +207,6 @@ void WavefrontThread::drive_to_waypoint() {
 void WavefrontThread::stop() {
   if (!driving_) return;
   driving_ = false;
-  halting_ = true;
   output_.SetSpeed(0.0, 0.0);  // cancels the driver's goal
   // The driver's round at this time does not know of it yet, and its command may come later.
   stops_again_ = true;

@@ -71,7 +71,6 @@ class WavefrontThread final : public Planner {
   bool stops_again_ = false;        ///< the next round repeats the command to stop
   std::optional<sim::Pose> start_;  ///< plans from here, without driving
   bool must_plan_ = false;
-  bool halting_ = false;         ///< the robot was told to stop in the last round
   double planned_time_s_ = 0.0;  ///< when it planned last
   sim::Vec2 planned_from_ = sim::Vec2::Zero();
 

@@ -114,7 +114,7 @@ struct GotoSettings {
 
 /// Settings of any driver that drives to goals.
 using GoalDriverSettings = std::variant<SndSettings, VfhSettings, NdSettings, GotoSettings>;
-using GoalDriverKind = sim::AlternativeKind<GoalDriverSettings>;
+using GoalDriverKind = sim::AlternativeKind<GoalDriverSettings>;  ///< a type of goal driver
 
 /// The drivers that drive to goals, in the order of GoalDriverSettings: type in world files and
 /// table of settings.
@@ -130,13 +130,13 @@ template <typename Settings>
 [[nodiscard]] Settings default_settings(double radius_m, double max_speed_mps,
                                         double max_turn_rate_radps);
 template <>
-[[nodiscard]] SndSettings default_settings<SndSettings>(double, double, double);
+[[nodiscard]] SndSettings default_settings<SndSettings>(double, double, double);  ///< of snd
 template <>
-[[nodiscard]] VfhSettings default_settings<VfhSettings>(double, double, double);
+[[nodiscard]] VfhSettings default_settings<VfhSettings>(double, double, double);  ///< of vfh
 template <>
-[[nodiscard]] NdSettings default_settings<NdSettings>(double, double, double);
+[[nodiscard]] NdSettings default_settings<NdSettings>(double, double, double);  ///< of nd
 template <>
-[[nodiscard]] GotoSettings default_settings<GotoSettings>(double, double, double);
+[[nodiscard]] GotoSettings default_settings<GotoSettings>(double, double, double);  ///< of goto
 
 /// Returns the default settings of SND for a robot. The robot radius is the radius of the
 /// footprint, rounded up to whole centimetres. The safety distance is 1.5 times the robot radius.
@@ -156,7 +156,7 @@ template <>
 /// @param settings  a struct with the fields of `table`.
 [[nodiscard]] std::string fault_of(const sim::FieldTable& table, const void* settings);
 template <typename Settings>
-[[nodiscard]] std::string fault_of(const Settings& settings) {
+[[nodiscard]] std::string fault_of(const Settings& settings) {  ///< the same for a struct
   return fault_of(sim::fields_of<Settings>(), &settings);
 }
 
@@ -191,7 +191,7 @@ struct WavefrontSettings {
 };
 
 template <>
-[[nodiscard]] WavefrontSettings default_settings<WavefrontSettings>(double, double, double);
+[[nodiscard]] WavefrontSettings default_settings<WavefrontSettings>(double, double, double);  ///< of wavefront
 
 /// A planner of a world's `drivers` table.
 struct PlannerInfo {
@@ -218,6 +218,6 @@ struct DriverType {
   const sim::FieldTable* settings;
   bool drives_to_goals;  ///< it has the settings index, position and laser, too
 };
-[[nodiscard]] const std::vector<DriverType>& driver_types();
+[[nodiscard]] const std::vector<DriverType>& driver_types();  ///< all types of drivers
 
 }  // namespace playerlike

@@ -32,9 +32,9 @@ struct SensorMount : MountPose {
 };
 
 template <>
-const FieldTable& fields_of<MountPose>();
+const FieldTable& fields_of<MountPose>();  ///< of a MountPose
 template <>
-const FieldTable& fields_of<SensorMount>();
+const FieldTable& fields_of<SensorMount>();  ///< of a SensorMount
 
 class ActArray;
 class Ptz;

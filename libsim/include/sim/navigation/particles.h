@@ -48,7 +48,7 @@ struct PoseHypothesis {
 /// Sides of the bins that count how widely particles are spread (0.5 m and 10 degrees, as in
 /// Player's amcl).
 inline constexpr double kPoseBin_m = 0.5;
-inline constexpr int kPoseBinsPerTurn = 36;
+inline constexpr int kPoseBinsPerTurn = 36;  ///< bins of the heading
 
 /// A histogram of poses: which bins have at least one pose. Used for KLD-sampling.
 class PoseBins {
