@@ -189,9 +189,9 @@ struct WavefrontSettings {
                       ///< first driver, else `position`
   bool draw = true;   ///< whether the path is drawn on a layer
 };
-
+/// Of wavefront.
 template <>
-[[nodiscard]] WavefrontSettings default_settings<WavefrontSettings>(double, double, double);  ///< of wavefront
+[[nodiscard]] WavefrontSettings default_settings<WavefrontSettings>(double, double, double);
 
 /// A planner of a world's `drivers` table.
 struct PlannerInfo {
