@@ -52,7 +52,7 @@ template <typename Params, typename ReadingType, typename Make>
     io::read_fields(settings, fields_of<Params>(), &params);
     return params;
   };
-  row.defaults = [] { return std::any(Params{}); };
+  row.defaults = [] { return std::make_any<Params>(); };
   row.settings_in = [](const std::any& params) -> const void* {
     return std::any_cast<Params>(&params);
   };
