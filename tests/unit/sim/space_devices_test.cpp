@@ -285,8 +285,8 @@ TEST(Waypoint, RollsOutAfterAStop) {
 TEST(Coordinates, AreThoseOfTheEarth) {
   CoordinateParams ecef;
   ecef.ecef = true;
-  ecef.longitude_deg = 43.6;
-  ecef.latitude_deg = 1.4333;
+  ecef.longitude_deg = static_cast<double>(43.6F);  // as Blender stores it
+  ecef.latitude_deg = static_cast<double>(1.4333F);
   ecef.altitude_m = 135.0;
   // Figures from MORSE's own test of its modifier, to its precision.
   const Eigen::Vector3d p = to_message(ecef, {100.0, 200.0, 50.0});
