@@ -220,28 +220,26 @@ constexpr MorseService kArm[] = {
 
 // --- posture
 
-const sim::PostureReading& newest(const sim::Simulation& simulation, MorseCall& call) {
-  const auto& sensor = device_in<sim::Posture>(simulation, id_of(call));
-  if (sensor.reading().sequence == 0) {
-    throw MorseRefusal(call.component->name +
-                       " has no reading yet: simulated time has not come so far");
-  }
-  return sensor.reading();
+json posture_joints(MorseCall& call) {
+  return call.state.with([&](const sim::Simulation& simulation) {
+    return json(device_in<sim::Posture>(simulation, id_of(call)).joints());
+  });
 }
 
-json posture_joints(MorseCall& call) {
-  return call.state.with(
-      [&](const sim::Simulation& simulation) { return json(newest(simulation, call).joints); });
+// An object of the joints' values by their names.
+json by_joint(const std::vector<std::string>& joints, const std::vector<double>& values) {
+  json all = json::object();
+  for (std::size_t i = 0; i < joints.size() && i < values.size(); ++i) {
+    // MORSE's tilt is positive downwards.
+    all[joints[i]] = joints[i] == "tilt" ? -values[i] : values[i];
+  }
+  return all;
 }
 
 json posture_state(MorseCall& call) {
   return call.state.with([&](const sim::Simulation& simulation) {
-    const sim::PostureReading& reading = newest(simulation, call);
-    json state = json::object();
-    for (std::size_t i = 0; i < reading.joints.size(); ++i) {
-      state[reading.joints[i]] = reading.positions[i];
-    }
-    return state;
+    const auto& posture = device_in<sim::Posture>(simulation, id_of(call));
+    return by_joint(posture.joints(), posture.positions());
   });
 }
 
@@ -257,12 +255,8 @@ json posture_joint(MorseCall& call) {
 
 json joints_length(MorseCall& call) {
   return call.state.with([&](const sim::Simulation& simulation) {
-    const sim::PostureReading& reading = newest(simulation, call);
-    const std::vector<double> lengths =
-        device_in<sim::Posture>(simulation, id_of(call)).lengths_m();
-    json all = json::object();
-    for (std::size_t i = 0; i < lengths.size(); ++i) all[reading.joints[i]] = lengths[i];
-    return all;
+    const auto& posture = device_in<sim::Posture>(simulation, id_of(call));
+    return by_joint(posture.joints(), posture.lengths_m());
   });
 }
 

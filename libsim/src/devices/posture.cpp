@@ -29,16 +29,20 @@ std::vector<double> Posture::lengths_m() const {
   return lengths;
 }
 
+std::vector<std::string> Posture::joints() const {
+  if (head_ != nullptr) return {"pan", "tilt"};
+  return arm_ != nullptr ? arm_->joint_names() : std::vector<std::string>();
+}
+
+std::vector<double> Posture::positions() const {
+  if (head_ != nullptr) return {head_->pan_rad(), head_->tilt_rad()};
+  return arm_ != nullptr ? arm_->positions() : std::vector<double>();
+}
+
 void Posture::measure(const StepContext& context) {
   auto& reading = next(context);
-  if (head_ != nullptr) {
-    reading.joints = {"pan", "tilt"};
-    reading.positions = {head_->pan_rad(), head_->tilt_rad()};
-    return;
-  }
-  if (arm_ == nullptr) return;
-  reading.joints = arm_->joint_names();
-  reading.positions = arm_->positions();
+  reading.joints = joints();
+  reading.positions = positions();
 }
 
 constexpr Field kPostureSettings[] = {

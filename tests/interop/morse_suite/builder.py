@@ -8,6 +8,7 @@ import inspect
 import json
 import math
 import os
+import struct
 
 
 class NotApplicable(Exception):
@@ -144,6 +145,13 @@ class Robot(Place):
         for child in (of or self).children:
             yield child
             yield from self.components(child)
+
+    def set_friction(self, _):
+        raise NotApplicable(_FORCES)
+
+    @property
+    def _bpy_object(self):
+        raise NotApplicable("the scene changes settings of Blender's physics")
 
     def holonomic(self):
         return any(isinstance(c, MotionXYW) for c in self.components())
@@ -526,6 +534,10 @@ class Quadrotor(Robot):
         raise NotApplicable(_FLIES)
 
 
+class QUAD2012(Quadrotor):
+    pass
+
+
 class Submarine(Robot):
     def __init__(self, name=None):
         raise NotApplicable(_FLIES)
@@ -598,6 +610,13 @@ class Environment(Place):
         if filename not in ENVIRONMENTS:
             raise NotApplicable("the environment %s is a landscape" % filename)
 
+    def properties(self, **values):
+        """Blender stores numbers in single precision."""
+        for key, value in values.items():
+            if isinstance(value, float):
+                value = struct.unpack("f", struct.pack("f", value))[0]
+            self.props[key] = value
+
     def simulator_frequency(self, value):
         self.frequency = value
 
@@ -646,7 +665,7 @@ def write_world(scene, folder):
     world = {"name": env.filename.replace("/", "_"),
              "arena": {"size": [2 * reach, 2 * reach], "origin": [-reach, -reach],
                        "obstacles": obstacles, "docks": docks},
-             "simulation": {"time": "real", "step": 0.1 if env.frequency <= 10 else 0.005},
+             "simulation": {"time": "real", "step": round(1.0 / env.frequency, 9)},
              "canvas": {"size": [16, 16], "cell_size": 8.0},
              "robots": [robot.world() for robot in robots]}
     for robot in robots:

@@ -3,16 +3,19 @@
 """Runs the tests of MORSE's own suite, unmodified, against `playpen serve`.
 
 Usage: run.py PLAYPEN MORSE [NAME ...]
+       run.py PLAYPEN MORSE --one FILE TEST    (one test; the last line is its result as JSON)
 
-MORSE is a checkout of MORSE's source; its tests are imported as they are. builder.py stands in for
-morse.builder, and this program for morse.testing.testing. With names, only test files that contain
+Each test has a process of its own. MORSE is a checkout of MORSE's source; its tests are imported as
+they are. builder.py stands in for morse.builder, and this program for morse.testing.testing. With names, only test files that contain
 one of them run. Prints a table in Markdown; its end status is 0.
 """
 import glob
 import importlib.util
+import json
 import inspect
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -122,6 +125,19 @@ def stand_in():
     module("morse.testing.exceptions", {"MorseTestingError": RuntimeError})
 
 
+def repair_pymorse():
+    """Replaces a function of pymorse that cannot work: its dir() of a component raises TypeError."""
+    import pymorse.pymorse as library
+
+    def get_publisher_streams(self):
+        for name in self.robots:
+            for component in getattr(self, name).values():
+                if type(component) is library.Component and "publish" in vars(component):
+                    yield component.stream
+
+    library.Morse.get_publisher_streams = get_publisher_streams
+
+
 def tests_of(path):
     """The test methods of a file, without those of imported classes."""
     spec = importlib.util.spec_from_file_location(os.path.basename(path)[:-3], path)
@@ -129,7 +145,7 @@ def tests_of(path):
     spec.loader.exec_module(module)
     loader = unittest.TestLoader()
     loader.testMethodPrefix = "test_"
-    for value in vars(module).values():
+    for value in list(vars(module).values()):
         if inspect.isclass(value) and issubclass(value, MorseTestCase) and \
                 value.__module__ == module.__name__:
             yield from loader.loadTestsFromTestCase(value)
@@ -144,54 +160,67 @@ def first_line(error):
 
 
 def run(test):
-    """Returns ("pass", "fail" or "n/a", reason)."""
-    outcome = ["fail", "it ended without a result within %g s" % PATIENCE_S]
-
-    def body():
+    """Returns ["pass", "fail" or "n/a", reason]."""
+    try:
+        test.setUp()
         try:
-            test.setUp()
-            try:
-                getattr(test, test._testMethodName)()
-                outcome[:] = ["pass", ""]
-            finally:
-                test.tearDown()
-        except builder.NotApplicable as error:
-            outcome[:] = ["n/a", str(error)]
-        except BaseException as error:  # pylint: disable=broad-except
-            outcome[:] = ["fail", first_line(error)]
-            if os.environ.get("MORSE_SUITE_VERBOSE"):
-                traceback.print_exc()
-                print(getattr(test, "log", ""))
+            getattr(test, test._testMethodName)()
+            return ["pass", ""]
+        finally:
+            test.tearDown()
+    except builder.NotApplicable as error:
+        return ["n/a", str(error)]
+    except BaseException as error:  # pylint: disable=broad-except
+        if os.environ.get("MORSE_SUITE_VERBOSE"):
+            traceback.print_exc()
+            print(getattr(test, "log", ""))
+        return ["fail", first_line(error)]
 
-    thread = threading.Thread(target=body, daemon=True)
-    thread.start()
-    thread.join(PATIENCE_S)
-    if thread.is_alive() and test.process is not None:
-        test.process.kill()
-        thread.join(10.0)
-    return outcome
+
+def run_apart(path, name):
+    """Runs a test in a process of its own."""
+    command = [sys.executable, os.path.abspath(__file__), PLAYPEN, MORSE, "--one", path, name]
+    # A session of its own, so that its server ends with it.
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                               start_new_session=True)
+    try:
+        output, _ = process.communicate(timeout=PATIENCE_S)
+        if os.environ.get("MORSE_SUITE_VERBOSE"):
+            print(output)
+        return json.loads(output.strip().split("\n")[-1])
+    except subprocess.TimeoutExpired:
+        return ["fail", "it ended without a result within %g s" % PATIENCE_S]
+    except ValueError:
+        return ["fail", "it ended without a result"]
+    finally:
+        try:
+            os.killpg(process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        process.wait()
 
 
 def main():
     stand_in()
+    if ONLY[:1] == ["--one"]:
+        repair_pymorse()
+        path, name = ONLY[1:3]
+        result = [run(test) for test in tests_of(path) if test._testMethodName == name][0]
+        print(json.dumps(result), flush=True)
+        os._exit(0)  # pymorse's threads may still wait
     counts = {"pass": 0, "fail": 0, "n/a": 0}
     print("| file | test | result | reason |\n|---|---|---|---|")
     for path in sorted(glob.glob(os.path.join(MORSE, "testing", "base", "*.py"))):
-        name = os.path.basename(path)[:-3]
-        if ONLY and not any(word in name for word in ONLY):
+        file = os.path.basename(path)[:-3]
+        if ONLY and not any(word in file for word in ONLY):
             continue
         for test in tests_of(path):
-            stdout = sys.stdout
-            with open(os.devnull, "w") as quiet:
-                if not os.environ.get("MORSE_SUITE_VERBOSE"):
-                    sys.stdout = quiet
-                result, reason = run(test)
-                sys.stdout = stdout
+            name = test._testMethodName
+            result, reason = run_apart(path, name)
             counts[result] += 1
-            print("| %s | %s | %s | %s |" % (name, test._testMethodName, result, reason), flush=True)
+            print("| %s | %s | %s | %s |" % (file, name, result, reason), flush=True)
     print("\n%d tests: %d pass, %d fail, %d are not applicable" %
           (sum(counts.values()), counts["pass"], counts["fail"], counts["n/a"]), flush=True)
-    os._exit(0)  # pymorse's threads may still wait
 
 
 if __name__ == "__main__":

@@ -32,6 +32,10 @@ class Posture final : public SensorOf<PostureReading> {
   std::optional<std::string> connect(std::string_view robot,
                                      const DeviceDirectory& devices) override;
   [[nodiscard]] std::string_view carrier() const noexcept override { return params_.of; }
+  /// Names of the joints.
+  [[nodiscard]] std::vector<std::string> joints() const;
+  /// Positions of the joints now, in the same order [m or rad].
+  [[nodiscard]] std::vector<double> positions() const;
   /// Lengths of an arm's links, in the order of its joints; empty for a ptz [m].
   [[nodiscard]] std::vector<double> lengths_m() const;
   [[nodiscard]] bool measures_after_others() const noexcept override { return true; }
