@@ -35,20 +35,12 @@ double pressure_at_pa(double reference_pa, double height_m) {
 
 Barometer::Barometer(std::string name, const BarometerParams& params, double start_m,
                      RandomStream noise)
-    : SensorOf(std::move(name), "barometer", params.frequency_hz, params.latency_s),
-      params_(params),
-      start_m_(start_m),
-      noise_(std::move(noise)) {}
+    : NoisySensor(std::move(name), "barometer", params, std::move(noise)), start_m_(start_m) {}
 
 void Barometer::measure(const StepContext& context) {
   next(context).pressure_pa =
-      pressure_at_pa(params_.reference_pa, context.body.elevation.z_m - start_m_) +
-      noise_.gaussian(params_.noise_pa);
-}
-
-void Barometer::archive(StateArchive& archive) {
-  SensorOf::archive(archive);
-  archive(noise_);
+      pressure_at_pa(params().reference_pa, context.body.elevation.z_m - start_m_) +
+      noise().gaussian(params().noise_pa);
 }
 
 constexpr Field kBarometerSettings[] = {
@@ -78,28 +70,12 @@ DeviceKind barometer_kind() {
 
 // --- airspeed
 
-Airspeed::Airspeed(std::string name, const AirspeedParams& params, RandomStream noise)
-    : SensorOf(std::move(name), "airspeed", params.frequency_hz, params.latency_s),
-      params_(params),
-      mounting_(params),
-      noise_(std::move(noise)) {}
-
-std::optional<std::string> Airspeed::connect(std::string_view robot,
-                                             const DeviceDirectory& devices) {
-  return mounting_.connect(robot, devices);
-}
-
 void Airspeed::measure(const StepContext& context) {
   const Twist& twist = context.body.twist;
-  const Eigen::Vector3d along = mounting_.in_body().linear().col(0);
+  const Eigen::Vector3d along = mounting().in_body().linear().col(0);
   const double speed = along.x() * twist.v_mps + along.y() * twist.lateral_mps;
   next(context).pressure_pa =
-      0.5 * kAirDensity_kgpm3 * speed * speed + noise_.gaussian(params_.noise_pa);
-}
-
-void Airspeed::archive(StateArchive& archive) {
-  SensorOf::archive(archive);
-  archive(noise_);
+      0.5 * kAirDensity_kgpm3 * speed * speed + noise().gaussian(params().noise_pa);
 }
 
 constexpr Field kAirspeedSettings[] = {
@@ -123,11 +99,6 @@ DeviceKind airspeed_kind() {
 
 // --- altimeter
 
-Altimeter::Altimeter(std::string name, const AltimeterParams& params, RandomStream noise)
-    : SensorOf(std::move(name), "altimeter", params.frequency_hz, params.latency_s),
-      params_(params),
-      noise_(std::move(noise)) {}
-
 void Altimeter::measure(const StepContext& context) {
   auto& reading = next(context);
   const Vec2 p_WB = context.body.X_WB.position();
@@ -138,13 +109,8 @@ void Altimeter::measure(const StepContext& context) {
     const double top_m = standing_height_m(o);
     if (top_m <= z_m && top_m > ground_m && covers(o, p_WB)) ground_m = top_m;
   }
-  reading.in_range = z_m - ground_m <= params_.range_m;
-  reading.height_m = z_m - ground_m + noise_.gaussian(params_.noise_m);
-}
-
-void Altimeter::archive(StateArchive& archive) {
-  SensorOf::archive(archive);
-  archive(noise_);
+  reading.in_range = z_m - ground_m <= params().range_m;
+  reading.height_m = z_m - ground_m + noise().gaussian(params().noise_m);
 }
 
 constexpr Field kAltimeterSettings[] = {
@@ -169,19 +135,14 @@ DeviceKind altimeter_kind() {
 
 // --- thermometer
 
-Thermometer::Thermometer(std::string name, const ThermometerParams& params, RandomStream noise)
-    : SensorOf(std::move(name), "thermometer", params.frequency_hz, params.latency_s),
-      params_(params),
-      noise_(std::move(noise)) {}
-
 void Thermometer::measure(const StepContext& context) {
   const Vec2 p_WB = context.body.X_WB.position();
-  double temperature_c = params_.air_c;
+  double temperature_c = params().air_c;
   const auto feel = [&](const std::vector<std::string>& tags, const Vec2& p_W) {
-    if (!std::ranges::binary_search(tags, params_.tag)) return;
+    if (!std::ranges::binary_search(tags, params().tag)) return;
     const double distance_m = (p_W - p_WB).norm();
-    if (distance_m > params_.range_m) return;
-    temperature_c += params_.fire_c * std::exp(-params_.attenuation_1pm * distance_m);
+    if (distance_m > params().range_m) return;
+    temperature_c += params().fire_c * std::exp(-params().attenuation_1pm * distance_m);
   };
   for (int i = 0; i < context.physics.robot_count(); ++i) {
     if (i == context.robot) continue;
@@ -191,12 +152,7 @@ void Thermometer::measure(const StepContext& context) {
   for (const ObstacleDescription& o : context.world.arena.obstacles) {
     if (o.state == ObstacleState::kExtended) feel(o.tags, o.center);
   }
-  next(context).temperature_c = temperature_c + noise_.gaussian(params_.noise_c);
-}
-
-void Thermometer::archive(StateArchive& archive) {
-  SensorOf::archive(archive);
-  archive(noise_);
+  next(context).temperature_c = temperature_c + noise().gaussian(params().noise_c);
 }
 
 constexpr Field kThermometerSettings[] = {

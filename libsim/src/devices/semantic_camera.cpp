@@ -21,38 +21,26 @@ Eigen::Matrix3d axes_of_pictures() {
 
 }  // namespace
 
-SemanticCamera::SemanticCamera(std::string name, const SemanticCameraParams& params,
-                               RandomStream noise)
-    : SensorOf(std::move(name), "semantic_camera", params.frequency_hz, params.latency_s),
-      params_(params),
-      mounting_(params),
-      noise_(std::move(noise)) {}
-
-std::optional<std::string> SemanticCamera::connect(std::string_view robot,
-                                                   const DeviceDirectory& devices) {
-  return mounting_.connect(robot, devices);
-}
-
 void SemanticCamera::measure(const StepContext& context) {
   using Contact = PhysicsWorld::Contact;
   auto& reading = next(context);
   reading.objects.clear();
-  const Eigen::Isometry3d X_WS = mounting_.in_world(context.body);
+  const Eigen::Isometry3d X_WS = mounting().in_world(context.body);
   const Eigen::Vector3d p_WS = X_WS.translation();
   const auto look_at = [&](const std::string& name, const std::vector<std::string>& tags,
                            const Eigen::Isometry3d& X_WT, const Contact& target) {
-    if (!std::ranges::binary_search(tags, params_.tag)) return;
+    if (!std::ranges::binary_search(tags, params().tag)) return;
     const Eigen::Vector3d p_ST = X_WS.inverse() * X_WT.translation();
-    if (p_ST.norm() > params_.range_m) return;
-    if (std::abs(std::atan2(p_ST.y(), p_ST.x())) > 0.5 * params_.field_of_view_rad) return;
-    if (params_.occlusion &&
+    if (p_ST.norm() > params().range_m) return;
+    if (std::abs(std::atan2(p_ST.y(), p_ST.x())) > 0.5 * params().field_of_view_rad) return;
+    if (params().occlusion &&
         !context.physics.is_line_free({p_WS.x(), p_WS.y()},
                                       {X_WT.translation().x(), X_WT.translation().y()}, p_WS.z(),
                                       context.robot, target)) {
       return;
     }
     Eigen::Isometry3d shown = X_WT;
-    if (params_.relative) {
+    if (params().relative) {
       Eigen::Isometry3d X_WC = X_WS;
       X_WC.linear() *= axes_of_pictures();
       shown = X_WC.inverse() * X_WT;
@@ -60,10 +48,10 @@ void SemanticCamera::measure(const StepContext& context) {
     const Eigen::Quaterniond turn(shown.linear());
     SemanticCameraReading::Object object;
     object.name = name;
-    object.type = params_.tag;
+    object.type = params().tag;
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      object.position_m[k] = shown.translation()[i] + noise_.gaussian(params_.noise_m);
+      object.position_m[k] = shown.translation()[i] + noise().gaussian(params().noise_m);
     }
     object.vector = {turn.x(), turn.y(), turn.z()};
     object.scalar = turn.w();
@@ -84,11 +72,6 @@ void SemanticCamera::measure(const StepContext& context) {
     look_at(robot.name, robot.tags, in_space(body.X_WB, body.elevation),
             {i, Contact::Kind::kRobot, i});
   }
-}
-
-void SemanticCamera::archive(StateArchive& archive) {
-  SensorOf::archive(archive);
-  archive(noise_);
 }
 
 constexpr Field kSemanticCameraSettings[] = {

@@ -36,33 +36,17 @@ EulerAngles orientation_of(const Mounting& mounting, const BodyState& body) {
 
 // --- velocity
 
-Velocity::Velocity(std::string name, const VelocityParams& params, RandomStream noise)
-    : SensorOf(std::move(name), "velocity", params.frequency_hz, params.latency_s),
-      params_(params),
-      mounting_(params),
-      noise_(std::move(noise)) {}
-
-std::optional<std::string> Velocity::connect(std::string_view robot,
-                                             const DeviceDirectory& devices) {
-  return mounting_.connect(robot, devices);
-}
-
 void Velocity::measure(const StepContext& context) {
   auto& reading = next(context);
   const BodyState& body = context.body;
-  const Eigen::Matrix3d R_SB = mounting_.in_body().linear().transpose();
+  const Eigen::Matrix3d R_SB = mounting().in_body().linear().transpose();
   const Eigen::Matrix3d R_WB = in_space(body.X_WB, body.elevation).linear();
   reading.linear_mps = array_of(R_SB * velocity_in_body(body));
   reading.angular_radps = array_of(R_SB * turn_in_body(body));
   reading.world_mps = array_of(R_WB * velocity_in_body(body));
-  add_noise(noise_, params_.noise_mps, reading.linear_mps);
-  add_noise(noise_, params_.noise_radps, reading.angular_radps);
-  add_noise(noise_, params_.noise_mps, reading.world_mps);
-}
-
-void Velocity::archive(StateArchive& archive) {
-  SensorOf::archive(archive);
-  archive(noise_);
+  add_noise(noise(), params().noise_mps, reading.linear_mps);
+  add_noise(noise(), params().noise_radps, reading.angular_radps);
+  add_noise(noise(), params().noise_mps, reading.world_mps);
 }
 
 constexpr Field kVelocitySettings[] = {
@@ -92,24 +76,12 @@ DeviceKind velocity_kind() {
 
 // --- accelerometer
 
-Accelerometer::Accelerometer(std::string name, const AccelerometerParams& params,
-                             RandomStream noise)
-    : SensorOf(std::move(name), "accelerometer", params.frequency_hz, params.latency_s),
-      params_(params),
-      mounting_(params),
-      noise_(std::move(noise)) {}
-
-std::optional<std::string> Accelerometer::connect(std::string_view robot,
-                                                  const DeviceDirectory& devices) {
-  return mounting_.connect(robot, devices);
-}
-
 void Accelerometer::measure(const StepContext& context) {
   auto& reading = next(context);
   const BodyState& body = context.body;
-  const Eigen::Matrix3d R_SB = mounting_.in_body().linear().transpose();
+  const Eigen::Matrix3d R_SB = mounting().in_body().linear().transpose();
   const Eigen::Isometry3d X_WB = in_space(body.X_WB, body.elevation);
-  const Vec3 p_W = mounting_.in_world(body).translation();
+  const Vec3 p_W = mounting().in_world(body).translation();
   const Vec3 v_W = X_WB.linear() * velocity_in_body(body);
   reading.velocity_mps = array_of(R_SB * velocity_in_body(body));
   reading.distance_m = 0.0;
@@ -123,7 +95,7 @@ void Accelerometer::measure(const StepContext& context) {
     reading.acceleration_mps2 = array_of(R_SB * (X_WB.linear().transpose() * a_W));
     reading.angular_radps2 = array_of(R_SB * alpha);
   }
-  add_noise(noise_, params_.noise_mps2, reading.acceleration_mps2);
+  add_noise(noise(), params().noise_mps2, reading.acceleration_mps2);
   has_before_ = true;
   p_W_m_ = array_of(p_W);
   v_W_mps_ = array_of(v_W);
@@ -132,8 +104,8 @@ void Accelerometer::measure(const StepContext& context) {
 }
 
 void Accelerometer::archive(StateArchive& archive) {
-  SensorOf::archive(archive);
-  archive(noise_, has_before_, p_W_m_, v_W_mps_, omega_radps_, before_ns_);
+  MountedSensor::archive(archive);
+  archive(has_before_, p_W_m_, v_W_mps_, omega_radps_, before_ns_);
 }
 
 constexpr Field kAccelerometerSettings[] = {
@@ -162,30 +134,14 @@ DeviceKind accelerometer_kind() {
 
 // --- gyroscope
 
-Gyroscope::Gyroscope(std::string name, const GyroscopeParams& params, RandomStream noise)
-    : SensorOf(std::move(name), "gyroscope", params.frequency_hz, params.latency_s),
-      params_(params),
-      mounting_(params),
-      noise_(std::move(noise)) {}
-
-std::optional<std::string> Gyroscope::connect(std::string_view robot,
-                                              const DeviceDirectory& devices) {
-  return mounting_.connect(robot, devices);
-}
-
 void Gyroscope::measure(const StepContext& context) {
   auto& reading = next(context);
-  const EulerAngles now = orientation_of(mounting_, context.body);
+  const EulerAngles now = orientation_of(mounting(), context.body);
   std::array<double, 3> angles{now.yaw_rad, now.pitch_rad, now.roll_rad};
-  add_noise(noise_, params_.noise_rad, angles);
+  add_noise(noise(), params().noise_rad, angles);
   reading.yaw_rad = normalize_angle(angles[0]);
   reading.pitch_rad = normalize_angle(angles[1]);
   reading.roll_rad = normalize_angle(angles[2]);
-}
-
-void Gyroscope::archive(StateArchive& archive) {
-  SensorOf::archive(archive);
-  archive(noise_);
 }
 
 constexpr const char* kGyroscopeNoiseNames[] = {"PoseNoise", "Noise"};
@@ -222,20 +178,9 @@ DeviceKind gyroscope_kind() {
 
 // --- attitude
 
-Attitude::Attitude(std::string name, const AttitudeParams& params, RandomStream noise)
-    : SensorOf(std::move(name), "attitude", params.frequency_hz, params.latency_s),
-      params_(params),
-      mounting_(params),
-      noise_(std::move(noise)) {}
-
-std::optional<std::string> Attitude::connect(std::string_view robot,
-                                             const DeviceDirectory& devices) {
-  return mounting_.connect(robot, devices);
-}
-
 void Attitude::measure(const StepContext& context) {
   auto& reading = next(context);
-  const EulerAngles now = orientation_of(mounting_, context.body);
+  const EulerAngles now = orientation_of(mounting(), context.body);
   reading.rate_radps = {};
   const double dt_s = to_seconds(context.now_ns - before_ns_);
   if (has_before_ && dt_s > 0.0) {
@@ -251,16 +196,16 @@ void Attitude::measure(const StepContext& context) {
   before_ = now;
   before_ns_ = context.now_ns;
   std::array<double, 3> angles{now.yaw_rad, now.pitch_rad, now.roll_rad};
-  add_noise(noise_, params_.noise_rad, angles);
-  add_noise(noise_, params_.noise_radps, reading.rate_radps);
+  add_noise(noise(), params().noise_rad, angles);
+  add_noise(noise(), params().noise_radps, reading.rate_radps);
   reading.yaw_rad = normalize_angle(angles[0]);
   reading.pitch_rad = normalize_angle(angles[1]);
   reading.roll_rad = normalize_angle(angles[2]);
 }
 
 void Attitude::archive(StateArchive& archive) {
-  SensorOf::archive(archive);
-  archive(noise_, has_before_, before_.roll_rad, before_.pitch_rad, before_.yaw_rad, before_ns_);
+  MountedSensor::archive(archive);
+  archive(has_before_, before_.roll_rad, before_.pitch_rad, before_.yaw_rad, before_ns_);
 }
 
 constexpr Field kAttitudeSettings[] = {

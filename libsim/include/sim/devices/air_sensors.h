@@ -1,10 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <string>
+#include <utility>
 
-#include "sim/devices/mount.h"
+#include "sim/devices/noisy_sensor.h"
 
 /// @file
 /// Sensors of air and height, as MORSE has them: barometer, airspeed, altimeter, thermometer; and
@@ -31,19 +31,16 @@ struct BarometerReading final : Reading {
 [[nodiscard]] double pressure_at_pa(double reference_pa, double height_m);
 
 /// Measures the pressure of the air.
-class Barometer final : public SensorOf<BarometerReading> {
+class Barometer final : public NoisySensor<BarometerParams, BarometerReading> {
  public:
   /// @param start_m  height of the robot at the start.
   Barometer(std::string name, const BarometerParams& params, double start_m, RandomStream noise);
-  void archive(StateArchive& archive) override;
 
  protected:
   void measure(const StepContext& context) override;
 
  private:
-  BarometerParams params_;
   double start_m_;
-  RandomStream noise_;
 };
 
 /// Settings of an airspeed sensor.
@@ -62,21 +59,13 @@ struct AirspeedReading final : Reading {
 inline constexpr double kAirDensity_kgpm3 = 1.225;
 
 /// A pitot tube in still air: half the density times the square of the speed along its axis.
-class Airspeed final : public SensorOf<AirspeedReading> {
+class Airspeed final : public MountedSensor<AirspeedParams, AirspeedReading> {
  public:
-  Airspeed(std::string name, const AirspeedParams& params, RandomStream noise);
-  std::optional<std::string> connect(std::string_view robot,
-                                     const DeviceDirectory& devices) override;
-  [[nodiscard]] std::string_view carrier() const noexcept override { return mounting_.carrier(); }
-  void archive(StateArchive& archive) override;
+  Airspeed(std::string name, const AirspeedParams& params, RandomStream noise)
+      : MountedSensor(std::move(name), "airspeed", params, std::move(noise)) {}
 
  protected:
   void measure(const StepContext& context) override;
-
- private:
-  AirspeedParams params_;
-  Mounting mounting_;
-  RandomStream noise_;
 };
 
 /// Settings of an altimeter.
@@ -95,17 +84,13 @@ struct AltimeterReading final : Reading {
 
 /// Measures the robot's height over the floor, or over the extended obstacle under its centre
 /// (MORSE's RadarAltimeter).
-class Altimeter final : public SensorOf<AltimeterReading> {
+class Altimeter final : public NoisySensor<AltimeterParams, AltimeterReading> {
  public:
-  Altimeter(std::string name, const AltimeterParams& params, RandomStream noise);
-  void archive(StateArchive& archive) override;
+  Altimeter(std::string name, const AltimeterParams& params, RandomStream noise)
+      : NoisySensor(std::move(name), "altimeter", params, std::move(noise)) {}
 
  protected:
   void measure(const StepContext& context) override;
-
- private:
-  AltimeterParams params_;
-  RandomStream noise_;
 };
 
 /// Settings of a thermometer.
@@ -127,17 +112,13 @@ struct ThermometerReading final : Reading {
 
 /// Measures the temperature of the air: air + sum over all fires of fire exp(-attenuation distance)
 /// (MORSE's Thermometer).
-class Thermometer final : public SensorOf<ThermometerReading> {
+class Thermometer final : public NoisySensor<ThermometerParams, ThermometerReading> {
  public:
-  Thermometer(std::string name, const ThermometerParams& params, RandomStream noise);
-  void archive(StateArchive& archive) override;
+  Thermometer(std::string name, const ThermometerParams& params, RandomStream noise)
+      : NoisySensor(std::move(name), "thermometer", params, std::move(noise)) {}
 
  protected:
   void measure(const StepContext& context) override;
-
- private:
-  ThermometerParams params_;
-  RandomStream noise_;
 };
 
 /// Settings of a clock.

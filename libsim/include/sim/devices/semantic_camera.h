@@ -3,11 +3,11 @@
 
 #include <array>
 #include <numbers>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "sim/devices/mount.h"
+#include "sim/devices/noisy_sensor.h"
 
 namespace sim {
 
@@ -41,21 +41,13 @@ struct SemanticCameraReading final : Reading {
 /// axes of pictures, as in MORSE: x to the right, y down, z along the view.
 ///
 /// Occlusion is that of the plane at the camera's height.
-class SemanticCamera final : public SensorOf<SemanticCameraReading> {
+class SemanticCamera final : public MountedSensor<SemanticCameraParams, SemanticCameraReading> {
  public:
-  SemanticCamera(std::string name, const SemanticCameraParams& params, RandomStream noise);
-  std::optional<std::string> connect(std::string_view robot,
-                                     const DeviceDirectory& devices) override;
-  [[nodiscard]] std::string_view carrier() const noexcept override { return mounting_.carrier(); }
-  void archive(StateArchive& archive) override;
+  SemanticCamera(std::string name, const SemanticCameraParams& params, RandomStream noise)
+      : MountedSensor(std::move(name), "semantic_camera", params, std::move(noise)) {}
 
  protected:
   void measure(const StepContext& context) override;
-
- private:
-  SemanticCameraParams params_;
-  Mounting mounting_;
-  RandomStream noise_;
 };
 
 }  // namespace sim

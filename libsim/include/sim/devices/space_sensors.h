@@ -3,11 +3,11 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <optional>
 #include <string>
+#include <utility>
 
 #include "sim/core/elevation.h"
-#include "sim/devices/mount.h"
+#include "sim/devices/noisy_sensor.h"
 
 /// @file
 /// Sensors of the motion in space, as MORSE has them: velocity, accelerometer, gyroscope, attitude.
@@ -29,21 +29,13 @@ struct VelocityReading final : Reading {
 };
 
 /// Measures the velocity of the body, as achieved in the last step (MORSE's Velocity).
-class Velocity final : public SensorOf<VelocityReading> {
+class Velocity final : public MountedSensor<VelocityParams, VelocityReading> {
  public:
-  Velocity(std::string name, const VelocityParams& params, RandomStream noise);
-  std::optional<std::string> connect(std::string_view robot,
-                                     const DeviceDirectory& devices) override;
-  [[nodiscard]] std::string_view carrier() const noexcept override { return mounting_.carrier(); }
-  void archive(StateArchive& archive) override;
+  Velocity(std::string name, const VelocityParams& params, RandomStream noise)
+      : MountedSensor(std::move(name), "velocity", params, std::move(noise)) {}
 
  protected:
   void measure(const StepContext& context) override;
-
- private:
-  VelocityParams params_;
-  Mounting mounting_;
-  RandomStream noise_;
 };
 
 /// Settings of an accelerometer.
@@ -62,21 +54,16 @@ struct AccelerometerReading final : Reading {
 };
 
 /// Measures the change of the body's velocity since the last reading (MORSE's Accelerometer).
-class Accelerometer final : public SensorOf<AccelerometerReading> {
+class Accelerometer final : public MountedSensor<AccelerometerParams, AccelerometerReading> {
  public:
-  Accelerometer(std::string name, const AccelerometerParams& params, RandomStream noise);
-  std::optional<std::string> connect(std::string_view robot,
-                                     const DeviceDirectory& devices) override;
-  [[nodiscard]] std::string_view carrier() const noexcept override { return mounting_.carrier(); }
+  Accelerometer(std::string name, const AccelerometerParams& params, RandomStream noise)
+      : MountedSensor(std::move(name), "accelerometer", params, std::move(noise)) {}
   void archive(StateArchive& archive) override;
 
  protected:
   void measure(const StepContext& context) override;
 
  private:
-  AccelerometerParams params_;
-  Mounting mounting_;
-  RandomStream noise_;
   bool has_before_ = false;  ///< the members below are those of the last reading
   std::array<double, 3> p_W_m_{};
   std::array<double, 3> v_W_mps_{};
@@ -99,21 +86,13 @@ struct GyroscopeReading final : Reading {
 };
 
 /// Measures its orientation in W (MORSE's Gyroscope).
-class Gyroscope final : public SensorOf<GyroscopeReading> {
+class Gyroscope final : public MountedSensor<GyroscopeParams, GyroscopeReading> {
  public:
-  Gyroscope(std::string name, const GyroscopeParams& params, RandomStream noise);
-  std::optional<std::string> connect(std::string_view robot,
-                                     const DeviceDirectory& devices) override;
-  [[nodiscard]] std::string_view carrier() const noexcept override { return mounting_.carrier(); }
-  void archive(StateArchive& archive) override;
+  Gyroscope(std::string name, const GyroscopeParams& params, RandomStream noise)
+      : MountedSensor(std::move(name), "gyroscope", params, std::move(noise)) {}
 
  protected:
   void measure(const StepContext& context) override;
-
- private:
-  GyroscopeParams params_;
-  Mounting mounting_;
-  RandomStream noise_;
 };
 
 /// Settings of an attitude sensor.
@@ -133,21 +112,16 @@ struct AttitudeReading final : Reading {
 };
 
 /// Measures its orientation in W and its turn rates (MORSE's Attitude).
-class Attitude final : public SensorOf<AttitudeReading> {
+class Attitude final : public MountedSensor<AttitudeParams, AttitudeReading> {
  public:
-  Attitude(std::string name, const AttitudeParams& params, RandomStream noise);
-  std::optional<std::string> connect(std::string_view robot,
-                                     const DeviceDirectory& devices) override;
-  [[nodiscard]] std::string_view carrier() const noexcept override { return mounting_.carrier(); }
+  Attitude(std::string name, const AttitudeParams& params, RandomStream noise)
+      : MountedSensor(std::move(name), "attitude", params, std::move(noise)) {}
   void archive(StateArchive& archive) override;
 
  protected:
   void measure(const StepContext& context) override;
 
  private:
-  AttitudeParams params_;
-  Mounting mounting_;
-  RandomStream noise_;
   bool has_before_ = false;  ///< the members below are those of the last reading
   EulerAngles before_;
   SimTime before_ns_ = 0;
