@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <charconv>
 #include <initializer_list>
+#include <iostream>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>

@@ -112,8 +112,10 @@ std::optional<std::size_t> DistanceWave::cell_of(const sim::Vec2& p_W) const {
 
 sim::Vec2 DistanceWave::center_of(std::size_t cell) const {
   const auto width = static_cast<std::size_t>(width_);
-  return origin_ + cell_size_m_ * sim::Vec2(static_cast<double>(cell % width) + 0.5,
-                                            static_cast<double>(cell / width) + 0.5);
+  const std::size_t row = cell / width;
+  const std::size_t column = cell % width;
+  return origin_ + cell_size_m_ * sim::Vec2(static_cast<double>(column) + 0.5,
+                                            static_cast<double>(row) + 0.5);
 }
 
 double DistanceWave::clearance_m(const sim::Vec2& p_W) const {
