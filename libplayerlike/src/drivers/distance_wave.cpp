@@ -114,8 +114,8 @@ sim::Vec2 DistanceWave::center_of(std::size_t cell) const {
   const auto width = static_cast<std::size_t>(width_);
   const std::size_t row = cell / width;
   const std::size_t column = cell % width;
-  return origin_ + cell_size_m_ * sim::Vec2(static_cast<double>(column) + 0.5,
-                                            static_cast<double>(row) + 0.5);
+  return origin_ + cell_size_m_ *
+                       sim::Vec2(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
 }
 
 double DistanceWave::clearance_m(const sim::Vec2& p_W) const {
