@@ -27,7 +27,8 @@ int nd_sector_of(double bearing_rad) {
                         kNdSectors / 2);
 }
 double nd_bearing_of(int sector) {
-  return sim::normalize_angle((sector - kNdSectors / 2) * kNdSector_rad);
+  constexpr int kAhead = kNdSectors / 2;
+  return sim::normalize_angle((sector - kAhead) * kNdSector_rad);
 }
 
 }  // namespace
