@@ -2,6 +2,7 @@
 #include <string>
 #include <variant>
 
+#include "devices/client_core.h"
 #include "devices/errors.h"
 #include "drivers/local_driver_start.h"
 #include "libCCMorse/SndDriver.h"
