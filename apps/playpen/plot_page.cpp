@@ -212,6 +212,9 @@ sim::SceneSnapshot scene_of(const std::vector<RunData>& runs, const std::vector<
       }
     }
     robot.footprint = model->footprint;
+    for (const sim::Superstructure& part : model->superstructures) {
+      robot.superstructures.push_back(part.outline);
+    }
     for (const sim::Pose& X_WB : series.track->X_WB) {
       robot.trail.push_back(X_WB.position());
       low = low.cwiseMin(X_WB.position());

@@ -1,239 +1,548 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Compares what Playpen measures with what stage_scans has written about Stage:
-//   compare_stage WORLD SCANS NAME=PLAYPENS_NAME:PORT...
-// It prints a line for each ranger of each robot, and one for the drives of each robot.
-#include <libplayerc++/playerc++.h>
-
+//   compare_stage WORLD SCANS [--list N] NAME=PLAYPENS_NAME...
+// It prints a line for each ranger of each robot, one for the drives of each robot, and one for all
+// beams; with --list also the first N beams that differ.
+//
+// Stage draws outlines into a raster: their corners are rounded to cells, and a beam walks from
+// cell to cell until one is drawn. So outlines are compared in Stage's way, too: Playpen's
+// outlines, as the sensor sees them at its height, are drawn into such a raster, and a beam agrees
+// if a walk over it ends at most one cell beside Stage's. Besides, the exact ranges that Playpen
+// measures are compared: a beam is near if Playpen measures Stage's range, give or take two cells,
+// along the same line or along a parallel one at most two cells aside.
 #include <algorithm>
+#include <any>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <memory>
+#include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <unordered_set>
 #include <vector>
+
+#include "sim/core/error.h"
+#include "sim/devices/laser.h"
+#include "sim/devices/rangers.h"
+#include "sim/simulation/simulation.h"
+#include "sim/world/outline.h"
 
 namespace {
 
-struct Point {
-  double x, y;
+using sim::Pose;
+using sim::Vec2;
+
+/// A side of an outline, with the solid on its left.
+struct Side {
+  Vec2 a, b;
+  std::string solid;
 };
 
-/// Distance of a point from a line segment.
-double distance(const Point& p, const Point& a, const Point& b) {
-  const double dx = b.x - a.x, dy = b.y - a.y;
-  const double length2 = dx * dx + dy * dy;
-  double t = length2 > 0.0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / length2 : 0.0;
-  t = std::max(0.0, std::min(1.0, t));
-  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+void add(std::vector<Side>& sides, const sim::Polygon& outline, const Pose& X,
+         const std::string& solid) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    sides.push_back({X * outline[i], X * outline[(i + 1) % outline.size()], solid});
+  }
 }
+
+/// Everything that a sensor at a height sees, without its own robot.
+std::vector<Side> sides_above(const sim::Simulation& simulation, int own, double height_m) {
+  std::vector<Side> sides;
+  const sim::ArenaDescription& arena = simulation.world().arena;
+  for (const sim::WallLoop& loop : arena.walls) {
+    if (loop.height_m > height_m) add(sides, loop.vertices, {}, "map");
+  }
+  for (const sim::ObstacleDescription& obstacle : arena.obstacles) {
+    if (obstacle.height_m > height_m) add(sides, sim::corners_of(obstacle), {}, obstacle.name);
+  }
+  for (int i = 0; i < simulation.robot_count(); ++i) {
+    if (i == own) continue;
+    const sim::RobotModel& model = simulation.model(i);
+    const Pose& X_WB = simulation.body(i).X_WB;
+    const std::string& name = simulation.world().robots[static_cast<std::size_t>(i)].name;
+    if (model.height_m > height_m) add(sides, model.footprint, X_WB, name);
+    for (const sim::Superstructure& part : model.superstructures) {
+      if (part.height_m > height_m) add(sides, part.outline, X_WB, name);
+    }
+  }
+  return sides;
+}
+
+/// Where a beam ends.
+struct Hit {
+  double range_m;
+  int side = -1;  ///< that it meets
+};
+
+/// Range of a beam by the simplest method: against each side that faces it.
+Hit cast(const std::vector<Side>& sides, const Vec2& from, const Vec2& along, double range_max_m) {
+  Hit hit{range_max_m};
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Vec2 side = sides[i].b - sides[i].a;
+    const double turn = cross(side, along);
+    if (turn <= 0.0) continue;
+    const Vec2 to = sides[i].a - from;
+    const double range_m = cross(side, to) / turn;
+    const double share = cross(along, to) / turn;
+    if (range_m >= 0.0 && range_m < hit.range_m && share >= 0.0 && share <= 1.0) {
+      hit = {range_m, static_cast<int>(i)};
+    }
+  }
+  return hit;
+}
+
+/// Distance of a range from those that Playpen measures along parallel beams up to `aside_m` away.
+double off_m(const std::vector<Side>& sides, const Vec2& from, double angle_rad, double theirs_m,
+             double range_max_m, double aside_m) {
+  constexpr int kSteps = 4;  // to either side
+  const Vec2 along(std::cos(angle_rad), std::sin(angle_rad));
+  const Vec2 left(-along.y(), along.x());
+  double least_m = range_max_m;
+  std::optional<Hit> before;
+  for (int k = -kSteps; k <= kSteps; ++k) {
+    const Vec2 start = from + (aside_m * k / kSteps) * left;
+    const Hit hit = cast(sides, start, along, range_max_m);
+    least_m = std::min(least_m, std::abs(hit.range_m - theirs_m));
+    // Between two beams that meet the same side, all ranges between theirs occur.
+    if (before && before->side == hit.side && theirs_m >= std::min(before->range_m, hit.range_m) &&
+        theirs_m <= std::max(before->range_m, hit.range_m)) {
+      return 0.0;
+    }
+    before = hit;
+  }
+  return least_m;
+}
+
+/// A raster as Stage has it (libstage/world.cc, region.hh).
+class Raster {
+ public:
+  explicit Raster(double cell_m) : cells_per_m_(1.0 / cell_m) {}
+
+  /// Draws a side as the cells that a walk of steps along x or y from its start to its end passes,
+  /// without the last one.
+  /// @param visible  whether beams end there; regions with invisible sides only are walked, too.
+  void draw(const Side& side, bool visible) {
+    const auto cell = [&](double m) { return static_cast<int>(std::floor(m * cells_per_m_)); };
+    double x = cell(side.a.x()), y = cell(side.a.y());
+    walk(x, y, cell(side.b.x()) - cell(side.a.x()), cell(side.b.y()) - cell(side.a.y()),
+         [&](int at_x, int at_y) {
+           regions_.insert(key(at_x >> kRegionBits, at_y >> kRegionBits));
+           if (visible) cells_.insert(key(at_x, at_y));
+           return true;
+         });
+  }
+
+  /// Range of a beam.
+  [[nodiscard]] double cast_m(const Vec2& from, double angle_rad, double range_max_m) const {
+    const double angle = angle_rad == 0.0 ? 1e-12 : angle_rad;
+    const double slope_x = std::cos(angle), slope_y = std::sin(angle);
+    const Vec2 start = from * cells_per_m_;
+    const int dx = static_cast<int>(cells_per_m_ * range_max_m * slope_x);
+    const int dy = static_cast<int>(cells_per_m_ * range_max_m * slope_y);
+    double x = start.x(), y = start.y();
+    int error = std::abs(dy) - std::abs(dx);
+    int left = std::abs(dx) + std::abs(dy);  // steps
+    while (left > 0) {
+      if (regions_.count(region_of(x, y)) == 0) {
+        jump(x, y, left, dx, dy, slope_y / slope_x);
+        continue;
+      }
+      // Within a region Stage counts cells from where the beam enters it.
+      const int begin_x = static_cast<int>(x), begin_y = static_cast<int>(y);
+      const double offset_x = x - begin_x, offset_y = y - begin_y;
+      int at_x = begin_x, at_y = begin_y;
+      while (at_x >> kRegionBits == begin_x >> kRegionBits &&
+             at_y >> kRegionBits == begin_y >> kRegionBits && left > 0) {
+        if (cells_.count(key(at_x, at_y)) != 0) {
+          x = at_x + offset_x;
+          y = at_y + offset_y;
+          return (std::abs(dx) > std::abs(dy) ? std::abs((x - start.x()) / slope_x)
+                                              : std::abs((y - start.y()) / slope_y)) /
+                 cells_per_m_;
+        }
+        step(at_x, at_y, error, dx, dy);
+        --left;
+      }
+      x = at_x + offset_x;
+      y = at_y + offset_y;
+    }
+    return range_max_m;
+  }
+
+ private:
+  static constexpr int kRegionBits = 5;
+
+  static std::int64_t key(int x, int y) {
+    return (static_cast<std::int64_t>(x) << 32) ^ (y & 0xffffffffLL);
+  }
+  static std::int64_t region_of(double x, double y) {
+    return key(static_cast<int>(x) >> kRegionBits, static_cast<int>(y) >> kRegionBits);
+  }
+  static int sign(int n) { return n < 0 ? -1 : 1; }
+
+  template <typename Number>
+  static void step(Number& x, Number& y, int& error, int dx, int dy) {
+    if (error < 0) {
+      x += sign(dx);
+      error += 2 * std::abs(dy);
+    } else {
+      y += sign(dy);
+      error -= 2 * std::abs(dx);
+    }
+  }
+
+  template <typename Visitor>
+  static void walk(double x, double y, int dx, int dy, Visitor visit) {
+    int error = std::abs(dy) - std::abs(dx);
+    for (int left = std::abs(dx) + std::abs(dy); left > 0; --left) {
+      visit(static_cast<int>(x), static_cast<int>(y));
+      step(x, y, error, dx, dy);
+    }
+  }
+
+  /// Moves a beam to the border of its region, which is empty.
+  static void jump(double& x, double& y, int& left, int dx, int dy, double slope) {
+    constexpr int kWidth = 1 << kRegionBits;
+    const auto to_border = [](double at, int direction) {
+      const double begin = (static_cast<int>(at) >> kRegionBits) * kWidth;
+      return direction < 0 ? begin - at - 1.0 : begin + kWidth - at;
+    };
+    const double x_dx = to_border(x, sign(dx)), x_dy = x_dx * slope;
+    const double y_dy = to_border(y, sign(dy)), y_dx = y_dy / slope;
+    const bool along_x = std::abs(x_dx) + std::abs(x_dy) < std::abs(y_dx) + std::abs(y_dy);
+    const double by_x = along_x ? x_dx : y_dx, by_y = along_x ? x_dy : y_dy;
+    x += by_x;
+    y += by_y;
+    left = static_cast<int>(left - (std::abs(by_x) + std::abs(by_y)));
+  }
+
+  double cells_per_m_;
+  std::unordered_set<std::int64_t> cells_, regions_;
+};
 
 /// Figures of one ranger.
-struct Ranger {
-  std::size_t beams = 0, alike = 0, one_cell = 0, two_cells = 0, missed = 0, extra = 0, farther = 0,
-              nearer = 0;
-  std::vector<double> errors;
-  std::string problem;
+struct Figures {
+  std::size_t beams = 0, agree = 0, two_cells = 0, missed = 0, extra = 0, farther = 0, nearer = 0;
+  std::vector<double> errors_m;
 };
 
-/// Ranges of a ranger of Stage at a pose.
+/// How far apart drives end.
+struct Drives {
+  int count = 0;
+  double farthest_m = 0.0;
+  double greatest_turn_rad = 0.0;
+};
+
+/// A sensor of Stage: its ranges at a pose.
 struct Scan {
-  double field_of_view = 0.0, range_max = 0.0;
-  std::size_t sensors = 0;
-  std::vector<double> ranges;
+  double range_max_m = 0.0;
+  std::vector<double> ranges_m;
 };
 
-/// One robot of the world.
-struct Robot {
-  explicit Robot(const std::string& world, const std::string& called, int port)
-      : name(called),
-        client("sim:" + world, static_cast<uint32_t>(port)),
-        simulation(&client, 0),
-        position(&client, 0) {}
-
-  void place(double x, double y, double yaw) {
-    simulation.SetPose2d(&name[0], x, y, yaw);
-    // Readings that were made before are still to come.
-    for (int i = 0; i < 3; ++i) client.Read();
-  }
-
-  std::string name;
-  PlayerCc::PlayerClient client;
-  PlayerCc::SimulationProxy simulation;
-  PlayerCc::Position2dProxy position;
-  std::map<std::size_t, std::unique_ptr<PlayerCc::RangerProxy>> rangers;
-  std::map<std::size_t, Ranger> figures;
-  std::vector<double> drive_errors_m, drive_errors_rad;
+/// A ranger of Playpen: where its beams start and what they measure.
+struct Beams {
+  std::vector<Pose> X_BS;
+  std::vector<double> ranges_m;
+  double height_m = 0.0;
+  double range_max_m = 0.0;
 };
 
-void compare(Robot& robot, std::size_t index, const Scan& stage, double cell) {
-  Ranger& figures = robot.figures[index];
-  std::unique_ptr<PlayerCc::RangerProxy>& proxy = robot.rangers[index];
-  if (!figures.problem.empty()) return;
-  if (proxy->GetRangeCount() != stage.ranges.size()) {
-    figures.problem = std::to_string(stage.ranges.size()) + " ranges in Stage, " +
-                      std::to_string(proxy->GetRangeCount()) + " in Playpen";
-    return;
-  }
-  const std::size_t count = stage.ranges.size();
-  const bool is_scan = stage.sensors == 1 && count > 1;
-  // A line crosses cells of Stage's raster; a beam ends where it enters one of them. That point is
-  // at most a diagonal of a cell from the line, and farther away along a beam that meets it at an
-  // angle. Stage rounds the ends of lines to cells, too, which moves them by another diagonal at
-  // most.
-  const double diagonal = std::sqrt(2.0) * cell;
-  // Stage gives ranges that meet nothing the maximum.
-  const double max = stage.range_max;
-  const auto place = [&](std::size_t beam, double range) {
-    const double angle = is_scan ? stage.field_of_view * (beam / (count - 1.0) - 0.5) : 0.0;
-    return Point{range * std::cos(angle), range * std::sin(angle)};
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    const double theirs = stage.ranges[i];
-    const double ours = proxy->GetRange(static_cast<uint32_t>(i));
-    const double error = ours - theirs;
-    ++figures.beams;
-    figures.errors.push_back(std::abs(error));
-    if (std::abs(error) <= cell) ++figures.alike;
-    double off = std::abs(error);
-    if (is_scan && theirs < max) {
-      const Point hit = place(i, theirs);
-      for (std::size_t j = i == 0 ? 0 : i - 1; j <= i && j + 1 < count; ++j) {
-        const double a = proxy->GetRange(static_cast<uint32_t>(j));
-        const double b = proxy->GetRange(static_cast<uint32_t>(j + 1));
-        if (a < max && b < max) off = std::min(off, distance(hit, place(j, a), place(j + 1, b)));
-      }
+Beams beams_of(const sim::Simulation& simulation, int robot, const std::string& name) {
+  Beams beams;
+  const sim::Device& device = simulation.device(robot, simulation.find_device(robot, name).value());
+  if (const auto* laser = dynamic_cast<const sim::Laser*>(&device)) {
+    const sim::LaserParams& params = laser->params();
+    for (int i = 0; i < params.beam_count; ++i) {
+      const double angle_rad = params.resolution_rad * (i - 0.5 * (params.beam_count - 1));
+      beams.X_BS.push_back(params.X_BL * Pose{0.0, 0.0, angle_rad});
     }
-    if (off <= diagonal) ++figures.one_cell;
-    if (off <= 2.0 * diagonal) {
-      ++figures.two_cells;
-    } else if (theirs >= max) {
-      ++figures.extra;
-    } else if (ours >= max) {
-      ++figures.missed;
-    } else if (error > 0.0) {
-      ++figures.farther;
-    } else {
-      ++figures.nearer;
+    beams.ranges_m = laser->reading().ranges_m;
+    beams.height_m = params.height_m;
+    beams.range_max_m = params.range_max_m;
+  } else if (const auto* ring = dynamic_cast<const sim::Ranger*>(&device)) {
+    beams.X_BS = ring->reading().X_BS;
+    beams.ranges_m = ring->reading().ranges_m;
+    beams.range_max_m = ring->reading().range_max_m;
+    for (const sim::DeviceDescription& d :
+         simulation.world().robots[static_cast<std::size_t>(robot)].devices) {
+      if (d.name == name)
+        beams.height_m = std::any_cast<const sim::SonarParams&>(d.params).height_m;
     }
   }
+  return beams;
 }
 
-double part(std::size_t some, std::size_t all) { return all == 0 ? 0.0 : 100.0 * some / all; }
+class Comparison {
+ public:
+  Comparison(const std::string& world, std::size_t list)
+      : simulation_(sim::load_world(world)), list_(list) {}
 
-void drive(Robot& robot, std::istream& in) {
-  double x, y, yaw, v, omega, seconds, to_x, to_y, to_yaw;
-  if (!(in >> x >> y >> yaw >> v >> omega >> seconds >> to_x >> to_y >> to_yaw)) return;
-  robot.place(x, y, yaw);
-  robot.position.SetSpeed(v, omega);
-  const double begin = robot.position.GetDataTime();
-  while (robot.position.GetDataTime() < begin + seconds - 1e-6) robot.client.Read();
-  double end_x = 0.0, end_y = 0.0, end_yaw = 0.0;
-  robot.simulation.GetPose2d(&robot.name[0], end_x, end_y, end_yaw);
-  robot.position.SetSpeed(0.0, 0.0);
-  robot.client.Read();
-  robot.drive_errors_m.push_back(std::hypot(end_x - to_x, end_y - to_y));
-  robot.drive_errors_rad.push_back(std::abs(PlayerCc::normalize(end_yaw - to_yaw)));
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc < 3) {
-    std::cerr << "usage: compare_stage WORLD SCANS NAME=PLAYPENS_NAME:PORT...\n";
-    return 2;
+  void name(const std::string& stage, const std::string& own) {
+    if (const auto robot = simulation_.find_robot(own)) robots_[stage] = *robot;
   }
-  std::map<std::string, std::unique_ptr<Robot>> robots;
-  try {
-    for (int i = 3; i < argc; ++i) {
-      const std::string text = argv[i];
-      // Names of Stage contain colons.
-      const std::size_t equals = text.find('='), colon = text.rfind(':');
-      robots[text.substr(0, equals)].reset(new Robot(argv[1],
-                                                     text.substr(equals + 1, colon - equals - 1),
-                                                     std::atoi(text.c_str() + colon + 1)));
-    }
-    std::ifstream in(argv[2]);
+
+  void run(std::istream& in) {
     std::string line;
-    double cell = 0.02;
-    Robot* robot = nullptr;
-    std::size_t ranger = 0;
-    Scan scan;
     while (std::getline(in, line)) {
       std::istringstream words(line);
       std::string what, name;
       words >> what;
       if (what == "resolution") {
-        words >> cell;
-      } else if (what == "pose" || what == "drive") {
+        words >> cell_m_;
+      } else if (what == "robot") {
         words >> name;
-        const auto found = robots.find(name);
-        robot = found == robots.end() ? nullptr : found->second.get();
-        if (robot == nullptr) continue;
-        if (what == "drive") {
-          drive(*robot, words);
-          continue;
+        starts_[name] = read_pose(words);
+        place(name, starts_[name]);  // Playpen moves robots that overlap something
+      } else if (what == "pose") {
+        compare_scans();
+        words >> name;
+        // In Stage the others have returned to where they were.
+        if (name != stage_name_ && starts_.count(stage_name_) != 0) {
+          place(stage_name_, starts_.at(stage_name_));
         }
-        double x, y, yaw;
-        words >> x >> y >> yaw;
-        if (!robot->rangers.empty()) robot->place(x, y, yaw);
-        // At the first pose the rangers are not known yet.
-        if (robot->rangers.empty()) robot->simulation.SetPose2d(&robot->name[0], x, y, yaw);
-      } else if (what == "ranger" && robot != nullptr) {
-        scan = Scan();
-        words >> ranger >> scan.sensors;
-        if (robot->rangers.find(ranger) == robot->rangers.end()) {
-          try {
-            robot->rangers[ranger].reset(
-                new PlayerCc::RangerProxy(&robot->client, static_cast<uint32_t>(ranger)));
-            for (int i = 0; i < 3; ++i) robot->client.Read();
-          } catch (const PlayerCc::PlayerError& error) {
-            robot->figures[ranger].problem = error.GetErrorStr();
-          }
-        }
-      } else if (what == "sensor" && robot != nullptr) {
+        place(name, read_pose(words));
+      } else if (what == "ranger") {
+        std::size_t index = 0, sensors = 0;
+        words >> index >> sensors;
+        scans_.emplace_back();
+      } else if (what == "sensor" && !scans_.empty()) {
+        double view_rad = 0.0;
         std::size_t count = 0;
-        words >> scan.field_of_view >> scan.range_max >> count;
-        double range = 0.0;
-        for (std::size_t i = 0; i < count && words >> range; ++i) scan.ranges.push_back(range);
-        if (--scan.sensors == 0) {
-          scan.sensors = scan.ranges.size() == count ? 1 : scan.ranges.size();
-          compare(*robot, ranger, scan, cell);
+        Scan scan;
+        words >> view_rad >> scan.range_max_m >> count;
+        double range_m = 0.0;
+        while (words >> range_m) scan.ranges_m.push_back(range_m);
+        scans_.back().push_back(std::move(scan));
+      } else if (what == "drive") {
+        compare_scans();
+        words >> name;
+        drive(name, words);
+      }
+    }
+    compare_scans();
+  }
+
+  void print() {
+    std::cout.setf(std::ios::fixed);
+    std::cout.precision(2);
+    Figures all;
+    for (auto& [name, figures] : figures_) {
+      print_line(name, figures);
+      all.beams += figures.beams;
+      all.agree += figures.agree;
+      all.two_cells += figures.two_cells;
+      all.missed += figures.missed;
+      all.extra += figures.extra;
+      all.farther += figures.farther;
+      all.nearer += figures.nearer;
+      all.errors_m.insert(all.errors_m.end(), figures.errors_m.begin(), figures.errors_m.end());
+    }
+    for (const auto& [name, drives] : drives_) {
+      std::cout << name << " drives: " << drives.count << ", ends at most "
+                << 1000.0 * drives.farthest_m << " mm and "
+                << drives.greatest_turn_rad * 57.29577951308232 << " degrees from Stage's\n";
+    }
+    if (refused_ > 0) {
+      std::cout << refused_ << " poses at which Playpen's robot would overlap something\n";
+    }
+    if (!figures_.empty()) print_line("all", all);
+  }
+
+ private:
+  static Pose read_pose(std::istream& in) {
+    Pose pose;
+    in >> pose.x_m >> pose.y_m >> pose.yaw_rad;
+    return pose;
+  }
+
+  void place(const std::string& name, const Pose& pose) {
+    stage_name_ = name;
+    robot_ = robots_.count(name) == 0 ? -1 : robots_.at(name);
+    if (robot_ < 0) return;
+    const std::string& own = simulation_.world().robots[static_cast<std::size_t>(robot_)].name;
+    if (simulation_.place_object(own, pose)) {
+      ++refused_;
+      robot_ = -1;
+    }
+  }
+
+  /// Rangers of the robot, in the order of their indices.
+  [[nodiscard]] std::vector<std::string> rangers() const {
+    const auto& robot = simulation_.world().robots[static_cast<std::size_t>(robot_)];
+    const auto found = robot.interfaces.find("ranger");
+    return found == robot.interfaces.end() ? std::vector<std::string>() : found->second;
+  }
+
+  void compare_scans() {
+    if (robot_ >= 0 && !scans_.empty()) {
+      for (int i = 0; i < 21; ++i) simulation_.step();  // each sensor measures
+      const std::vector<std::string> names = rangers();
+      std::size_t next = 0;
+      for (std::size_t ranger = 0; ranger < scans_.size(); ++ranger) {
+        // Transducers of one ray are one device, scanners one each.
+        const std::vector<Scan>& sensors = scans_[ranger];
+        const bool ring = std::all_of(sensors.begin(), sensors.end(),
+                                      [](const Scan& s) { return s.ranges_m.size() == 1; });
+        std::vector<Scan> devices = sensors;
+        if (ring) {
+          devices = {Scan{sensors.front().range_max_m, {}}};
+          for (const Scan& s : sensors) devices[0].ranges_m.push_back(s.ranges_m[0]);
+        }
+        for (const Scan& scan : devices) {
+          if (next < names.size()) compare(ranger, names[next++], scan);
         }
       }
     }
-  } catch (const PlayerCc::PlayerError& error) {
-    std::cerr << "compare_stage: " << error << '\n';
-    return 1;
+    scans_.clear();
   }
-  std::cout.setf(std::ios::fixed);
-  std::cout.precision(2);
-  for (auto& entry : robots) {
-    Robot& robot = *entry.second;
-    for (auto& one : robot.figures) {
-      Ranger& r = one.second;
-      std::cout << entry.first << " ranger:" << one.first << ": ";
-      if (!r.problem.empty()) {
-        std::cout << r.problem << '\n';
+
+  void compare(std::size_t ranger, const std::string& device, const Scan& stage) {
+    Figures& figures = figures_[stage_name_ + " ranger:" + std::to_string(ranger)];
+    const Beams ours = beams_of(simulation_, robot_, device);
+    if (ours.ranges_m.size() != stage.ranges_m.size()) {
+      throw std::runtime_error(device + ": " + std::to_string(stage.ranges_m.size()) +
+                               " ranges in Stage, " + std::to_string(ours.ranges_m.size()) +
+                               " in Playpen");
+    }
+    const Pose X_WB = simulation_.body(robot_).X_WB;
+    const std::vector<Side> sides = sides_above(simulation_, robot_, ours.height_m);
+    // Stage draws lines in the order of a block's points, which Playpen does not keep.
+    Raster rasters[2] = {Raster(cell_m_), Raster(cell_m_)};
+    for (const Side& side : sides_above(simulation_, -1, -1.0)) rasters[0].draw(side, false);
+    rasters[1] = rasters[0];
+    for (const Side& side : sides) {
+      rasters[0].draw(side, true);
+      rasters[1].draw({side.b, side.a, side.solid}, true);
+    }
+    for (std::size_t i = 0; i < ours.ranges_m.size(); ++i) {
+      const double theirs_m = std::min(stage.ranges_m[i], stage.range_max_m);
+      const double error_m = ours.ranges_m[i] - theirs_m;
+      const Pose X_WS = X_WB * ours.X_BS[i];
+      const double off =
+          off_m(sides, X_WS.position(), X_WS.yaw_rad, theirs_m, ours.range_max_m, 2.0 * cell_m_);
+      ++figures.beams;
+      figures.errors_m.push_back(std::abs(error_m));
+      if (off <= 2.0 * cell_m_) ++figures.two_cells;
+      // One cell along x or y.
+      const double cell_along_m =
+          1.0001 * cell_m_ /
+          std::max(std::abs(std::cos(X_WS.yaw_rad)), std::abs(std::sin(X_WS.yaw_rad)));
+      double walked_m = 0.0;
+      bool agrees = false;
+      for (const Raster& raster : rasters) {
+        walked_m = raster.cast_m(X_WS.position(), X_WS.yaw_rad, ours.range_max_m);
+        agrees = agrees || std::abs(walked_m - theirs_m) <= cell_along_m;
+      }
+      if (agrees) {
+        ++figures.agree;
         continue;
       }
-      std::sort(r.errors.begin(), r.errors.end());
-      std::cout << r.beams << " beams, " << part(r.alike, r.beams)
-                << " % differ by at most a cell, " << part(r.one_cell, r.beams)
-                << " % end within a cell of the same surface, " << part(r.two_cells, r.beams)
-                << " % within two; median " << 1000.0 * r.errors[r.errors.size() / 2]
-                << " mm; others: " << r.missed << " only in Stage, " << r.extra
-                << " only in Playpen, " << r.farther << " farther, " << r.nearer << " nearer\n";
+      list_beam(device, i, X_WS, sides, theirs_m, walked_m, ours);
+      if (theirs_m >= stage.range_max_m) {
+        ++figures.extra;
+      } else if (ours.ranges_m[i] >= ours.range_max_m) {
+        ++figures.missed;
+      } else {
+        ++(error_m > 0.0 ? figures.farther : figures.nearer);
+      }
     }
-    if (robot.drive_errors_m.empty()) continue;
-    std::cout << entry.first << " drives: " << robot.drive_errors_m.size() << ", ends at most "
-              << 1000.0 *
-                     *std::max_element(robot.drive_errors_m.begin(), robot.drive_errors_m.end())
-              << " mm and "
-              << PlayerCc::rtod(*std::max_element(robot.drive_errors_rad.begin(),
-                                                  robot.drive_errors_rad.end()))
-              << " degrees from Stage's\n";
+  }
+
+  void list_beam(const std::string& device, std::size_t beam, const Pose& X_WS,
+                 const std::vector<Side>& sides, double theirs_m, double walked_m,
+                 const Beams& ours) {
+    if (list_ == 0) return;
+    --list_;
+    const Vec2 along(std::cos(X_WS.yaw_rad), std::sin(X_WS.yaw_rad));
+    const Hit hit = cast(sides, X_WS.position(), along, ours.range_max_m);
+    const Vec2 end = X_WS.position() + theirs_m * along;
+    std::cout << "  " << stage_name_ << ' ' << device << " beam " << beam << " from (" << X_WS.x_m
+              << ", " << X_WS.y_m << ") at height " << ours.height_m << ": Stage " << theirs_m
+              << " at (" << end.x() << ", " << end.y() << "), raster " << walked_m << ", Playpen "
+              << ours.ranges_m[beam] << " at "
+              << (hit.side < 0 ? "nothing" : sides[static_cast<std::size_t>(hit.side)].solid)
+              << '\n';
+  }
+
+  void drive(const std::string& name, std::istream& in) {
+    double x, y, yaw, v, omega, seconds, to_x, to_y, to_yaw;
+    if (!(in >> x >> y >> yaw >> v >> omega >> seconds >> to_x >> to_y >> to_yaw)) return;
+    place(name, {x, y, yaw});
+    if (robot_ < 0) return;
+    const auto motion = simulation_.find_device(robot_, "motion");
+    if (!motion) return;
+    static_cast<void>(simulation_.apply({robot_, *motion}, sim::TwistCommand{{v, omega}}));
+    const sim::SimTime until_ns = simulation_.now_ns() + sim::from_seconds(seconds);
+    while (simulation_.now_ns() < until_ns) simulation_.step();
+    const Pose& end = simulation_.body(robot_).X_WB;
+    Drives& drives = drives_[name];
+    ++drives.count;
+    drives.farthest_m = std::max(drives.farthest_m, std::hypot(end.x_m - to_x, end.y_m - to_y));
+    drives.greatest_turn_rad =
+        std::max(drives.greatest_turn_rad, std::abs(sim::normalize_angle(end.yaw_rad - to_yaw)));
+    static_cast<void>(simulation_.apply({robot_, *motion}, sim::TwistCommand{{0.0, 0.0}}));
+    simulation_.step();
+  }
+
+  static void print_line(const std::string& name, Figures& f) {
+    if (f.beams == 0) return;
+    const auto share = [&](std::size_t some) {
+      return 100.0 * static_cast<double>(some) / static_cast<double>(f.beams);
+    };
+    const auto middle = f.errors_m.begin() + static_cast<std::ptrdiff_t>(f.errors_m.size() / 2);
+    std::nth_element(f.errors_m.begin(), middle, f.errors_m.end());
+    std::cout << name << ": " << f.beams << " beams, " << share(f.agree) << " % agree, "
+              << share(f.two_cells) << " % near, median difference " << 1000.0 * *middle
+              << " mm; others: " << f.missed << " only in Stage, " << f.extra
+              << " only in Playpen, " << f.farther << " farther, " << f.nearer << " nearer\n";
+  }
+
+  sim::Simulation simulation_;
+  std::size_t list_;
+  double cell_m_ = 0.02;
+  std::map<std::string, int> robots_;
+  std::map<std::string, Pose> starts_;
+  std::string stage_name_;
+  int robot_ = -1;
+  std::vector<std::vector<Scan>> scans_;  // of the present pose, ranger by ranger
+  std::map<std::string, Figures> figures_;
+  std::map<std::string, Drives> drives_;
+  int refused_ = 0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  std::size_t list = 0;
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    if (words[i] != "--list") continue;
+    list = static_cast<std::size_t>(std::atoi(words[i + 1].c_str()));
+    words.erase(words.begin() + static_cast<std::ptrdiff_t>(i),
+                words.begin() + static_cast<std::ptrdiff_t>(i) + 2);
+    break;
+  }
+  if (words.size() < 2) {
+    std::cerr << "usage: compare_stage WORLD SCANS [--list N] NAME=PLAYPENS_NAME...\n";
+    return 2;
+  }
+  try {
+    Comparison comparison(words[0], list);
+    for (std::size_t i = 2; i < words.size(); ++i) {
+      const std::size_t equals = words[i].find('=');
+      comparison.name(words[i].substr(0, equals), words[i].substr(equals + 1));
+    }
+    std::ifstream in(words[1]);
+    comparison.run(in);
+    comparison.print();
+  } catch (const std::exception& error) {
+    std::cerr << "compare_stage: " << error.what() << '\n';
+    return 1;
   }
 }

@@ -11,7 +11,8 @@ Usage: tests/interop/compare_stage.sh --prefix DIR --build DIR [OPTIONS] [WORLD.
 
 For each world: stage_scans.cc, a program with real Stage's library, puts up to three robots at random
 places, and writes what their rangers measure. `playpen import` reads the same world, and
-compare_stage.cc measures at the same places. Controllers (ctrl) and cameras are removed from the worlds,
+compare_stage.cc measures at the same places. A beam agrees if Playpen measures Stage's range, give or
+take a cell of Stage's raster, along the same line or along a parallel one at most a cell aside. Controllers (ctrl) and cameras are removed from the worlds,
 and noise is switched off in Stage.
 
   --prefix DIR     as for build_peers.sh
@@ -22,6 +23,7 @@ and noise is switched off in Stage.
   --seed N         of the random places (default: 1)
   --resolution M   cells of Stage's raster [m] instead of those of the world; ranges are still compared with
                    the world's cells. Small cells show how much of the difference comes from the raster.
+  --list N         print the first N beams of a world that differ
   --imported FILE  compare the world with this world file of Playpen instead of importing it
 TEXT
 }
@@ -36,6 +38,7 @@ poses=100
 seed=1
 resolution=
 imported=
+list=0
 names=()
 while (($# > 0)); do
   case $1 in
@@ -50,6 +53,7 @@ while (($# > 0)); do
     --poses) poses=${2:?--poses needs a number} ;;
     --seed) seed=${2:?--seed needs a number} ;;
     --resolution) resolution=${2:?--resolution needs a number} ;;
+    --list) list=${2:?--list needs a number} ;;
     --imported) imported=$(realpath "${2:?--imported needs a file}") ;;
     --*)
       usage >&2
@@ -98,11 +102,11 @@ export PKG_CONFIG_PATH=$prefix/lib/pkgconfig:$prefix/lib64/pkgconfig
 read -ra stage_flags <<<"$(pkg-config --cflags stage)"
 g++ -std=gnu++14 -O1 -fpermissive -w "${stage_flags[@]}" "$here/stage_scans.cc" -o "$out/stage_scans" \
   -L"$prefix/lib" -L"$prefix/lib64" -lstage -Wl,-rpath,"$prefix/lib:$prefix/lib64"
-g++ -std=gnu++14 -O1 -I"$root/libplayerlike/include" -I"$build/libplayerlike/include" \
-  "$here/compare_stage.cc" -o "$out/compare_stage" "$build/libplayerlike/libplaypen_playerlike.so" -pthread \
-  -Wl,-rpath,"$build/libplayerlike:$build/libsim" -Wl,-rpath-link,"$build/libsim"
+read -ra eigen_flags <<<"$(pkg-config --cflags eigen3)"
+g++ -std=c++20 -O2 "${eigen_flags[@]}" -I"$root/libsim/include" "$here/compare_stage.cc" \
+  -o "$out/compare_stage" "$build/libsim/libplaypen_sim.so" -Wl,-rpath,"$build/libsim"
 
-# robots_of WORLD SCANS: NAME=PLAYPENS_NAME:PORT for each robot of the scans: that which stands at the
+# robots_of WORLD SCANS: NAME=PLAYPENS_NAME for each robot of the scans: that which stands at the
 # same place in Playpen's world.
 robots_of() {
   python3 - "$1" "$2" <<'PYTHON'
@@ -122,7 +126,7 @@ for line in open(sys.argv[2], encoding="utf-8"):
     best = min(range(len(robots)), default=None, key=lambda i: math.hypot(
         robots[i]["pose"].get("x", 0) - x, robots[i]["pose"].get("y", 0) - y))
     if best is not None:
-        print("%s=%s:%d" % (words[1], robots[best]["name"], robots[best].get("port", 6665 + best)))
+        print("%s=%s" % (words[1], robots[best]["name"]))
 PYTHON
 }
 
@@ -163,7 +167,7 @@ for name in "${names[@]}"; do
     file=$(find "$out/imported/$name" -name '*.json' | head -n 1)
   fi
   mapfile -t robots < <(robots_of "$file" "$out/$name.txt")
-  timeout 300 "$out/compare_stage" "$file" "$out/$name.txt" "${robots[@]}" 2>"$out/$name.compare.err" || {
+  timeout 300 "$out/compare_stage" "$file" "$out/$name.txt" --list "$list" "${robots[@]}" 2>"$out/$name.compare.err" || {
     printf 'not compared: %s\n' "$(tail -n 1 "$out/$name.compare.err")"
     failed=1
   }

@@ -272,6 +272,9 @@ std::vector<std::string> violations(const Source& source) {
     if (include == "png.h" && path != "libsim/src/canvas/png_codec.cpp") {
       refuse("libpng belongs in libsim/src/canvas/png_codec.cpp");
     }
+    if (include == "jpeglib.h" && path != "libsim/src/canvas/jpeg_codec.cpp") {
+      refuse("libjpeg belongs in libsim/src/canvas/jpeg_codec.cpp");
+    }
     if (include == "zlib.h" && !starts_with_any(path, {"libplayerlike/src/wire/",
                                                        "libplayerlike/src/remote/", "tests/"})) {
       refuse("zlib belongs in libplayerlike/src/wire and libplayerlike/src/remote");
@@ -592,6 +595,8 @@ TEST(LayeringRules, KeepThirdPartyLibrariesInTheirPlaces) {
       IsEmpty());
   EXPECT_THAT(violations({"libsim/src/render/png.cpp", "#include <png.h>\n"}),
               ElementsAre(HasSubstr("png_codec.cpp")));
+  EXPECT_THAT(violations({"libsim/src/io/x.cpp", "#include <jpeglib.h>\n"}),
+              ElementsAre(HasSubstr("jpeg_codec.cpp")));
   EXPECT_THAT(
       violations({"libplayerlike/include/playerlike/host/x.h", "#include <nlohmann/json.hpp>\n"}),
       ElementsAre(HasSubstr("public headers")));

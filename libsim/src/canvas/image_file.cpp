@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <new>
 #include <stdexcept>
 #include <string_view>
 
+#include "canvas/jpeg_codec.h"
 #include "canvas/png_codec.h"
 #include "sim/core/file.h"
 
@@ -96,6 +98,34 @@ GreyImage load_png(const std::string& path, const Bytes& bytes, Keep keep) {
   });
   if (!whole)
     fail(path, "the PNG is damaged, or interlaced and too large: save it without interlacing");
+  return image;
+}
+
+GreyImage load_jpeg(const std::string& path, const Bytes& bytes) {
+  GreyImage image;
+  std::string too_large;
+  JpegVisitor visitor;
+  visitor.begin = [&](std::uint32_t width, std::uint32_t height) {
+    try {
+      check_size(path, width, height);
+      image.pixels.reserve(std::size_t{width} * height);
+    } catch (const std::runtime_error& error) {
+      too_large = error.what();
+      return false;
+    } catch (const std::bad_alloc&) {
+      too_large = path + ": no memory for the picture";
+      return false;
+    }
+    image.width = static_cast<int>(width);
+    image.height = static_cast<int>(height);
+    return true;
+  };
+  visitor.row = [&](const std::uint8_t* samples, int channels) {
+    for (int x = 0; x < image.width; ++x) image.pixels.push_back(samples[x * channels]);
+  };
+  const std::string reason = decode_jpeg(bytes, visitor);
+  if (!too_large.empty()) throw std::runtime_error(too_large);
+  if (!reason.empty()) fail(path, reason);
   return image;
 }
 
@@ -265,7 +295,8 @@ GreyImage load_first_samples(const std::string& path) {
   if (is_pgm(bytes)) return load_pgm(path, bytes);
   if (starts_with(bytes, "P1") || starts_with(bytes, "P4")) return load_pbm(path, bytes);
   if (starts_with(bytes, "P3") || starts_with(bytes, "P6")) return load_ppm(path, bytes);
-  fail(path, "not a PNG, PBM, PGM or PPM picture");
+  if (starts_with(bytes, "\xff\xd8\xff")) return load_jpeg(path, bytes);
+  fail(path, "not a PNG, JPEG, PBM, PGM or PPM picture");
 }
 
 }  // namespace sim

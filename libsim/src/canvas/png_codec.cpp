@@ -6,8 +6,9 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstring>
-#include <new>
 #include <utility>
+
+#include "canvas/make_room.h"
 
 namespace sim {
 namespace {
@@ -42,16 +43,6 @@ void read_bytes(png_structp png, png_bytep out, std::size_t size) {
   if (decoder.bytes.size() - decoder.at < size) png_error(png, "the file is cut short");
   std::memcpy(out, decoder.bytes.data() + decoder.at, size);
   decoder.at += size;
-}
-
-/// Resizes `samples`; no exception may pass through libpng.
-bool make_room(std::vector<std::uint8_t>& samples, std::size_t size) {
-  try {
-    samples.resize(size);
-    return true;
-  } catch (const std::bad_alloc&) {
-    return false;
-  }
 }
 
 bool decode(Decoder& decoder, std::uint32_t width, std::uint32_t height,

@@ -64,25 +64,52 @@ void read_device(Reader& settings, const std::string& name,
   devices[name] = {name, type_name, std::move(params), {given.begin(), given.end()}};
 }
 
-Polygon read_footprint(Reader& model) {
-  if (!model.require("footprint", "the outline: a list of points [x, y] round the robot, in m")) {
-    return {};
+// Reads a list of points; in the result they are counter-clockwise. nullopt if it is none.
+std::optional<Polygon> read_points(Reader& owner, const char* key) {
+  if (!owner.require(key, "the outline: a list of points [x, y] round it, in m")) {
+    return std::nullopt;
   }
-  Reader list = *model.child("footprint");
+  const Reader list = *owner.child(key);
   Polygon outline;
   const Vec2 not_read = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
-  for (Reader& vertex : model.array("footprint")) {
+  for (Reader& vertex : owner.array(key)) {
     outline.push_back(vertex.as_vec2(not_read, kVertex));
-    if (!outline.back().allFinite()) return {};
+    if (!outline.back().allFinite()) return std::nullopt;
   }
-  if (!list.is_array()) return {};
-  const bool clockwise = area_m2(outline) < 0.0;
-  if (clockwise) std::reverse(outline.begin(), outline.end());
-  if (auto error = check_footprint(outline)) {
-    list.issue("world/bad-footprint", std::move(error->expected), std::move(error->found),
-               std::move(error->hint));
-  }
+  if (!list.is_array()) return std::nullopt;
+  if (area_m2(outline) < 0.0) std::reverse(outline.begin(), outline.end());
   return outline;
+}
+
+Polygon read_footprint(Reader& model) {
+  const std::optional<Polygon> outline = read_points(model, "footprint");
+  if (!outline) return {};
+  if (auto error = check_footprint(*outline)) {
+    model.issue("world/bad-footprint", std::move(error->expected), std::move(error->found),
+                std::move(error->hint), "footprint");
+  }
+  return *outline;
+}
+
+std::vector<Superstructure> read_superstructures(Reader& model, double body_height_m) {
+  std::vector<Superstructure> all;
+  for (Reader& reader : model.array("superstructures", kMostSuperstructures)) {
+    if (!reader.expect_object()) continue;
+    Superstructure part;
+    const std::optional<Polygon> outline = read_points(reader, "outline");
+    const bool has_height = reader.require("height", "the height of its top above the floor, in m");
+    part.height_m = reader.number("height", part.height_m,
+                                  {kLeastLength_m, kGreatestRobotHeight_m, false, "m"});
+    reader.finish();
+    if (!outline || !has_height || part.height_m <= 0.0) continue;
+    part.outline = *outline;
+    if (auto error = check_superstructure(part, body_height_m)) {
+      reader.issue("world/bad-superstructure", std::move(error->expected), std::move(error->found),
+                   std::move(error->hint), error->key.substr(1));
+    }
+    all.push_back(std::move(part));
+  }
+  return all;
 }
 
 DriveDescription read_drive(Reader& model) {
@@ -114,7 +141,9 @@ RobotModel read_model_document(Reader& root, const std::vector<DeviceType>& type
   if (root.require("name", "what to call the model")) model.name = root.name("name", "");
   model.description = root.string("description", "");
   model.footprint = read_footprint(root);
-  model.height_m = root.number("height", model.height_m, {kLeastLength_m, 10.0, false, "m"});
+  model.height_m =
+      root.number("height", model.height_m, {kLeastLength_m, kGreatestRobotHeight_m, false, "m"});
+  model.superstructures = read_superstructures(root, model.height_m);
   model.mass_kg =
       root.number("mass", model.mass_kg, {kLeastMass_kg, kGreatestMass_kg, false, "kg"});
   model.drive = read_drive(root);

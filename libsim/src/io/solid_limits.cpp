@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kMostVertices = 8;
 // A smaller robot is within the tolerances of the contact solver.
 constexpr double kLeastArea_m2 = 1e-4;
+constexpr double kLeastSuperstructureArea_m2 = 1e-6;
 // Distance of a vertex from the centre of the axle.
 constexpr double kFarthestVertex_m = 100.0;
 
@@ -154,6 +155,35 @@ std::optional<SolidError> check_polygon(const ObstacleDescription& polygon) {
   return bad_outline(std::string("sides of at least ") + number_text(least_m) +
                          " m so far from the origin (" + number_text(far_m) + " m)",
                      number_text(shortest_m) + " m as a side", kTooThin);
+}
+
+// Checks a convex outline of a robot's body or of a part of it.
+std::optional<SolidError> check_convex(const char* key, const Polygon& outline, double least_m2,
+                                       const char* least_text) {
+  if (outline.size() < 3 || outline.size() > kMostVertices) {
+    return SolidError{key, "3 to 8 points", std::to_string(outline.size()), ""};
+  }
+  for (const Vec2& vertex : outline) {
+    if (within(greatest_coordinate(vertex), 0.0, kFarthestVertex_m)) continue;
+    return SolidError{key, "points at most 100 m from the middle of the robot along x and y",
+                      number_text(vertex.x()) + " and " + number_text(vertex.y()), ""};
+  }
+  if (!is_convex(outline)) {
+    return SolidError{key, "the corners of a convex outline, in order",
+                      "an outline with a notch, a straight corner or a crossing",
+                      "take the convex outline round the robot"};
+  }
+  if (area_m2(outline) < least_m2) {
+    return SolidError{key, std::string("an outline of at least ") + least_text,
+                      number_text(area_m2(outline) * 1e4) + " cm^2", "points are in m"};
+  }
+  if (const double extent_m = least_extent_m(outline); extent_m < kLeastLength_m) {
+    return SolidError{key,
+                      "an outline that is at least " + number_text(kLeastLength_m) +
+                          " m wide, with no side shorter than that",
+                      number_text(extent_m) + " m", "leave out points that are that close"};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -294,31 +324,18 @@ std::optional<SolidError> check_walls(const ArenaDescription& arena) {
 }
 
 std::optional<SolidError> check_footprint(const Polygon& outline) {
-  constexpr const char* kKey = "/footprint";
-  if (outline.size() < 3 || outline.size() > kMostVertices) {
-    return SolidError{kKey, "3 to 8 points", std::to_string(outline.size()), ""};
+  return check_convex("/footprint", outline, kLeastArea_m2, "1 cm^2");
+}
+
+std::optional<SolidError> check_superstructure(const Superstructure& part, double body_height_m) {
+  if (auto error = check_convex("/outline", part.outline, kLeastSuperstructureArea_m2, "1 mm^2")) {
+    return error;
   }
-  for (const Vec2& vertex : outline) {
-    if (within(greatest_coordinate(vertex), 0.0, kFarthestVertex_m)) continue;
-    return SolidError{kKey, "points at most 100 m from the middle of the robot along x and y",
-                      number_text(vertex.x()) + " and " + number_text(vertex.y()), ""};
-  }
-  if (!is_convex(outline)) {
-    return SolidError{kKey, "the corners of a convex outline, in order",
-                      "an outline with a notch, a straight corner or a crossing",
-                      "take the convex outline round the robot"};
-  }
-  if (area_m2(outline) < kLeastArea_m2) {
-    return SolidError{kKey, "an outline of at least 1 cm^2",
-                      number_text(area_m2(outline) * 1e4) + " cm^2", "points are in m"};
-  }
-  if (const double extent_m = least_extent_m(outline); extent_m < kLeastLength_m) {
-    return SolidError{kKey,
-                      "an outline that is at least " + number_text(kLeastLength_m) +
-                          " m wide, with no side shorter than that",
-                      number_text(extent_m) + " m", "leave out points that are that close"};
-  }
-  return std::nullopt;
+  if (part.height_m > body_height_m && part.height_m <= kGreatestRobotHeight_m) return std::nullopt;
+  return SolidError{"/height",
+                    "a number greater than the height of the body, " + number_text(body_height_m) +
+                        " m, and at most " + number_text(kGreatestRobotHeight_m) + " m",
+                    number_text(part.height_m) + " m", "lower parts belong to the footprint"};
 }
 
 std::optional<SolidError> check_model(const RobotModel& model) {
@@ -331,6 +348,12 @@ std::optional<SolidError> check_model(const RobotModel& model) {
         Length("/drive/wheel_separation", drive.wheel_separation_m),
         Length("/drive/wheelbase", drive.wheelbase_m)}) {
     if (auto error = check_length(key, value_m, kGreatestRobot_m)) return error;
+  }
+  for (std::size_t i = 0; i < model.superstructures.size(); ++i) {
+    if (auto error = check_superstructure(model.superstructures[i], model.height_m)) {
+      error->key = "/superstructures/" + std::to_string(i) + error->key;
+      return error;
+    }
   }
   if (!within(model.mass_kg, kLeastMass_kg, kGreatestMass_kg)) {
     return SolidError{"/mass", range_text(kLeastMass_kg, kGreatestMass_kg, "kg"),

@@ -47,7 +47,12 @@ struct SolidError {
 /// kLeastLength_m across, no side shorter than that.
 [[nodiscard]] std::optional<SolidError> check_footprint(const Polygon& outline);
 
-/// Checks a robot model: its outline, height, mass and wheels.
+/// Checks a superstructure of a robot: 3 to 8 vertices, convex, counter-clockwise, at least 1 mm^2
+/// large and kLeastLength_m across, no side shorter than that; higher than the body, at most 10 m.
+[[nodiscard]] std::optional<SolidError> check_superstructure(const Superstructure& part,
+                                                             double body_height_m);
+
+/// Checks a robot model: its outline, height, superstructures, mass and wheels.
 [[nodiscard]] std::optional<SolidError> check_model(const RobotModel& model);
 
 /// Whether a pose is finite and within kFarthest_m of the origin of W.

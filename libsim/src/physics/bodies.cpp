@@ -266,7 +266,15 @@ int Bodies::add_robot(const RobotModel& model, const Pose& X_WB) {
   r.drive = model.drive.kind;
   r.details->height_m = model.height_m;
   for (const Vec2& v : model.footprint) r.radius_m = std::max(r.radius_m, v.norm());
-  r.details->seen_radius_m = r.radius_m;
+  r.details->own_radius_m = r.radius_m;
+  r.details->superstructures = model.superstructures;
+  for (const Superstructure& part : model.superstructures) {
+    for (const Vec2& v : part.outline) {
+      r.details->own_radius_m = std::max(r.details->own_radius_m, v.norm());
+    }
+  }
+  if (!model.superstructures.empty()) with_superstructures_.push_back(index);
+  r.details->seen_radius_m = r.details->own_radius_m;
   r.X_WB = X_WB;
   r.details->traction_arm_m =
       r.drive == DriveKind::kDifferential ? 0.5 * model.drive.wheel_separation_m : r.radius_m;
@@ -304,6 +312,7 @@ int Bodies::add_moving_obstacle(int index, const ObstacleDescription& o) {
   }
   d.reaching_shape.m_radius = static_cast<float>(3.0 * kMaxTravel_m) * kScaleF;
   d.height_m = o.height_m;
+  d.own_radius_m = r.radius_m;
   d.seen_radius_m = r.radius_m;
   d.traction_arm_m = r.radius_m;
   const Pose X_WO = pose_of(o);

@@ -58,6 +58,10 @@ class Bodies {
   /// Places a robot at a pose, at rest.
   void set_pose(Robot& r, const Pose& X_WB);
   void set_suspended(Robot& r, bool suspended);
+  /// The indices in robots() of those that have superstructures.
+  [[nodiscard]] const std::vector<int>& with_superstructures() const noexcept {
+    return with_superstructures_;
+  }
   [[nodiscard]] double largest_radius_m() const noexcept { return largest_radius_m_; }
   /// The first of robots() that overlaps a solid; -1 if there is none.
   /// @param ignored  index in robots() that does not count, or -1.
@@ -160,6 +164,7 @@ class Bodies {
   bool has_pushable_ = false;
   std::deque<BodyState> states_;      // of `robots_`
   std::deque<RobotDetails> details_;  // of `robots_`
+  std::vector<int> with_superstructures_;
   double largest_radius_m_ = 0.0;
   int in_box2d_ = 0;          // number of robots with a Box2D body
   std::vector<Circle> by_x_;  // bounding circles of the robots, sorted by x

@@ -92,7 +92,9 @@ struct RobotDetails {
   EdgeList load;                     ///< outlines of carried objects, in B
   std::vector<Cylinder> round_load;  ///< carried objects that are round, in B
   std::vector<int> load_obstacles;   ///< obstacle index of each of these edges
-  double seen_radius_m = 0.0;        ///< radius of footprint and load about B
+  std::vector<Superstructure> superstructures;
+  double own_radius_m = 0.0;   ///< radius of footprint and superstructures about B
+  double seen_radius_m = 0.0;  ///< radius of footprint, superstructures and load about B
 
   [[nodiscard]] const b2Shape& solid() const {
     return round ? static_cast<const b2Shape&>(disc) : shape;

@@ -104,7 +104,7 @@ void SensorView::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads
   r.details->load.clear();
   r.details->load_obstacles.clear();
   r.details->round_load.clear();
-  r.details->seen_radius_m = r.radius_m;
+  r.details->seen_radius_m = r.details->own_radius_m;
   for (const PhysicsWorld::Load& load : loads) {
     const ObstacleDescription& solid = load.solid_B;
     if (solid.shape == ObstacleShape::kCircle) {
@@ -147,7 +147,7 @@ void SensorView::sort_by_hilbert_index() {
 }
 
 void SensorView::rebuild_outlines() {
-  load_edges_.clear();
+  further_edges_.clear();
   load_cylinders_.clear();
   outlines_.resize(bodies_.robots().size());
   robot_discs_.clear();
@@ -172,14 +172,25 @@ void SensorView::rebuild_outlines() {
     outline.robot = by_hilbert_index_[k].robot;
     outline.kind = r.details->info->kind;
     outline.index = r.details->info->index;
-    outline.first_load = load_edges_.edges.size();
+    const auto add = [&](double x0, double y0, double x1, double y1, double height_m) {
+      further_edges_.add({r.X_WB.x_m + c * x0 - s * y0, r.X_WB.y_m + s * x0 + c * y0,
+                          r.X_WB.x_m + c * x1 - s * y1, r.X_WB.y_m + s * x1 + c * y1},
+                         height_m);
+    };
+    outline.first_upper = further_edges_.edges.size();
+    for (const Superstructure& part : r.details->superstructures) {
+      for (std::size_t i = 0; i < part.outline.size(); ++i) {
+        const Vec2& a = part.outline[i];
+        const Vec2& b = part.outline[(i + 1) % part.outline.size()];
+        add(a.x(), a.y(), b.x(), b.y(), part.height_m);
+      }
+    }
+    outline.first_load = further_edges_.edges.size();
     for (std::size_t i = 0; i < r.details->load.edges.size(); ++i) {
       const Edge& e = r.details->load.edges[i];
-      load_edges_.add({r.X_WB.x_m + c * e.x0 - s * e.y0, r.X_WB.y_m + s * e.x0 + c * e.y0,
-                       r.X_WB.x_m + c * e.x1 - s * e.y1, r.X_WB.y_m + s * e.x1 + c * e.y1},
-                      r.details->load.heights_m[i]);
+      add(e.x0, e.y0, e.x1, e.y1, r.details->load.heights_m[i]);
     }
-    outline.end_load = load_edges_.edges.size();
+    outline.end_load = further_edges_.edges.size();
     outline.first_cylinder = load_cylinders_.size();
     for (Cylinder cylinder : r.details->round_load) {
       cylinder.center = cylinder.center.isZero(0.0) ? r.X_WB.position() : r.X_WB * cylinder.center;
@@ -189,6 +200,31 @@ void SensorView::rebuild_outlines() {
   }
   robot_discs_.group();
   outlines_fresh_ = true;
+}
+
+// The least fraction of the line from A to C at which it enters a superstructure that is higher
+// than height_m; 1 if it enters none. Exact.
+double SensorView::entry_of_superstructures(const Robot& r, const Vec2& p_WA, const Vec2& p_WC,
+                                            double height_m) {
+  const Pose X_BW = r.X_WB.inverse();
+  const Vec2 p_BA = X_BW * p_WA;
+  const Vec2 line = X_BW * p_WC - p_BA;
+  const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
+  double least = 1.0;
+  for (const Superstructure& part : r.details->superstructures) {
+    if (part.height_m <= height_m) continue;
+    for (std::size_t i = 0; i < part.outline.size(); ++i) {
+      const Vec2& start = part.outline[i];
+      const Vec2 side = part.outline[(i + 1) % part.outline.size()] - start;
+      const double turn = cross(side, line);
+      if (turn <= 0.0) continue;  // leaves the part, or runs along its side
+      const Vec2 to_start = start - p_BA;
+      const double share = cross(side, to_start) / turn;
+      const double along = cross(line, to_start) / turn;
+      if (share >= 0.0 && along >= 0.0 && along <= 1.0) least = std::min(least, share);
+    }
+  }
+  return least;
 }
 
 // Casts a ray from A to C at the robots for which may(robot) is true. Calls visit(fraction of the
@@ -305,7 +341,8 @@ void SensorView::collect_edges(const Vec2& p_WL, double radius_m, double sensor_
                   static_cast<float>(e.x1 - p_WL.x()), static_cast<float>(e.y1 - p_WL.y()));
       }
     }
-    append_edges(load_edges_, outline.first_load, outline.end_load, p_WL, sensor_height_m, edges);
+    append_edges(further_edges_, outline.first_upper, outline.end_load, p_WL, sensor_height_m,
+                 edges);
     for (std::size_t i = outline.first_cylinder; i < outline.end_cylinder; ++i) {
       append_cylinder(load_cylinders_[i], p_WL, sensor_height_m, edges);
     }
@@ -327,8 +364,9 @@ void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, doub
       for (std::size_t i = outline.first_cylinder; i < outline.end_cylinder; ++i) {
         append_cylinder(load_cylinders_[i], p_WL, sensor_height_m, edges);
       }
-      if (outline.first_load == outline.end_load) continue;
-      append_edges(load_edges_, outline.first_load, outline.end_load, p_WL, sensor_height_m, edges);
+      if (outline.first_upper == outline.end_load) continue;
+      append_edges(further_edges_, outline.first_upper, outline.end_load, p_WL, sensor_height_m,
+                   edges);
     }
   };
 
@@ -372,10 +410,13 @@ void SensorView::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
     for (std::size_t i = 0; i < outline.count; ++i) {
       add(outline.edge(i), outline.kind, outline.index, outline.height_m);
     }
+    for (std::size_t i = outline.first_upper; i < outline.first_load; ++i) {
+      add(further_edges_.edges[i], outline.kind, outline.index, further_edges_.heights_m[i]);
+    }
     const Robot& r = bodies_.robot(outline.robot);
     for (std::size_t i = outline.first_load; i < outline.end_load; ++i) {
-      add(load_edges_.edges[i], Contact::Kind::kObstacle,
-          r.details->load_obstacles[i - outline.first_load], load_edges_.heights_m[i]);
+      add(further_edges_.edges[i], Contact::Kind::kObstacle,
+          r.details->load_obstacles[i - outline.first_load], further_edges_.heights_m[i]);
     }
     for (std::size_t i = outline.first_cylinder; i < outline.end_cylinder; ++i) {
       add_round(load_cylinders_[i]);
@@ -418,6 +459,10 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
         return false;
       });
   if (blocked) return false;
+  for (const int robot : bodies_.with_superstructures()) {
+    if (robot == own_robot || robot == target_robot) continue;
+    if (entry_of_superstructures(bodies_.robot(robot), p_WA, p_WC, height_m) < 1.0) return false;
+  }
   if (cast_at_cylinders(p_WA, p_WC, height_m, &target) < 1.0) return false;
   bodies_.world().RayCast(&callback, to_box2d(p_WA), to_box2d(p_WC));
   return !callback.blocked;
@@ -440,6 +485,15 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
     inside = r.details->round ? is_within({{circle.x, circle.y}, circle.radius, 0.0, -1}, p_W)
                               : r.details->shape.TestPoint(transform_of(r), to_box2d(p_W));
   });
+  for (const int robot : bodies_.with_superstructures()) {
+    if (inside || robot == own_robot) continue;
+    const Robot& r = bodies_.robot(robot);
+    const Vec2 p_B = r.X_WB.inverse() * p_W;
+    inside = std::any_of(r.details->superstructures.begin(), r.details->superstructures.end(),
+                         [&](const Superstructure& part) {
+                           return part.height_m > height_m && is_inside(part.outline, p_B);
+                         });
+  }
   if (inside || !bodies_.has_walls()) return inside;
   // Walls of a map are closed outlines. A point is inside if a ray to the far right crosses an odd
   // number of edges (half-open rule at vertices).
@@ -476,6 +530,11 @@ double SensorView::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_m
         return true;
       });
   constexpr double kAnyHeight_m = -std::numeric_limits<double>::infinity();
+  for (const int robot : bodies_.with_superstructures()) {
+    if (robot == own_robot) continue;
+    const double share = entry_of_superstructures(bodies_.robot(robot), p_WL, end, kAnyHeight_m);
+    closest.fraction = std::min(closest.fraction, static_cast<float>(share));
+  }
   return std::min(static_cast<double>(closest.fraction),
                   cast_at_cylinders(p_WL, end, kAnyHeight_m, nullptr)) *
          range_max_m;

@@ -14,8 +14,8 @@ namespace sim::physics {
 
 using Face = PhysicsWorld::Face;
 
-/// What sensors see: edges and faces of solids, of robots and of carried objects. The functions
-/// have the same meaning as in PhysicsWorld.
+/// What sensors see: edges and faces of solids, of robots with their superstructures, and of
+/// carried objects. The functions have the same meaning as in PhysicsWorld.
 class SensorView {
  public:
   explicit SensorView(Bodies& bodies) : bodies_(bodies) { solids_changed(); }
@@ -50,19 +50,20 @@ class SensorView {
     int robot;
     double until_m;  // valid until the robot's cumulative travel has this value
   };
-  // The outlines of a robot and its load, or of a moving obstacle, in W. The outline of a round one
-  // is a cylinder.
+  // The outlines of a robot, its superstructures and its load, or of a moving obstacle, in W. The
+  // outline of a round one is a cylinder.
   struct Outline {
     Vec2 p_WB;
-    double seen_radius_m;  // bounding radius of robot and load
+    double seen_radius_m;  // bounding radius of all of them
     std::array<Vec2, b2_maxPolygonVertices + 1>
         corners;        // of the robot; the first corner is repeated at the end
     std::size_t count;  // number of the robot's edges
     double height_m;
     int robot;
     Contact::Kind kind;
-    int index;               // of the robot or obstacle
-    std::size_t first_load;  // range of the load's edges in load_edges_
+    int index;                // of the robot or obstacle
+    std::size_t first_upper;  // range of the superstructures' edges in further_edges_
+    std::size_t first_load;   // range of the load's edges in further_edges_, which follow
     std::size_t end_load;
     std::size_t first_cylinder;  // range of the load's cylinders in load_cylinders_
     std::size_t end_cylinder;
@@ -79,6 +80,8 @@ class SensorView {
   [[nodiscard]] double cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC, double height_m,
                                          const Contact* ignored);
   static void append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out);
+  [[nodiscard]] static double entry_of_superstructures(const Robot& r, const Vec2& p_WA,
+                                                       const Vec2& p_WC, double height_m);
   template <typename Filter, typename Visitor>
   void cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit);
   [[nodiscard]] scan::ScanKernel& kernel_of(const scan::ScanGeometry& geometry);
@@ -89,8 +92,8 @@ class SensorView {
   EdgeList fixed_edges_;                   // static solids that exist now, if the world is small
   std::vector<Cylinder> fixed_cylinders_;  // round obstacles that exist now, if the world is small
   bool sweep_ = true;                      // the world is small
-  EdgeList load_edges_;
-  std::vector<Cylinder> load_cylinders_;  // in W
+  EdgeList further_edges_;                 // of superstructures and loads
+  std::vector<Cylinder> load_cylinders_;   // in W
   std::vector<Outline> outlines_;
   scan::DiscBuffer robot_discs_;                // bounding discs of `outlines_`
   std::vector<HilbertEntry> by_hilbert_index_;  // order of `outlines_` and `robot_discs_`

@@ -374,6 +374,7 @@ class RobotPainter {
       sensor.add_disc(at(0.40, 0.0), 0.12 * radius);
       painter_.fill(sensor, palette::kWheel);
     }
+    draw_superstructures(robot, colour, dark);
     Shape paddles;
     for (const Polygon& paddle : robot.paddles) {
       std::vector<Vec2> piece;
@@ -409,6 +410,18 @@ class RobotPainter {
   }
 
  private:
+  // Draws what is higher than the body: a little lighter than it, with a thin line round it.
+  void draw_superstructures(const RobotSnapshot& robot, const Colour& colour, const Colour& dark) {
+    for (const Polygon& part : robot.superstructures) {
+      std::vector<Vec2> corners;
+      for (const Vec2& p_B : part) corners.push_back(layout_(robot.X_WB * p_B));
+      Shape area;
+      area.add_piece(corners);
+      painter_.fill(area, mix(colour, palette::kLight, 0.25), 0.8);
+      outline(corners, dark, layout_.line_px(0.8));
+    }
+  }
+
   // Points along the far end of a cone, from its right to its left side; one point for a ray.
   static std::vector<Vec2> rim_of(const ConeSnapshot& cone) {
     constexpr double kStep_rad = 0.05;

@@ -18,6 +18,9 @@ RobotSnapshot Simulation::robot_snapshot(int number) const {
   shot.colour = impl_->world.robots[i].colour;
   shot.X_WB = body.X_WB;
   shot.footprint = robot.model->footprint;
+  for (const Superstructure& part : robot.model->superstructures) {
+    shot.superstructures.push_back(part.outline);
+  }
   shot.stalled = body.stalled;
   for (const auto& device : robot.devices) device->show(impl_->now_ns, shot);
   return shot;

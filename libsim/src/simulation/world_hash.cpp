@@ -96,6 +96,11 @@ void add(StateHash& hash, const RobotModel& model) {
         drive.max_steering_rate_radps}) {
     hash.add(value);
   }
+  for (const Superstructure& part : model.superstructures) {
+    hash.add(part.height_m);
+    hash.add(part.outline.size());
+    for (const Vec2& corner : part.outline) add(hash, corner);
+  }
 }
 
 void add(StateHash& hash, const RobotDescription& robot, const WorldDescription& world) {

@@ -77,6 +77,7 @@ def main(source):
     outline = [[0, 0], [1, 0], [0, 1]]
     for bad in [{}, {"name": "a"}, {"name": "a", "footprint": outline[:2]},
                 {"name": "a", "footprint": outline, "weels": 4},
+                {"name": "a", "footprint": outline, "superstructures": [{"outline": outline}]},
                 {"name": "a", "footprint": outline, "drive": {"kind": "hover"}}]:
         if model_validator.is_valid(bad):
             print(f"the model schema accepts {bad}")

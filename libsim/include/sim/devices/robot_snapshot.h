@@ -38,12 +38,13 @@ struct RobotSnapshot {
   std::string name;
   Colour colour;
   Pose X_WB;
-  Polygon footprint;                    ///< in B [m]
-  std::vector<Vec2> trail;              ///< its path, oldest point first, in W [m]
-  std::vector<Vec2> scan_points;        ///< hits of its newest laser scan in W [m], beam by beam
-  Vec2 scan_origin = Vec2::Zero();      ///< position of that laser, in W [m]
-  std::vector<ConeSnapshot> cones;      ///< of all its sonar and infrared transducers
-  std::vector<BumperSnapshot> bumpers;  ///< all segments
+  Polygon footprint;                     ///< in B [m]
+  std::vector<Polygon> superstructures;  ///< outlines of what is higher than its body, in B [m]
+  std::vector<Vec2> trail;               ///< its path, oldest point first, in W [m]
+  std::vector<Vec2> scan_points;         ///< hits of its newest laser scan in W [m], beam by beam
+  Vec2 scan_origin = Vec2::Zero();       ///< position of that laser, in W [m]
+  std::vector<ConeSnapshot> cones;       ///< of all its sonar and infrared transducers
+  std::vector<BumperSnapshot> bumpers;   ///< all segments
   std::vector<std::pair<Vec2, Vec2>> sights;  ///< lines from its fiducial finders to the detected
                                               ///< marks, in W [m]
   std::string says;                           ///< UTF-8; empty: nothing

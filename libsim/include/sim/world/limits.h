@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 
 /// Limits for sizes and positions in a world. Physics uses single precision, whose spacing is at
 /// worst 0.25 mm for the solids it must keep apart, so smaller or more distant solids cannot be
@@ -17,6 +18,11 @@ inline constexpr double kGreatestLength_m = 10'000.0;
 /// Minimum mass of a robot [kg].
 inline constexpr double kLeastMass_kg = 0.001;
 inline constexpr double kGreatestMass_kg = 10'000.0;  ///< maximum mass of a robot [kg]
+
+/// Maximum height of a robot [m].
+inline constexpr double kGreatestRobotHeight_m = 10.0;
+/// Maximum number of superstructures of a robot model.
+inline constexpr std::size_t kMostSuperstructures = 32;
 
 /// Maximum distance from the origin of W, along x or y, of a floor and everything on it [m].
 inline constexpr double kFarthest_m = 10'000.0;

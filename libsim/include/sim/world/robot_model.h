@@ -26,13 +26,20 @@ struct DriveDescription {
   double max_steering_rate_radps = 0.0;  ///< of a car, >= 0 [rad/s]; 0: no limit
 };
 
+/// A part of a robot that is higher than its body. Sensors see it; nothing collides with it.
+struct Superstructure {
+  Polygon outline;        ///< in B, convex, counter-clockwise, 3 to 8 vertices [m]
+  double height_m = 0.0;  ///< of its top above the floor, greater than that of the body [m]
+};
+
 /// A type of robot: the properties that do not change while it drives.
 struct RobotModel {
   std::string name;
   std::string description;  ///< for people, a sentence or two
   Polygon footprint;        ///< in B, convex, counter-clockwise, 3 to 8 vertices [m]
-  double height_m = 0.18;   ///< [m]
-  double mass_kg = 2.0;     ///< [kg]
+  double height_m = 0.18;   ///< of the body [m]
+  std::vector<Superstructure> superstructures;  ///< what sensors see above `height_m`
+  double mass_kg = 2.0;                         ///< [kg]
   DriveDescription drive;
   double max_speed_mps = 0.5;              ///< maximum speed of its drive [m/s]
   double max_turn_rate_radps = 3.0;        ///< maximum turn rate of its drive [rad/s]

@@ -32,8 +32,15 @@ struct RobotDraft {
   Json model;  ///< of a robot model's file, without its name and its devices
   Json devices = Json::object();
   std::vector<DraftDevice> list;  ///< of devices, in Stage's order
-  std::vector<Vec2> outline;      ///< points of its body, in B [m]
-  double top_m = 0.0;             ///< of its body above the floor [m]
+  /// A part of its body: a block or a bitmap of the position model, or of a model on it.
+  struct Part {
+    std::vector<Vec2> points;  ///< its corners, in B [m]
+    double top_m = 0.0;        ///< up to which rangers see it, above the floor [m]; 0: not at all
+    bool solid = true;         ///< whether it meets obstacles
+  };
+  std::vector<Part> parts;
+  Polygon footprint;   ///< after set_body(), in B [m]
+  double top_m = 0.0;  ///< of what rangers see, after set_body(), above the floor [m]
   std::vector<double> sensor_heights_m;
   Json robot;  ///< of the world's file: port, interfaces, ...
 };
@@ -79,6 +86,15 @@ struct Mount {
 [[nodiscard]] bool device_has_block(const std::string& type);
 /// Whether an entity of that type is a device of a robot.
 [[nodiscard]] bool is_device(const std::string& type);
+
+/// Adds the body of a position model, or of a model on it, to the parts of a robot.
+/// @param solid, seen  whether it meets obstacles, and whether rangers see it.
+void add_part(const Body& body, const Mount& mount, bool solid, bool seen, RobotDraft& robot);
+
+/// Sets footprint, height and superstructures of a robot's model from its parts. The footprint is
+/// the convex outline of all solid parts, and the height that up to which their outline is as wide.
+/// Each part that is higher becomes a superstructure with its own outline and height.
+void set_body(Report& report, RobotDraft& robot);
 
 /// Reads what a position model is besides a model: drive, limits, localization.
 void add_position(const Properties& model, const Body& body, const Context& context,

@@ -5,9 +5,11 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "io/document.h"
+#include "io/stage/player_drivers.h"
 #include "io/stage/translation.h"
 
 namespace sim::io::stage {
@@ -18,6 +20,7 @@ constexpr int kDefaultPort = 6665;
 /// An address as Player writes it: key:host:robot:interface:index, the first three of which may be
 /// missing or empty.
 struct Address {
+  std::string key;  ///< what a driver uses it for, for example "input"
   int port = kDefaultPort;
   std::string interface;
   int index = 0;
@@ -48,6 +51,8 @@ std::optional<Address> parse_address(const Value& value) {
   address.place = value.place;
   const std::optional<int> index = whole_number(parts.back(), 1000);
   address.interface = std::string(parts[parts.size() - 2]);
+  if (address.interface == "position") address.interface = "position2d";  // as in Player 1
+  if (parts.size() >= 4) address.key = std::string(parts.front());
   if (!index || address.interface.empty()) return std::nullopt;
   address.index = *index;
   if (parts.size() >= 3 && !parts[parts.size() - 3].empty()) {
@@ -90,12 +95,21 @@ bool is_everywhere(std::string_view interface) {
   return std::find(std::begin(kNames), std::end(kNames), interface) != std::end(kNames);
 }
 
+/// A driver that is not Stage's.
+struct OtherDriver {
+  const Entity* entity;
+  std::string name;
+  std::vector<Address> provided;
+  std::vector<Address> required;
+};
+
 class PlayerFile {
  public:
   PlayerFile(bool must_match, Translation& translation, Report& report)
       : must_match_(must_match), translation_(translation), report_(report) {}
 
   void run(const Entity& config) {
+    std::vector<const Entity*> stage_drivers;
     for (const Entity& driver : config.children) {
       if (driver.type != "driver") {
         report_.note("cfg " + driver.type, driver.place,
@@ -105,15 +119,22 @@ class PlayerFile {
       const Properties properties(driver, units_, report_);
       const std::string name = properties.text("name", "");
       if (name == "stage") {
-        stage_driver(properties);
+        if (properties.has("model")) ++models_named_;
+        stage_drivers.push_back(&driver);
       } else {
-        others_.emplace_back(&driver, name);
+        others_.push_back(
+            {&driver, name, addresses(properties, "provides"), addresses(properties, "requires")});
       }
     }
+    for (const Entity* driver : stage_drivers) stage_driver({*driver, units_, report_});
+    if (ports_.empty()) bind_all();
     set_addresses();
-    for (const auto& [driver, name] : others_) {
-      other_driver(Properties(*driver, units_, report_), name);
+    // A driver may need what a later one provides.
+    for (std::size_t before = others_.size() + 1; before > others_.size();) {
+      before = others_.size();
+      std::erase_if(others_, [&](const OtherDriver& driver) { return add_driver(driver); });
     }
+    for (const OtherDriver& driver : others_) leave_out(driver, "");
     set_ports();
   }
 
@@ -155,28 +176,52 @@ class PlayerFile {
       return;
     }
     const std::string name = driver.text("model", "");
-    RobotDraft* const robot = find_robot(name);
-    if (robot == nullptr) {
-      if (!only_world) missing_robot(driver.place_of("model"), name);
-      return;
-    }
+    RobotDraft* robot = find_robot(name);
+    if (robot == nullptr && !only_world) robot = missing_robot(driver.place_of("model"), name);
+    if (robot == nullptr) return;
     for (const Address& address : provided) bind(*robot, address);
   }
 
-  void missing_robot(const Place& place, const std::string& name) {
+  /// Without any driver for models, as in the file of a second server: the robots have the default
+  /// ports and the indexes of their devices.
+  void bind_all() {
+    int port = kDefaultPort;
+    for (RobotDraft& robot : translation_.robots) {
+      ports_.emplace(&robot, port++);
+      const auto give = [&](const std::string& interface, const std::string& device) {
+        auto& devices = taken_[&robot][interface];
+        devices.emplace(static_cast<int>(devices.size()), device);
+      };
+      give("position2d", robot.robot["interfaces"]["position2d"][0].get<std::string>());
+      for (const DraftDevice& device : robot.list) {
+        if (device.type != "laser" && device.type != "sonar") continue;
+        give("ranger", device.name);
+        give(device.type, device.name);
+      }
+    }
+  }
+
+  /// Reports a model that the world lacks. @return the robot that takes its place, or nullptr.
+  RobotDraft* missing_robot(const Place& place, const std::string& name) {
     std::vector<std::string> known;
     for (const RobotDraft& robot : translation_.robots) known.push_back(robot.stage_name);
-    const std::string expected = known.empty()
-                                     ? "no name: the world has no position model"
-                                     : "a position model of the world: " + list_text(known);
-    if (must_match_) {
-      const std::string near = nearest_word(name, known);
-      report_.error(place, "stage/no-model", expected, in_quotes(name),
-                    near.empty() ? "" : "did you mean " + in_quotes(near) + "?");
-    } else {
+    const std::string near = nearest_word(name, known);
+    if (!must_match_) {
       report_.note("no model " + name, place,
                    "no position model " + in_quotes(name) + " in the world; left out");
+      return nullptr;
     }
+    if (near.empty() && models_named_ == 1 && !known.empty()) {
+      report_.note("no model " + name, place,
+                   "no position model " + in_quotes(name) + " in the world; the first one, " +
+                       in_quotes(known.front()) + ", takes its place");
+      return &translation_.robots.front();
+    }
+    report_.error(place, "stage/no-model",
+                  known.empty() ? "no name: the world has no position model"
+                                : "a position model of the world: " + list_text(known),
+                  in_quotes(name), near.empty() ? "" : "did you mean " + in_quotes(near) + "?");
+    return nullptr;
   }
 
   /// Gives a device of a robot an address, as Stage does: the first one of the right type that has
@@ -242,34 +287,59 @@ class PlayerFile {
     }
   }
 
-  /// The robot whose device has that address.
+  /// The robot whose device, or whose driver, has that address.
   RobotDraft* owner_of(const Address& wanted) {
     for (auto& [robot, interfaces] : taken_) {
       if (ports_.at(robot) != wanted.port) continue;
       const auto found = interfaces.find(wanted.interface);
       if (found != interfaces.end() && found->second.contains(wanted.index)) return robot;
     }
-    return nullptr;
+    const auto driver = provided_.find({wanted.port, wanted.interface, wanted.index});
+    return driver == provided_.end() ? nullptr : driver->second.robot;
   }
 
-  /// Drivers of Player that turn one interface into another, and drivers that drive.
-  void other_driver(const Properties& driver, const std::string& name) {
-    const std::vector<Address> provided = addresses(driver, "provides");
-    const std::vector<Address> required = addresses(driver, "requires");
+  /// The driver that provides an address; "" if none does.
+  [[nodiscard]] std::string driver_of(const Address& wanted) const {
+    const auto driver = provided_.find({wanted.port, wanted.interface, wanted.index});
+    return driver == provided_.end() ? "" : driver->second.name;
+  }
+
+  void leave_out(const OtherDriver& driver, const std::string& why) {
+    report_.note(
+        "driver " + driver.name + why, driver.entity->place,
+        "the driver " + in_quotes(driver.name) + " is left out" + (why.empty() ? "" : ": ") + why);
+  }
+
+  /// Drivers of Player that turn one interface into another, and drivers that drive or plan.
+  /// @return whether it is done; otherwise no robot is known yet whose devices it needs.
+  bool add_driver(const OtherDriver& driver) {
+    const std::string& name = driver.name;
+    if (name == "mapfile" || name == "mapscale") return true;  // a robot has the world's map
     RobotDraft* robot = nullptr;
-    for (const Address& address : required) {
+    for (const Address& address : driver.required) {
       if (robot == nullptr) robot = owner_of(address);
     }
-    if (name == "rangertolaser" || name == "lasertoranger") {
-      if (robot != nullptr) return convert(*robot, provided, required);
-      report_.note("driver " + name, driver.entity().place,
-                   "the driver " + in_quotes(name) + " has no device; left out");
-      return;
+    if (name == "passthrough" && robot == nullptr && !driver.required.empty() &&
+        is_everywhere(driver.required.front().interface)) {
+      return true;
     }
-    if (name == "mapfile") return;  // every robot has the map of the world
-    if (name == "snd" && robot != nullptr) return add_snd(driver, *robot, provided, required);
-    report_.note("driver " + name, driver.entity().place,
-                 "the driver " + in_quotes(name) + " is left out");
+    if (robot == nullptr) return false;
+    for (const Address& address : driver.provided) {
+      provided_[{address.port, address.interface, address.index}] = {robot, name};
+      note_port(*robot, address);
+    }
+    if (name == "rangertolaser" || name == "lasertoranger" || name == "passthrough") {
+      convert(*robot, driver.provided, driver.required);
+    } else if (name == "amcl") {
+      add_amcl(driver, *robot);
+    } else if (name == "wavefront") {
+      add_wavefront(driver, *robot);
+    } else if (is_goal_driver(name)) {
+      add_goal_driver(driver, *robot);
+    } else {
+      leave_out(driver, "");
+    }
+    return true;
   }
 
   void convert(RobotDraft& robot, const std::vector<Address>& provided,
@@ -289,35 +359,105 @@ class PlayerFile {
     }
   }
 
+  /// Index of the address of an interface, rather one with that key.
   static int index_of(const std::vector<Address>& addresses, std::string_view interface,
-                      int fallback) {
+                      std::string_view key, int fallback) {
+    const Address* best = nullptr;
     for (const Address& address : addresses) {
-      if (address.interface == interface) return address.index;
+      if (address.interface != interface) continue;
+      if (best == nullptr || (address.key == key && best->key != key)) best = &address;
     }
-    return fallback;
+    return best == nullptr ? fallback : best->index;
   }
 
-  void add_snd(const Properties& driver, RobotDraft& robot, const std::vector<Address>& provided,
-               const std::vector<Address>& required) {
-    Json snd = {{"type", "snd"}};
-    snd["index"] = index_of(provided, "position2d", 1);
-    snd["position"] = index_of(required, "position2d", 0);
-    snd["laser"] = index_of(required, "laser", 0);
-    constexpr std::pair<const char*, const char*> kSettings[] = {
-        {"robot_radius", "robot_radius"},
-        {"obstacle_avoid_dist", "safety_distance"},
-        {"max_speed", "max_speed"},
-        {"goal_position_tol", "goal_distance"}};
-    for (const auto& [theirs, ours] : kSettings) {
-      if (driver.has(theirs)) snd[ours] = neat(driver.number(theirs, 0.0));
+  /// An index as the robot itself counts it: robots that share a port continue those of others.
+  int local_index(RobotDraft& robot, const std::string& interface, int index) {
+    const auto first = first_[&robot].find(interface);
+    return first == first_[&robot].end() ? index : std::max(0, index - first->second);
+  }
+
+  /// The robot's laser that a driver requires, or any of them.
+  std::optional<std::string> laser_of(RobotDraft& robot, const std::vector<Address>& required) {
+    const auto is_laser = [&](const std::string& name) {
+      return std::any_of(robot.list.begin(), robot.list.end(), [&](const DraftDevice& device) {
+        return device.name == name && device.type == "laser";
+      });
+    };
+    for (const Address& address : required) {
+      if (address.interface != "laser" && address.interface != "ranger") continue;
+      const auto& devices = taken_[&robot][address.interface];
+      const auto device = devices.find(address.index);
+      if (device != devices.end() && is_laser(device->second)) return device->second;
     }
-    constexpr std::pair<const char*, const char*> kAngles[] = {
-        {"max_turn_rate", "max_turn_rate_deg"}, {"goal_angle_tol", "goal_angle_deg"}};
-    for (const auto& [theirs, ours] : kAngles) {
-      if (driver.has(theirs)) snd[ours] = neat_deg(driver.angle_rad(theirs, 0.0));
+    for (const DraftDevice& device : robot.list) {
+      if (device.type == "laser") return device.name;
     }
-    free_position(robot, snd["index"].get<std::size_t>());
-    robot.robot["drivers"].push_back(std::move(snd));
+    return std::nullopt;
+  }
+
+  /// Index of a laser among the robot's, which it gets if it has none yet.
+  static std::size_t index_of_laser(RobotDraft& robot, const std::string& laser) {
+    Json& list = robot.robot["interfaces"]["laser"];
+    if (!list.is_array()) list = Json::array();
+    const auto found = std::find(list.begin(), list.end(), Json(laser));
+    const auto index = static_cast<std::size_t>(found - list.begin());
+    if (found == list.end()) list.push_back(laser);
+    return index;
+  }
+
+  [[nodiscard]] Json settings_of(const OtherDriver& driver) {
+    return driver_settings(driver.name, Properties(*driver.entity, units_, report_), report_);
+  }
+
+  void add_goal_driver(const OtherDriver& driver, RobotDraft& robot) {
+    Json settings = settings_of(driver);
+    if (driver.name != "goto") {
+      const std::optional<std::string> laser = laser_of(robot, driver.required);
+      if (!laser) return leave_out(driver, "the robot has no laser");
+      settings["laser"] = index_of_laser(robot, *laser);
+    }
+    settings["index"] =
+        local_index(robot, "position2d", index_of(driver.provided, "position2d", "", 1));
+    settings["position"] =
+        local_index(robot, "position2d", index_of(driver.required, "position2d", "input", 0));
+    free_position(robot, settings["index"].get<std::size_t>());
+    robot.robot["drivers"].push_back(std::move(settings));
+  }
+
+  void add_amcl(const OtherDriver& driver, RobotDraft& robot) {
+    const std::optional<std::string> laser = laser_of(robot, driver.required);
+    if (!laser) return leave_out(driver, "the robot has no laser");
+    for (const Address& address : driver.required) {
+      if (address.interface == "laser" || address.interface == "ranger" ||
+          address.interface == "position2d" || address.interface == "map") {
+        continue;
+      }
+      report_.note("sensors of amcl", address.place,
+                   "amcl measures by the robot's laser only; " + in_quotes(address.interface) +
+                       " is left out");
+    }
+    Json settings = settings_of(driver);
+    settings["laser"] = *laser;
+    const auto& positions = taken_[&robot]["position2d"];
+    const auto position = positions.find(index_of(driver.required, "position2d", "odometry", 0));
+    if (position != positions.end()) settings["odometry"] = position->second;
+    robot.robot["drivers"].push_back(std::move(settings));
+  }
+
+  void add_wavefront(const OtherDriver& driver, RobotDraft& robot) {
+    Json settings = settings_of(driver);
+    for (const Address& address : driver.required) {
+      if (address.interface != "position2d" && address.interface != "localize") continue;
+      const int index = local_index(robot, address.interface, address.index);
+      if (address.key == "output") {
+        settings["output"] = index;
+      } else if (driver_of(address) == "amcl") {
+        settings["localize"] = 0;
+      } else if (address.interface == "position2d") {
+        settings["position"] = index;
+      }
+    }
+    robot.robot["drivers"].push_back(std::move(settings));
   }
 
   /// Frees an index of position2d for a driver: a robot of Stage has only one position.
@@ -377,11 +517,17 @@ class PlayerFile {
   Translation& translation_;
   Report& report_;
   Units units_;
-  std::vector<std::pair<const Entity*, std::string>> others_;
+  std::vector<OtherDriver> others_;
+  int models_named_ = 0;  ///< drivers of Stage with a model
   std::set<std::pair<const RobotDraft*, std::string>> bound_;
   std::map<const RobotDraft*, int> ports_;
   std::map<RobotDraft*, std::map<std::string, std::map<int, std::string>>> taken_;
   std::map<RobotDraft*, std::map<std::string, int>> first_;
+  struct Provider {
+    RobotDraft* robot;
+    std::string name;
+  };
+  std::map<std::tuple<int, std::string, int>, Provider> provided_;  ///< by drivers
 };
 
 }  // namespace

@@ -105,8 +105,9 @@ std::optional<DarkArea> read_bitmap(const Properties& model, Report& report) {
   try {
     image = load_first_samples(file);
   } catch (const std::runtime_error& error) {
-    report.error(place, "stage/bitmap", "a picture (PNG, PBM, PGM, PPM) beside the world file",
-                 error.what(), "other formats: convert NAME NAME.png");
+    report.error(place, "stage/bitmap",
+                 "a picture (PNG, JPEG, PBM, PGM, PPM) beside the world file", error.what(),
+                 "other formats: convert NAME NAME.png");
     return std::nullopt;
   }
   if (image.width > kMaxMapSide || image.height > kMaxMapSide) {

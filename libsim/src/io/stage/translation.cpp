@@ -487,13 +487,14 @@ class Translator {
                    "models with obstacle_return 0 are solid: robots do not drive through them");
     }
     const Pose3 origin = model.pose("origin");
-    add_part(body, origin.pose, frame.foot_m + origin.z_m, returns, draft);
+    add_part(body, {origin.pose, frame.foot_m + origin.z_m}, returns.obstacle, returns.ranger,
+             draft);
     const bool stacked = model.flag("stack_children", true);
     const Mount base{{}, frame.foot_m + (stacked ? body.size_m[2] : 0.0)};
     for (const Entity& child : model.entity().children) part(child, base, stage_name, draft);
     add_position(model, body, context(), draft);
     order_rangers(draft);
-    set_body(draft);
+    set_body(report_, draft);
     extend_by(draft);
     draft.robot["name"] = world_name(stage_name, robot_names_);
     out_.robots.push_back(std::move(draft));
@@ -506,24 +507,6 @@ class Translator {
       if (device.type == "laser" || device.type == "sonar") names.push_back(device.name);
     }
     if (!names.empty()) draft.robot["interfaces"]["ranger"] = std::move(names);
-  }
-
-  /// Adds a body to the outline of a robot.
-  static void add_part(const Body& body, const Pose& X_BM, double foot_m, const Returns& returns,
-                       RobotDraft& draft) {
-    if (!returns.obstacle) return;
-    double top_m = -kInfinity;
-    for (const Block& block : body.blocks) {
-      for (const Vec2& point : block.points) draft.outline.push_back(X_BM * point);
-      top_m = std::max(top_m, foot_m + block.z_max_m);
-    }
-    if (body.bitmap) {
-      for (const Vec2& point : extreme_points(*body.bitmap, {body.size_m[0], body.size_m[1]})) {
-        draft.outline.push_back(X_BM * point);
-      }
-      top_m = std::max(top_m, foot_m + body.size_m[2]);
-    }
-    if (returns.ranger) draft.top_m = std::max(draft.top_m, top_m);
   }
 
   /// A model on a robot: a device, or a part of its body.
@@ -555,7 +538,7 @@ class Translator {
     tell_charging(properties);
     // The paddles of a gripper are those of its device.
     if (entity.type != "gripper" && entity.type != "bumper") {
-      add_part(body, mount.X_BM, mount.z_m, returns, draft);
+      add_part(body, mount, returns.obstacle, returns.ranger, draft);
     }
     if (returns.fiducial > 0 && !draft.robot.contains("fiducial")) {
       draft.robot["fiducial"] = returns.fiducial;
@@ -568,33 +551,8 @@ class Translator {
     }
   }
 
-  /// Sets the outline and the height of a robot's model.
-  void set_body(RobotDraft& draft) {
-    constexpr std::size_t kMostCorners = 8;
-    Polygon outline = convex_outline(draft.outline);
-    reduce_corners(outline, kMostCorners);
-    if (outline.size() < 3 || area_m2(outline) < 1.1e-4 || least_extent_m(outline) < 0.001) {
-      report_.note("no body", draft.place,
-                   "a robot with a body of less than 1 cm^2 gets one of 2 x 2 cm");
-      outline = {{-0.01, -0.01}, {0.01, -0.01}, {0.01, 0.01}, {-0.01, 0.01}};
-    }
-    for (const Vec2& point : outline) {
-      constexpr double kFarthest_m = 100.0;
-      if (point.cwiseAbs().maxCoeff() <= kFarthest_m) continue;
-      report_.error(draft.place, "stage/bad-body",
-                    "a robot whose body ends at most 100 m from its pose",
-                    number_text(point.cwiseAbs().maxCoeff()) + " m", "is unit_length right?");
-      break;
-    }
-    Json points = Json::array();
-    for (const Vec2& point : outline) points.push_back(point_json(point));
-    draft.model["footprint"] = std::move(points);
-    draft.model["height"] = neat(std::clamp(draft.top_m, 0.001, 10.0));
-    draft.outline = std::move(outline);
-  }
-
   void extend_by(const RobotDraft& draft) {
-    for (const Vec2& point : draft.outline) extend(draft.X_WB * point);
+    for (const Vec2& point : draft.footprint) extend(draft.X_WB * point);
   }
 
   /// Adds obstacles and maps that robots or their sensors can meet.

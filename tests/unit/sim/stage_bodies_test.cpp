@@ -1,0 +1,104 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Bodies of Stage's robots: footprints, heights and superstructures.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "sim/simulation/simulation.h"
+#include "sim/world/outline.h"
+#include "sim/world/robot_model.h"
+#include "temporary_folder.h"
+
+namespace sim {
+namespace {
+
+using testing::IsEmpty;
+using testing::SizeIs;
+
+RobotModel model_of(const std::string& position) {
+  test_support::TemporaryFolder folder;
+  const WorldDescription world =
+      load_world(folder.write("w.world", "position ( name \"r0\" " + position + " )"));
+  return *find_robot_model(world, world.robots[0].model);
+}
+
+// The laser of 0.15 x 0.16 x 0.19 m stands on the body of 0.22 m.
+TEST(StageBodies, ALaserOnTheBodyIsASuperstructure) {
+  const RobotModel model = model_of(
+      "size [0.4 0.4 0.22] ranger ( size [0.15 0.16 0.19] pose [0.1 0 0 0] "
+      "block ( points 4 point[0] [0 0] point[1] [0 1] point[2] [1 1] point[3] [1 0] z [0 1] ) "
+      "sensor ( samples 100 fov 180 ) )");
+  EXPECT_NEAR(model.height_m, 0.22, 1e-9);
+  EXPECT_NEAR(area_m2(model.footprint), 0.16, 1e-9);
+  ASSERT_THAT(model.superstructures, SizeIs(1));
+  EXPECT_NEAR(model.superstructures[0].height_m, 0.41, 1e-9);
+  EXPECT_NEAR(area_m2(model.superstructures[0].outline), 0.15 * 0.16, 1e-9);
+}
+
+TEST(StageBodies, WhatIsNotHigherThanTheBodyAddsNothing) {
+  const RobotModel model =
+      model_of("size [0.4 0.4 0.5] model ( size [0.1 0.1 0.1] pose [0 0 -0.4 0] )");
+  EXPECT_NEAR(model.height_m, 0.5, 1e-9);
+  EXPECT_THAT(model.superstructures, IsEmpty());
+}
+
+// Teeth of half the height before a body: together they are 1 x 0.8 m, the body alone 0.8 x 0.8 m.
+TEST(StageBodies, ALowPartBeforeTheBodyKeepsItsHeight) {
+  const RobotModel model = model_of(
+      "size [1 0.8 0.6] "
+      "block ( points 4 point[0] [0 0] point[1] [8 0] point[2] [8 8] point[3] [0 8] z [0 6] ) "
+      "block ( points 4 point[0] [8 0] point[1] [10 0] point[2] [10 8] point[3] [8 8] z [0 3] )");
+  EXPECT_NEAR(model.height_m, 0.3, 1e-9);
+  EXPECT_NEAR(area_m2(model.footprint), 0.8, 1e-9);
+  ASSERT_THAT(model.superstructures, SizeIs(1));
+  EXPECT_NEAR(model.superstructures[0].height_m, 0.6, 1e-9);
+  EXPECT_NEAR(area_m2(model.superstructures[0].outline), 0.64, 1e-9);
+}
+
+TEST(StageBodies, PartsThatRangersDoNotSeeAreSolidOnly) {
+  const RobotModel model = model_of(
+      "size [0.4 0.4 0.2] "
+      "model ( size [0.6 0.6 0.1] pose [0 0 0 0] ranger_return -1 ) "
+      "model ( size [0.9 0.1 0.3] pose [0 0 0 0] obstacle_return 0 )");
+  EXPECT_DOUBLE_EQ(model.height_m, 0.001) << "the plate, which is as wide as the whole";
+  EXPECT_NEAR(area_m2(model.footprint), 0.36, 1e-9) << "without the bar, which is not solid";
+  ASSERT_THAT(model.superstructures, SizeIs(2));
+  EXPECT_NEAR(model.superstructures[0].height_m, 0.2, 1e-9) << "the body";
+  EXPECT_NEAR(model.superstructures[1].height_m, 0.5, 1e-9) << "the bar";
+  EXPECT_NEAR(area_m2(model.superstructures[1].outline), 0.09, 1e-9);
+}
+
+// A bumper that is seen but not solid, before the body and not higher than it.
+TEST(StageBodies, PartsThatAreSeenBeyondTheFootprintStayVisible) {
+  const RobotModel model = model_of(
+      "size [0.4 0.4 0.2] model ( size [0.1 0.1 0.1] pose [0.25 0 -0.1 0] obstacle_return 0 )");
+  EXPECT_NEAR(area_m2(model.footprint), 0.16, 1e-9);
+  EXPECT_DOUBLE_EQ(model.height_m, 0.001);
+  ASSERT_THAT(model.superstructures, SizeIs(2));
+  EXPECT_NEAR(area_m2(model.superstructures[0].outline), 0.16, 1e-9) << "the body";
+  EXPECT_NEAR(model.superstructures[0].height_m, 0.2, 1e-9);
+  EXPECT_NEAR(area_m2(model.superstructures[1].outline), 0.01, 1e-9) << "the bumper";
+  EXPECT_NEAR(model.superstructures[1].height_m, 0.2, 1e-9);
+}
+
+TEST(StageBodies, HaveAtMostThirtyTwoSuperstructures) {
+  std::string parts = "size [0.4 0.4 0.2] ";
+  for (int i = 0; i < 40; ++i) {
+    parts += "model ( size [0.02 0.02 0.1] pose [" + std::to_string(0.04 * (i % 8) - 0.16) + ' ' +
+             std::to_string(0.04 * (i / 8) - 0.1) + " 0 0] )";
+  }
+  EXPECT_THAT(model_of(parts).superstructures, SizeIs(32));
+}
+
+TEST(StageBodies, PartsWithinHigherOnesAreNotListed) {
+  const RobotModel model = model_of(
+      "size [0.4 0.4 0.2] model ( size [0.2 0.2 0.3] ) model ( size [0.1 0.1 0.2] ) "
+      "model ( size [0.1 0.1 0.4] )");
+  ASSERT_THAT(model.superstructures, SizeIs(2));
+  EXPECT_NEAR(model.superstructures[0].height_m, 0.5, 1e-9);
+  EXPECT_NEAR(model.superstructures[1].height_m, 0.6, 1e-9);
+}
+
+}  // namespace
+}  // namespace sim

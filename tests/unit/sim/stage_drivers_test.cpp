@@ -1,0 +1,156 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Drivers of Player's configuration files beside worlds of Stage.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <any>
+#include <cmath>
+#include <string>
+
+#include "sim/core/error.h"
+#include "sim/devices/amcl.h"
+#include "sim/simulation/simulation.h"
+#include "temporary_folder.h"
+
+namespace sim {
+namespace {
+
+using testing::Contains;
+using testing::Each;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+
+constexpr const char* kScanner = "ranger ( sensor ( samples 181 fov 180 ) )";
+
+// A robot "r0" with a laser and a sonar, and one "r1" that has no laser.
+WorldDescription read(const std::string& drivers, const std::string& scanner = kScanner) {
+  test_support::TemporaryFolder folder;
+  folder.write("w.cfg",
+               "driver ( name \"stage\" provides [\"simulation:0\"] worldfile \"w.world\" )\n"
+               "driver ( name \"stage\" provides [\"position2d:0\" \"ranger:0\"] model \"r0\" )\n" +
+                   drivers);
+  return load_world(folder.write(
+      "w.world", "position ( name \"r0\" size [0.4 0.4 0.2] " + scanner +
+                     " )\nposition ( name \"r1\" size [0.4 0.4 0.2] pose [2 0 0 0] )"));
+}
+
+TEST(StageDrivers, OptionsOfVfhKeepTheirMeaning) {
+  const WorldDescription world = read(
+      "driver ( name \"vfh\" provides [\"position2d:1\"] requires [\"position2d:0\" \"ranger:0\"]\n"
+      "  max_speed 0.3 max_turnrate_0ms 90 sector_angle 10 distance_epsilon 0.25\n"
+      "  window_diameter 41 escape_speed 0.1 )");
+  ASSERT_THAT(world.robots[0].drivers, SizeIs(1));
+  const DriverDescription& driver = world.robots[0].drivers[0];
+  EXPECT_EQ(driver.type, "vfh");
+  EXPECT_EQ(driver.settings.at("index"), "1");
+  EXPECT_EQ(driver.settings.at("position"), "0");
+  EXPECT_EQ(driver.settings.at("laser"), "0");
+  EXPECT_EQ(driver.settings.at("max_speed"), "0.3");
+  EXPECT_EQ(driver.settings.at("max_turnrate_0ms_deg"), "90.0");
+  EXPECT_EQ(driver.settings.at("sector_angle_deg"), "10.0");
+  EXPECT_EQ(driver.settings.at("distance_epsilon"), "0.25");
+  EXPECT_EQ(driver.settings.at("window_diameter"), "41");
+  EXPECT_THAT(world.robots[0].interfaces.at("laser"), SizeIs(1));
+  EXPECT_THAT(world.notes,
+              Contains(HasSubstr("options of the driver \"vfh\" are left out: escape_speed")));
+}
+
+TEST(StageDrivers, PairsOfNdAreTwoSettings) {
+  const WorldDescription world = read(
+      "driver ( name \"nd\" provides [\"position2d:2\"]\n"
+      "  requires [\"output:::position2d:0\" \"input:::position2d:0\" \"ranger:0\"]\n"
+      "  max_speed [0.7 100] min_speed [0.1 10] goal_tol [0.3 15] translate_stuck_angle 10 )");
+  ASSERT_THAT(world.robots[0].drivers, SizeIs(1));
+  const auto& settings = world.robots[0].drivers[0].settings;
+  EXPECT_EQ(settings.at("index"), "2");
+  EXPECT_EQ(settings.at("max_speed"), "0.7");
+  EXPECT_EQ(settings.at("max_turnrate_deg"), "100.0");
+  EXPECT_EQ(settings.at("min_turnrate_deg"), "10.0");
+  EXPECT_EQ(settings.at("goal_tol"), "0.3");
+  EXPECT_EQ(settings.at("goal_tol_angle_deg"), "15.0");
+  EXPECT_EQ(settings.at("translate_stuck_angle_deg"), "10.0");
+}
+
+// As in Stage's wavefront-remote.cfg: the drivers run on a second server.
+TEST(StageDrivers, WavefrontFollowsAmclAndDrivesByVfh) {
+  const WorldDescription world = read(
+      "driver ( name \"wavefront\" provides [\"7000:planner:0\"] requires\n"
+      "  [\"output::7000:position2d:1\" \"input::7000:position2d:2\" \"7000:map:0\"]\n"
+      "  safety_dist 0.15 angle_epsilon 10 )\n"
+      "driver ( name \"passthrough\" provides [\"7000:map:0\"] requires [\"6665:map:0\"] )\n"
+      "driver ( name \"vfh\" provides [\"7000:position2d:1\"]\n"
+      "  requires [\"6665:position2d:0\" \"6665:ranger:0\"] )\n"
+      "driver ( name \"amcl\" provides [\"7000:localize:0\" \"7000:position2d:2\"] requires\n"
+      "  [\"odometry::6665:position2d:0\" \"6665:ranger:0\" \"laser::7000:map:0\"]\n"
+      "  init_pose [0.1 0.2 90] update_thresh [0.1 5] pf_max_samples 500 )");
+  ASSERT_THAT(world.robots[0].drivers, SizeIs(2));
+  EXPECT_EQ(world.robots[0].drivers[0].type, "vfh");
+  const DriverDescription& planner = world.robots[0].drivers[1];
+  EXPECT_EQ(planner.type, "wavefront");
+  EXPECT_EQ(planner.settings.at("output"), "1");
+  EXPECT_EQ(planner.settings.at("localize"), "0");
+  EXPECT_EQ(planner.settings.at("safety_dist"), "0.15");
+  EXPECT_EQ(planner.settings.at("angle_epsilon_deg"), "10.0");
+  const auto amcl =
+      std::find_if(world.robots[0].devices.begin(), world.robots[0].devices.end(),
+                   [](const DeviceDescription& device) { return device.type == "amcl"; });
+  ASSERT_NE(amcl, world.robots[0].devices.end());
+  const auto& params = std::any_cast<const AmclParams&>(amcl->params);
+  EXPECT_EQ(params.laser, "laser");
+  EXPECT_EQ(params.odometry, "pose") << "localization \"gps\" is Stage's default";
+  EXPECT_EQ(params.max_samples, 500);
+  EXPECT_DOUBLE_EQ(params.update_m, 0.1);
+  EXPECT_NEAR(params.update_rad, 5.0 * M_PI / 180.0, 1e-9);
+  EXPECT_THAT(world.notes, Contains(HasSubstr("all devices of r0 are on 6665")));
+  EXPECT_THAT(world.notes, Each(Not(HasSubstr("is left out"))));
+}
+
+TEST(StageDrivers, ThatNeedALaserAreLeftOutWithoutOne) {
+  for (const char* name : {"nd", "vfh", "snd", "amcl"}) {
+    const WorldDescription world = read(std::string("driver ( name \"") + name +
+                                            "\" provides [\"position2d:1\"] "
+                                            "requires [\"position2d:0\"] )",
+                                        "ranger ( sensor ( samples 1 ) )");
+    EXPECT_THAT(world.robots[0].drivers, IsEmpty());
+    EXPECT_THAT(world.notes, Contains(HasSubstr("the driver \"" + std::string(name) +
+                                                "\" is left out: the robot has no laser")));
+  }
+}
+
+TEST(StageDrivers, AmclUsesTheLaserInPlaceOfSonars) {
+  const WorldDescription world = read(
+      "driver ( name \"mapfile\" provides [\"map:1\"] filename \"x.png\" )\n"
+      "driver ( name \"mapscale\" provides [\"map:0\"] requires [\"map:1\"] )\n"
+      "driver ( name \"amcl\" provides [\"localize:0\"]\n"
+      "  requires [\"odometry::position:0\" \"sonar:0\" \"sonar::map:0\"]\n"
+      "  scount 1 spose[0] [0 0 0] enable_gui 0 odom_drift[0] [0.2 0 0] )");
+  EXPECT_THAT(world.notes, Contains(HasSubstr("laser only; \"sonar\" is left out")));
+  EXPECT_THAT(world.notes,
+              Contains(HasSubstr("options of the driver \"amcl\" are left out: odom_drift[0]")));
+  EXPECT_THAT(world.notes, Each(Not(HasSubstr("mapscale"))));
+}
+
+TEST(StageDrivers, OthersAreLeftOutWithAMessage) {
+  const WorldDescription world = read(
+      "driver ( name \"mbicp\" provides [\"position2d:1\"] requires [\"position2d:0\"] )\n"
+      "driver ( name \"nd\" provides [\"position2d:1\"] requires [\"position2d:7\"] )");
+  EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:3: the driver \"mbicp\" is left out")));
+  EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:4: the driver \"nd\" is left out")));
+}
+
+TEST(StageDrivers, TheOnlyModelThatIsUnknownIsTheFirstRobot) {
+  test_support::TemporaryFolder folder;
+  folder.write("w.world", "position ( name \"r0\" size [0.4 0.4 0.2] )");
+  const WorldDescription world = load_world(
+      folder.write("other.cfg",
+                   "driver ( name \"stage\" provides [\"simulation:0\"] worldfile \"w.world\" )\n"
+                   "driver ( name \"stage\" provides [\"6670:position2d:0\"] model \"machine\" )"));
+  EXPECT_EQ(world.robots[0].port, 6670);
+  EXPECT_THAT(world.notes, Contains(HasSubstr("\"r0\", takes its place")));
+}
+
+}  // namespace
+}  // namespace sim
