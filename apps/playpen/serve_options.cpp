@@ -104,6 +104,8 @@ void add_serve(CommandLine& line) {
   add_run_settings(line, command, request->settings, "the world's, else real");
   add_port(command, "--stream-port", "First port of MORSE's data streams; 0: any [60000]",
            server.stream_port);
+  command.add_flag("--open-streams", server.open_streams,
+                   "Open the ports of all streams at the start, for clients that do not ask");
   add_port(command, "--sync-port", "Port of MORSE's clock synchronisation; 0: any [none]",
            server.sync_port);
   add_port(command, "--player-port",

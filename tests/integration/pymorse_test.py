@@ -6,10 +6,13 @@ Usage: pymorse_test.py PLAYPEN REPOSITORY
 
 Ends with status 77 (ctest: skipped) if this Python has no pymorse.
 """
+import base64
 import json
 import math
 import os
 import re
+import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -34,7 +37,7 @@ TIMEOUT = float(os.environ.get("PLAYPEN_TEST_PATIENCE_S", 900))
 class Server:
     """`playpen serve` on ports that are free."""
 
-    def __init__(self, *options, world=None):
+    def __init__(self, *options, world=None, stream_port=0):
         self.folder = tempfile.TemporaryDirectory()
         path = WORLD
         if world is not None:
@@ -42,7 +45,7 @@ class Server:
             with open(path, "w", encoding="utf-8") as file:
                 json.dump(world, file)
         self.process = subprocess.Popen(
-            [PLAYPEN, "serve", path, "--port", "0", "--stream-port", "0",
+            [PLAYPEN, "serve", path, "--port", "0", "--stream-port", str(stream_port),
              "--out", self.folder.name, *options],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1)
         self.log = ""
@@ -265,6 +268,8 @@ class Space(unittest.TestCase):
     WORLD = {
         "arena": {"size": [20, 20], "origin": [-10, -10],
                   "obstacles": [{"name": "box", "center": [0, 5], "tags": ["Object"]},
+                                {"name": "cup", "center": [1, -1], "size": [0.1, 0.1],
+                                 "portable": True, "tags": ["Graspable"]},
                                 {"name": "wall", "center": [5, 0], "size": [0.2, 4],
                    "height": 1}]},
         "robots": [
@@ -276,7 +281,10 @@ class Space(unittest.TestCase):
                  "arm": {"type": "actarray", "joints": [{"name": "one"}, {"name": "two"}]},
                  "joints": {"type": "posture", "of": "arm"},
                  "orientation": {}, "teleport": {}, "velocity": {}, "proximity": {"range": 20},
-                 "barometer": {}}},
+                 "barometer": {}, "go": {"type": "destination"},
+                 "hand": {"distance": 2, "angle_deg": 120}, "light": {"type": "blinkenlight"},
+                 "camera": {"image": [8, 6]},
+                 "depth": {"type": "depth_camera", "image": [8, 6], "range_min": 1}}},
             {"name": "hidden", "pose": {"x": 8, "y": 0}, "tags": ["friend"]},
             {"name": "near", "pose": {"x": -3, "y": 0}}]}
 
@@ -320,6 +328,79 @@ class Space(unittest.TestCase):
             with self.assertRaises(pymorse.MorseServiceFailed):
                 wrong.result(TIMEOUT)
 
+    def test_an_arm_follows_a_trajectory(self):
+        arm = self.simu.robot.arm
+        for wrong in ({"points": [{"position": [0, 0], "time_from_start": 1}]}, {},
+                      {"points": [{"positions": [0], "time_from_start": 1}]}, {"points": []}):
+            with self.assertRaises(pymorse.MorseServiceFailed):
+                arm.trajectory(wrong).result(TIMEOUT)
+        arm.trajectory({"points": [{"positions": [0.2, 0.1], "time_from_start": 0.5},
+                                   {"positions": [0.4, -0.1], "time_from_start": 1.0}]}
+                       ).result(TIMEOUT)
+        self.assertTrue(wait_for(
+            lambda: arm.joints.get_local_data().result(TIMEOUT)["one"] == 0.4, self.simu))
+        waiting = arm.trajectory({"starttime": self.simu.time() + 1e6, "points": [
+            {"positions": [0, 0], "time_from_start": 1}]})
+        waiting.cancel()
+        arm.rotate("one", 0.1).result(TIMEOUT)
+        self.assertEqual(arm.get_IK_limits("one").result(TIMEOUT), [-math.pi / 2, math.pi / 2])
+        self.assertEqual(arm.get_dofs().result(TIMEOUT)["one"], [False, False, True])
+
+    def test_an_arm_reaches_for_a_target(self):
+        arm = self.simu.robot.arm
+        target = arm.list_IK_targets().result(TIMEOUT)[0]
+        self.assertEqual(target, "ik_target.robot.arm.two")
+
+        def turned_by(angle):
+            joints = arm.joints.get_local_data().result(TIMEOUT)
+            return abs(joints["one"] + joints["two"] - angle) < 0.01
+
+        # Two links of 0.1 m that turn about upright axes: from ahead to the left, and back.
+        arm.move_IK_target(target, [-0.2, 0.2, 0], [0, 0, math.pi / 2]).result(TIMEOUT)
+        self.assertTrue(wait_for(lambda: turned_by(math.pi / 2), self.simu))
+        arm.place_IK_target(target, [0.2, -0.2, 0], [0, 0, -math.pi / 2]).result(TIMEOUT)
+        self.assertTrue(wait_for(lambda: turned_by(0), self.simu))
+        for wrong in (arm.place_IK_target("nothing", [0, 0, 0]),
+                      arm.place_IK_target(target, [0, 0]), arm.move_IK_target(target, "here")):
+            with self.assertRaises(pymorse.MorseServiceFailed):
+                wrong.result(TIMEOUT)
+
+    def test_a_hand_takes_things(self):
+        hand = self.simu.robot.hand
+        self.assertIsNone(hand.release().result(TIMEOUT))
+        self.assertEqual(hand.grab().result(TIMEOUT), "cup")
+        self.assertEqual(hand.grab().result(TIMEOUT), "cup")
+        self.assertTrue(hand.release().result(TIMEOUT))
+        self.simu.robot.teleport.publish({"x": 5, "y": -8, "z": 0, "yaw": 0, "pitch": 0, "roll": 0})
+        self.assertTrue(wait_for(lambda: hand.get(TIMEOUT)["near"] == "", self.simu))
+        self.assertIsNone(hand.grab().result(TIMEOUT))
+
+    def test_cameras_send_pictures(self):
+        robot = self.simu.robot
+        robot.camera.capture(2).result(TIMEOUT)
+        picture = robot.camera.get(TIMEOUT)
+        self.assertEqual((picture["width"], picture["height"]), (8, 6))
+        self.assertEqual(len(base64.b64decode(picture["image"])), 8 * 6 * 4)
+        points = base64.b64decode(robot.depth.get(TIMEOUT)["points"])
+        self.assertGreater(len(points), 0)
+        for x, y, z in struct.iter_unpack("fff", points):
+            self.assertGreaterEqual(z, 1)
+            self.assertLessEqual(z, 12)
+        with self.assertRaises(pymorse.MorseServiceFailed):
+            robot.camera.capture(0).result(TIMEOUT)
+
+    def test_a_robot_goes_straight_to_its_destination(self):
+        robot = self.simu.robot
+        robot.go.publish({"x": -1, "y": 1, "z": 2.5})
+        self.assertTrue(wait_for(lambda: robot.pose.get(TIMEOUT)["z"] > 1.5, self.simu))
+        pose = robot.pose.last()
+        self.assertAlmostEqual(pose["x"], -pose["y"], places=2)
+        self.assertAlmostEqual(pose["yaw"], 0, places=4)
+
+    def test_a_light_is_toggled(self):
+        self.assertTrue(self.simu.robot.light.toggle().result(TIMEOUT))
+        self.assertTrue(self.simu.robot.light.toggle(True).result(TIMEOUT))
+
     def test_height_and_inclination_are_values(self):
         robot = self.simu.robot
         robot.orientation.publish({"yaw": 0.5, "pitch": 0.25, "roll": -0.125})
@@ -350,6 +431,32 @@ class Space(unittest.TestCase):
         simu.robot.proximity.set_tracked_tag("friend").result(TIMEOUT)
         self.assertTrue(wait_for(
             lambda: list(simu.robot.proximity.get(TIMEOUT)["near_objects"]) == ["hidden"], simu))
+
+
+class RawStreams(unittest.TestCase):
+    """Programs that know the ports of the streams, such as MORSE's socket_v_omega_client.py."""
+
+    def test_ports_are_open_from_the_start(self):
+        with socket.socket() as probe:  # a port that is likely to have free ones behind it
+            probe.bind(("127.0.0.1", 0))
+            first = probe.getsockname()[1]
+        world = {"arena": {"size": [10, 10]}, "robots": [
+            {"name": "robot", "model": "omni", "pose": {"x": 5, "y": 5}}]}
+        with Server("--time", "10", "--open-streams", stream_port=first, world=world) as server:
+            simu = pymorse.Morse("localhost", server.port)
+            self.addCleanup(close, simu)
+            ports = simu.rpc("simulation", "get_all_stream_ports")
+            self.assertEqual(min(ports.values()), first)
+            self.assertEqual([name for name, port in sorted(ports.items(), key=lambda i: i[1])],
+                             simu.rpc("simulation", "list_streams"))
+            address = "127.0.0.1"
+            with socket.create_connection((address, ports["robot.motion"]), TIMEOUT) as motion, \
+                    socket.create_connection((address, ports["robot.pose"]), TIMEOUT) as pose:
+                motion.sendall(b'{"x": 0.2, "y": 0.0, "w": 0.0}\n')
+                with pose.makefile() as lines:
+                    for line in lines:
+                        if json.loads(line)["x"] > 5.1:
+                            break
 
 
 class Guide(unittest.TestCase):

@@ -14,6 +14,8 @@ With names, only the test files run whose names contain one of them.
 
   --morse DIR        a checkout of https://github.com/morse-simulator/morse, for example of 1.4
   --playpen COMMAND  the command playpen
+  --time FACTOR      pace of simulated time [1]. The tests sleep in simulated time, and expect that a command arrives
+                     within some steps of 1/60 s: on a busy machine, a slower pace makes that true
 TEXT
 }
 
@@ -28,6 +30,7 @@ while (($# > 0)); do
       ;;
     --morse) morse=${2:?--morse needs a folder} ;;
     --playpen) playpen=${2:?--playpen needs a command} ;;
+    --time) export MORSE_SUITE_TIME=${2:?--time needs a factor} ;;
     *) break ;;
   esac
   shift 2

@@ -264,6 +264,7 @@ struct Converter {
   Converted operator()(const sim::RotateCommand& /*what*/) const { return std::nullopt; }
   Converted operator()(const sim::OrientCommand& /*what*/) const { return std::nullopt; }
   Converted operator()(const sim::TrackCommand& /*what*/) const { return std::nullopt; }
+  Converted operator()(const sim::TrajectoryCommand& /*what*/) const { return std::nullopt; }
 };
 
 }  // namespace

@@ -11,7 +11,9 @@
 #include "server/morse_records.h"
 #include "sim/devices/actarray.h"
 #include "sim/devices/battery.h"
+#include "sim/devices/camera.h"
 #include "sim/devices/contact_sensors.h"
+#include "sim/devices/destination.h"
 #include "sim/devices/gps.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
@@ -43,10 +45,14 @@ constexpr std::array kKinds{
     Kind{"barometer", "Barometer", StreamDirection::kOut},
     Kind{"battery", "Battery", StreamDirection::kOut},
     Kind{"blinkenlight", "Light", StreamDirection::kIn},
+    Kind{"camera", "VideoCamera", StreamDirection::kOut},
     Kind{"clock", "Clock", StreamDirection::kOut},
     Kind{"collision", "Collision", StreamDirection::kOut},
+    Kind{"depth_camera", "DepthCamera", StreamDirection::kOut},
+    Kind{"destination", "Destination", StreamDirection::kIn},
     Kind{"gps", "GPS", StreamDirection::kOut},
     Kind{"gyroscope", "Gyroscope", StreamDirection::kOut},
+    Kind{"hand", "Gripper", StreamDirection::kOut},
     Kind{"imu", "IMU", StreamDirection::kOut},
     Kind{"infrared", "Infrared", StreamDirection::kOut},
     Kind{"laser", "LaserScanner", StreamDirection::kOut},
@@ -198,6 +204,7 @@ std::vector<MorseComponent> morse_components(const std::vector<RobotInfo>& robot
 
 json morse_record(const sim::Reading& reading, const StreamFormat& format) {
   json object{{"timestamp", sim::to_seconds(reading.time_ns)}};
+  if (put_picture_record(object, reading, format)) return object;
   if (put_space_record(object, reading, format)) return object;
   if (const auto* pose = dynamic_cast<const sim::PoseReading*>(&reading)) {
     if (format.odometry) {
@@ -283,6 +290,10 @@ StreamFormat stream_format(const sim::Simulation& simulation, DeviceId device) {
   } else if (const auto* gps = std::any_cast<sim::GpsParams>(&description.params)) {
     format.coordinates = *gps;
     format.gps = gps->level;
+  } else if (description.type == "camera") {
+    const auto* camera = std::any_cast<sim::CameraParams>(&description.params);
+    format.field_of_view_rad =
+        (camera != nullptr ? *camera : sim::CameraParams{}).field_of_view_rad;
   } else if (const auto* teleport = std::any_cast<sim::TeleportParams>(&description.params)) {
     format.coordinates = *teleport;
   }
@@ -344,6 +355,13 @@ sim::Command morse_command(const MorseComponent& component, const json& object,
     return sim::GotoCommand{{number(object, "x"), number(object, "y")},
                             number(object, "tolerance", waypoint.params().tolerance_m),
                             number(object, "speed", waypoint.params().speed_mps)};
+  }
+  if (component.type == "destination") {
+    const auto& params = dynamic_cast<const sim::Destination&>(device).params();
+    sim::GotoCommand goal{
+        {number(object, "x"), number(object, "y")}, params.tolerance_m, params.speed_mps};
+    if (object.contains("z")) goal.z_m = number(object, "z");
+    return goal;
   }
   if (component.type == "orientation") {
     return sim::OrientCommand{number(object, "roll", 0.0), number(object, "pitch", 0.0),

@@ -44,6 +44,7 @@ struct StreamFormat {
   std::optional<sim::OdometryLevel> odometry;  ///< of an odometry device
   sim::GpsLevel gps = sim::GpsLevel::kExtended;
   sim::CoordinateParams coordinates;
+  double field_of_view_rad = 0.0;  ///< of a camera; on a head, the head's may differ
 };
 [[nodiscard]] StreamFormat stream_format(const sim::Simulation& simulation, DeviceId device);
 

@@ -1,13 +1,14 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Requests to MORSE's PTU, Armature, ArmaturePose, Proximity and Light, and to `communication`.
+// Requests to MORSE's PTU, ArmaturePose, Proximity, Gripper, Light and cameras, and to
+// `communication`.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "server/morse_services.h"
 #include "server/morse_state.h"
-#include "sim/devices/actarray.h"
 #include "sim/devices/blinkenlight.h"
+#include "sim/devices/hand.h"
 #include "sim/devices/posture.h"
 #include "sim/devices/ptz.h"
 #include "sim/simulation/simulation.h"
@@ -20,13 +21,6 @@ using Right = MorseService::Right;
 
 constexpr double kFarthest_m = 1e6;
 constexpr double kMostTurn_rad = 1e6;
-
-DeviceId id_of(const MorseCall& call) { return call.component->device.value(); }
-
-template <typename Kind>
-const Kind& device_in(const sim::Simulation& simulation, DeviceId id) {
-  return dynamic_cast<const Kind&>(simulation.device(id.robot, id.device));
-}
 
 // --- ptz
 
@@ -99,125 +93,6 @@ constexpr MorseService kHead[] = {
     {"look_at_object", "object", Right::kRobot, look_at_object, nullptr, true},
 };
 
-// --- actarray
-
-// Index of a joint of the arm, which is of the wanted type. @throws MorseRefusal.
-int joint_of(MorseCall& call, const std::string& name, sim::JointType type) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    const auto& arm = device_in<sim::ActArray>(simulation, id_of(call));
-    const std::vector<std::string> names = arm.joint_names();
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-      throw MorseRefusal("Joint <" + name + "> does not exist in armature " + call.component->name);
-    }
-    const auto index = found - names.begin();
-    const bool is_linear =
-        arm.params().joints[static_cast<std::size_t>(index)].type == sim::JointType::kLinear;
-    if (is_linear && type == sim::JointType::kRotary) {
-      throw MorseRefusal("Joint " + name + " is not a revolute joint! Can not set the rotation");
-    }
-    if (!is_linear && type == sim::JointType::kLinear) {
-      throw MorseRefusal("Joint " + name +
-                         " is not a prismatic joint! Can not set the translation");
-    }
-    return static_cast<int>(index);
-  });
-}
-
-json place_joint(MorseCall& call, sim::JointType type) {
-  const int joint = joint_of(call, call.arguments.text(0), type);
-  const double value = call.arguments.number(1, -kMostTurn_rad, kMostTurn_rad);
-  call.state.command(id_of(call),
-                     sim::JointCommand{sim::JointCommand::Mode::kPlace, joint, {value}});
-  return nullptr;
-}
-json set_rotation(MorseCall& call) { return place_joint(call, sim::JointType::kRotary); }
-json set_translation(MorseCall& call) { return place_joint(call, sim::JointType::kLinear); }
-
-// Places the first joints, all of the given type.
-json place_joints(MorseCall& call, sim::JointType type) {
-  const std::vector<std::string> names = call.state.with([&](const sim::Simulation& simulation) {
-    return device_in<sim::ActArray>(simulation, id_of(call)).joint_names();
-  });
-  std::vector<double> values;
-  for (const json& value : call.arguments.list(0)) {
-    if (values.size() == names.size()) break;  // as in MORSE, the rest is discarded
-    if (!value.is_number()) call.arguments.refuse(0, "a list of numbers");
-    static_cast<void>(joint_of(call, names[values.size()], type));
-    values.push_back(value.get<double>());
-  }
-  if (values.empty()) return nullptr;
-  call.state.command(id_of(call),
-                     sim::JointCommand{sim::JointCommand::Mode::kPlace, 0, std::move(values)});
-  return nullptr;
-}
-json set_rotations(MorseCall& call) { return place_joints(call, sim::JointType::kRotary); }
-json set_translations(MorseCall& call) { return place_joints(call, sim::JointType::kLinear); }
-
-bool arm_rests(const sim::Device& device) {
-  return dynamic_cast<const sim::ActArray&>(device).at_rest();
-}
-
-json move_joint(MorseCall& call, sim::JointType type) {
-  const int joint = joint_of(call, call.arguments.text(0), type);
-  const double value = call.arguments.number(1, -kMostTurn_rad, kMostTurn_rad);
-  if (call.arguments.has(2) && !call.arguments.any(2).is_null()) {
-    call.state.command(id_of(call),
-                       sim::JointSettingCommand{sim::JointSettingCommand::Setting::kSpeed, joint,
-                                                call.arguments.number(2, 1e-6, kMostTurn_rad)});
-  }
-  call.state.answer_when(call.from, call.id, id_of(call),
-                         sim::JointCommand{sim::JointCommand::Mode::kPosition, joint, {value}},
-                         arm_rests);
-  return nullptr;
-}
-json rotate_joint(MorseCall& call) { return move_joint(call, sim::JointType::kRotary); }
-json translate_joint(MorseCall& call) { return move_joint(call, sim::JointType::kLinear); }
-
-// Moves the joints of an object {name: value}. The others stay.
-json move_joints(MorseCall& call, sim::JointType type) {
-  const json& wanted = call.arguments.any(0);
-  if (!wanted.is_object()) call.arguments.refuse(0, "an object {joint: value}");
-  std::vector<double> values = call.state.with([&](const sim::Simulation& simulation) {
-    return device_in<sim::ActArray>(simulation, id_of(call)).positions();
-  });
-  for (const auto& [name, value] : wanted.items()) {
-    const int joint = joint_of(call, name, type);
-    if (!value.is_number()) call.arguments.refuse(0, "an object {joint: number}");
-    values[static_cast<std::size_t>(joint)] = value.get<double>();
-  }
-  call.state.answer_when(
-      call.from, call.id, id_of(call),
-      sim::JointCommand{sim::JointCommand::Mode::kPosition, 0, std::move(values)}, arm_rests);
-  return nullptr;
-}
-json rotate_joints(MorseCall& call) { return move_joints(call, sim::JointType::kRotary); }
-json translate_joints(MorseCall& call) { return move_joints(call, sim::JointType::kLinear); }
-
-json joints_of_arm(MorseCall& call) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    return json(device_in<sim::ActArray>(simulation, id_of(call)).joint_names());
-  });
-}
-
-json stop_arm(MorseCall& call) {
-  call.state.command(id_of(call), sim::JointCommand{sim::JointCommand::Mode::kSpeed, -1, {0.0}});
-  return nullptr;
-}
-
-constexpr MorseService kArm[] = {
-    {"get_joints", "", Right::kConnect, joints_of_arm},
-    {"set_rotation", "joint, rotation", Right::kRobot, set_rotation},
-    {"set_rotations", "rotations", Right::kRobot, set_rotations},
-    {"set_translation", "joint, translation", Right::kRobot, set_translation},
-    {"set_translations", "translations", Right::kRobot, set_translations},
-    {"rotate", "joint, rotation, speed=null", Right::kRobot, rotate_joint, nullptr, true},
-    {"rotate_joints", "rotations", Right::kRobot, rotate_joints, nullptr, true},
-    {"translate", "joint, translation, speed=null", Right::kRobot, translate_joint, nullptr, true},
-    {"translate_joints", "translations", Right::kRobot, translate_joints, nullptr, true},
-    {"stop", "", Right::kRobot, stop_arm},
-};
-
 // --- posture
 
 json posture_joints(MorseCall& call) {
@@ -283,6 +158,78 @@ constexpr MorseService kProximity[] = {
     {"set_tracked_tag", "tag", Right::kRobot, set_tracked_tag},
 };
 
+// --- hand
+
+json grab(MorseCall& call) {
+  const auto held = [&] {
+    return call.state.with([&](const sim::Simulation& simulation) {
+      return device_in<sim::Hand>(simulation, id_of(call))
+          .held(simulation.world(), call.component->robot);
+    });
+  };
+  const bool reaches = call.state.with([&](const sim::Simulation& simulation) {
+    return device_in<sim::Hand>(simulation, id_of(call))
+               .nearest(simulation.world(), simulation.body(call.component->robot)) >= 0;
+  });
+  if (!reaches && held().empty()) return nullptr;
+  call.state.command(id_of(call), sim::GripCommand{sim::GripCommand::Action::kClose});
+  return held();
+}
+
+json release(MorseCall& call) {
+  const bool holds = call.state.with([&](const sim::Simulation& simulation) {
+    return !device_in<sim::Hand>(simulation, id_of(call))
+                .held(simulation.world(), call.component->robot)
+                .empty();
+  });
+  if (!holds) return nullptr;
+  call.state.command(id_of(call), sim::GripCommand{sim::GripCommand::Action::kOpen});
+  return true;
+}
+
+constexpr MorseService kHand[] = {
+    {"grab", "", Right::kRobot, grab},
+    {"release", "", Right::kRobot, release},
+};
+
+// --- blinkenlight
+
+json toggle(MorseCall& call) {
+  // As in MORSE, anything but true switches the light to the other state.
+  const bool on = call.arguments.has(0) && call.arguments.any(0) == json(true);
+  const bool is_on = call.state.with([&](const sim::Simulation& simulation) {
+    return device_in<sim::Blinkenlight>(simulation, id_of(call)).enabled();
+  });
+  call.state.command(id_of(call), sim::LightCommand{on || !is_on, {}, {}, {}});
+  return true;
+}
+
+constexpr MorseService kLight[] = {
+    {"toggle", "emit=null", Right::kRobot, toggle},
+};
+
+// --- camera, depth_camera
+
+json capture(MorseCall& call) {
+  constexpr int kMostPictures = 1000000;
+  const int wanted = call.arguments.integer(0, 1, kMostPictures);
+  const auto pictures_of = [](const sim::Device& device) {
+    return device.sensor()->reading().sequence;
+  };
+  const DeviceId id = id_of(call);
+  const std::uint64_t last = call.state.with([&](const sim::Simulation& simulation) {
+    return pictures_of(simulation.device(id.robot, id.device)) + static_cast<std::uint64_t>(wanted);
+  });
+  call.state.answer_when(call.from, call.id, id, [pictures_of, last](const sim::Device& device) {
+    return pictures_of(device) >= last;
+  });
+  return nullptr;
+}
+
+constexpr MorseService kCamera[] = {
+    {"capture", "n", Right::kConnect, capture, nullptr, true},
+};
+
 // --- communication
 
 json distance_and_view(MorseCall& call) {
@@ -313,7 +260,10 @@ std::span<const MorseService> communication_services() { return kCommunication; 
 
 std::span<const MorseService> device_services(std::string_view type) {
   if (type == "ptz") return kHead;
-  if (type == "actarray") return kArm;
+  if (type == "actarray") return arm_services();
+  if (type == "blinkenlight") return kLight;
+  if (type == "camera" || type == "depth_camera") return kCamera;
+  if (type == "hand") return kHand;
   if (type == "posture") return kPosture;
   if (type == "proximity") return kProximity;
   return {};

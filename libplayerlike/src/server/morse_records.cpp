@@ -2,13 +2,18 @@
 #include "server/morse_records.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <ctime>
 #include <limits>
 #include <numbers>
 
+#include "sim/core/base64.h"
 #include "sim/core/degrees.h"
 #include "sim/devices/air_sensors.h"
+#include "sim/devices/camera.h"
+#include "sim/devices/depth_camera.h"
+#include "sim/devices/hand.h"
 #include "sim/devices/posture.h"
 #include "sim/devices/semantic_camera.h"
 #include "sim/devices/space_sensors.h"
@@ -88,7 +93,67 @@ json seen(const sim::SemanticCameraReading& reading) {
   return all;
 }
 
+// The matrix that projects a point of a camera's frame (x right, y down, z ahead) to pixels.
+json intrinsic(double focal_px, int width, double centre_px) {
+  return {{focal_px, 0.0, 0.5 * width}, {0.0, focal_px, centre_px}, {0.0, 0.0, 1.0}};
+}
+
+// Red, green, blue and alpha of each pixel, as MORSE's pictures have them.
+std::vector<std::uint8_t> with_alpha(const std::vector<std::uint8_t>& rgb) {
+  std::vector<std::uint8_t> rgba;
+  rgba.reserve(rgb.size() / 3 * 4);
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
+    rgba.insert(rgba.end(), {rgb[i], rgb[i + 1], rgb[i + 2], 255});
+  }
+  return rgba;
+}
+
+void put_float(std::vector<std::uint8_t>& bytes, double value) {
+  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  for (int shift = 0; shift < 32; shift += 8) {
+    bytes.push_back(static_cast<std::uint8_t>(bits >> shift));
+  }
+}
+
+// x, y and z of each point as floats, row by row from the bottom, as MORSE's points come.
+std::vector<std::uint8_t> points_of(const sim::DepthCameraReading& reading) {
+  std::vector<std::uint8_t> bytes;
+  const auto width = static_cast<std::size_t>(reading.width);
+  for (std::size_t row = width == 0 ? 0 : reading.depths_m.size() / width; row-- > 0;) {
+    for (std::size_t column = 0; column < width; ++column) {
+      const double depth_m = reading.depths_m[row * width + column];
+      if (depth_m <= 0.0) continue;
+      const double per_px = depth_m / reading.focal_px;
+      put_float(bytes, (static_cast<double>(column) + 0.5 - 0.5 * reading.width) * per_px);
+      put_float(bytes, (static_cast<double>(row) + 0.5 - reading.centre_px) * per_px);
+      put_float(bytes, depth_m);
+    }
+  }
+  return bytes;
+}
+
 }  // namespace
+
+bool put_picture_record(json& object, const sim::Reading& reading, const StreamFormat& format) {
+  if (const auto* camera = dynamic_cast<const sim::CameraReading*>(&reading)) {
+    const sim::PinholeView view{camera->width, camera->height, format.field_of_view_rad};
+    object["height"] = camera->height;
+    object["width"] = camera->width;
+    object["image"] = sim::to_base64(with_alpha(camera->pixels));
+    object["intrinsic_matrix"] = intrinsic(view.focal_px(), camera->width, 0.5 * camera->height);
+  } else if (const auto* depth = dynamic_cast<const sim::DepthCameraReading*>(&reading)) {
+    object["height"] = depth->height;
+    object["width"] = depth->width;
+    object["points"] = sim::to_base64(points_of(*depth));
+    object["intrinsic_matrix"] = intrinsic(depth->focal_px, depth->width, depth->centre_px);
+  } else if (const auto* hand = dynamic_cast<const sim::HandReading*>(&reading)) {
+    object["held"] = hand->held;
+    object["near"] = hand->near;
+  } else {
+    return false;
+  }
+  return true;
+}
 
 bool put_space_record(json& object, const sim::Reading& reading, const StreamFormat& format) {
   if (const auto* gps = dynamic_cast<const sim::GpsReading*>(&reading)) {

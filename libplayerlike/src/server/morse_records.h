@@ -12,4 +12,8 @@ namespace playerlike::server {
 bool put_space_record(nlohmann::json& object, const sim::Reading& reading,
                       const StreamFormat& format);
 
+/// The same for pictures and hands: camera, depth_camera, hand.
+bool put_picture_record(nlohmann::json& object, const sim::Reading& reading,
+                        const StreamFormat& format);
+
 }  // namespace playerlike::server

@@ -51,6 +51,15 @@ struct MorseCall {
   MorseArguments arguments;
 };
 
+/// The device of a request to a component that is one.
+[[nodiscard]] inline DeviceId id_of(const MorseCall& call) {
+  return call.component->device.value();
+}
+template <typename Kind>
+[[nodiscard]] const Kind& device_in(const sim::Simulation& simulation, DeviceId id) {
+  return dynamic_cast<const Kind&>(simulation.device(id.robot, id.device));
+}
+
 /// A request about the canvas, on the server's thread or in the worker thread.
 struct PenCall {
   EventClient& client;
@@ -100,7 +109,9 @@ struct MorseService {
 [[nodiscard]] std::span<const MorseService> arena_services();
 [[nodiscard]] std::span<const MorseService> pen_services();
 [[nodiscard]] std::span<const MorseService> communication_services();
-/// The services of ptz, actarray, posture, proximity and blinkenlight devices; empty for others.
+[[nodiscard]] std::span<const MorseService> arm_services();  ///< of actarray devices
+/// The services of ptz, actarray, posture, proximity, hand, blinkenlight and camera devices; empty
+/// for others.
 [[nodiscard]] std::span<const MorseService> device_services(std::string_view type);
 
 /// Whether this is a component that belongs to no robot: `simulation`, `time` or `arena`.

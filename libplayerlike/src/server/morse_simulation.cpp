@@ -90,6 +90,7 @@ json reset_objects(MorseCall& call) {
     simulation.reset();
     return true;
   });
+  call.state.forget_targets();
   return "Objects restored to initial position";
 }
 

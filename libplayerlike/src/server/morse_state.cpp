@@ -16,6 +16,12 @@ const sim::Waypoint& waypoint_of(const sim::Simulation& simulation, DeviceId dev
   return dynamic_cast<const sim::Waypoint&>(simulation.device(device.robot, device.device));
 }
 
+sim::Command stop_command(std::string_view type) {
+  if (type == "actarray") return sim::JointCommand{sim::JointCommand::Mode::kSpeed, -1, {0.0}};
+  if (type == "ptz") return sim::PanCommand{};
+  return sim::StopCommand{};
+}
+
 }  // namespace
 
 MorseState::MorseState(Hub& hub)
@@ -120,6 +126,12 @@ void MorseState::answer_when(MorseConnection& from, const std::string& id, Devic
                              const sim::Command& command,
                              std::function<bool(const sim::Device&)> done) {
   this->command(device, command);
+  answer_when(from, id, device, std::move(done));
+}
+
+void MorseState::answer_when(MorseConnection& from, const std::string& id, DeviceId device,
+                             std::function<bool(const sim::Device&)> done) {
+  if (host().finished()) throw MorseRefusal(kRunIsOver);
   for (auto it = pending_.begin(); it != pending_.end();) {
     it = it->second.device == device ? end(it, "PREEMPTED", nullptr) : std::next(it);
   }
@@ -182,9 +194,10 @@ void MorseState::cancel(MorseConnection& from, const std::string& id) {
     it = end(it, "PREEMPTED", nullptr);
   }
   for (const DeviceId device : stopped) {
-    // A refusal means that the device is off or the run is over; the robot does not move then.
+    // A refusal means that the device is off, the run is over, or there is nothing to stop.
     with([&](sim::Simulation& simulation) {
-      return simulation.apply(device, sim::StopCommand{}).has_value();
+      const sim::Device& stopping = simulation.device(device.robot, device.device);
+      return simulation.apply(device, stop_command(stopping.type())).has_value();
     });
   }
 }

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -100,7 +102,10 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   /// command().
   void answer_when(MorseConnection& from, const std::string& id, DeviceId device,
                    const sim::Command& command, std::function<bool(const sim::Device&)> done);
-  /// Answers the connection's requests with this id with PREEMPTED; a goto also stops its robot.
+  /// The same without a command.
+  void answer_when(MorseConnection& from, const std::string& id, DeviceId device,
+                   std::function<bool(const sim::Device&)> done);
+  /// Answers the connection's requests with this id with PREEMPTED; the device stops what it does.
   void cancel(MorseConnection& from, const std::string& id);
   /// Called when the connection has ended: its actions continue without an answer.
   void forget(MorseConnection& from);
@@ -114,6 +119,19 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   [[nodiscard]] bool verbose(const std::string& component) const {
     return verbose_.contains(component);
   }
+  /// @}
+
+  /// @name Targets of arms: MORSE's IK targets, in B
+  /// @{
+  [[nodiscard]] std::optional<Eigen::Isometry3d> target_of(const std::string& component) const {
+    const auto found = targets_.find(component);
+    return found != targets_.end() ? std::optional(found->second) : std::nullopt;
+  }
+  void keep_target(const std::string& component, const Eigen::Isometry3d& target_B) {
+    targets_.insert_or_assign(component, target_B);
+  }
+  /// The targets are again where they were at the start.
+  void forget_targets() { targets_.clear(); }
   /// @}
 
   /// @name Whether a client of the clock synchronisation allows each step
@@ -153,6 +171,7 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   std::map<Number, PendingRequest> pending_;
   Number last_number_ = 0;
   std::set<std::string> verbose_;
+  std::map<std::string, Eigen::Isometry3d> targets_;
   bool synchronised_ = false;
   std::unique_ptr<MorseStreams> streams_;
 };

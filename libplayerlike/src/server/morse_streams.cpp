@@ -286,6 +286,14 @@ int MorseStreams::port(const MorseComponent& component) {
   return streams_.emplace(component.name, std::move(stream)).first->second.port;
 }
 
+void MorseStreams::open_all() {
+  for (const MorseComponent& component : state_.components()) {
+    if (component.stream != StreamDirection::kNone && component.device) port(component);
+  }
+}
+
+void open_morse_streams(Hub& hub) { MorseState::of(hub)->streams().open_all(); }
+
 // --- The clock synchronisation
 
 namespace {

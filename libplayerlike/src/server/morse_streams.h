@@ -24,6 +24,8 @@ class MorseStreams {
   /// The port of a component's stream. @pre it has a stream. @throws protocol::ProtocolError
   /// server/no-port.
   int port(const MorseComponent& component);
+  /// Opens the ports of all devices with a stream, in the order of components. @throws as port().
+  void open_all();
 
  private:
   class Source;

@@ -216,6 +216,10 @@ class Hub {
 /// Handler of a connection to the port of MORSE's clock synchronisation.
 [[nodiscard]] std::unique_ptr<Handler> make_sync_handler(Peer& peer, Hub& hub);
 
+/// Opens the ports of all streams of MORSE's protocol. @throws protocol::ProtocolError
+/// server/no-port.
+void open_morse_streams(Hub& hub);
+
 /// Executes `playpen hello`: answers, and switches the connection to Playpen's protocol.
 /// @param id        of the request; the answer has MORSE's format.
 /// @param argument  of hello: an object.

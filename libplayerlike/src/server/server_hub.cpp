@@ -251,6 +251,14 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
       };
       player_ports_[robot_port] = add(std::move(player));
     }
+    if (settings_.open_streams) {
+      try {
+        open_morse_streams(*this);
+      } catch (const protocol::ProtocolError& error) {
+        throw_issue("server/no-port", "open_streams", "a free port for each of MORSE's streams",
+                    error.what(), "give another first port, stream_port");
+      }
+    }
     tick();
     thread_ = std::thread([this] { serve(); });
   }

@@ -1,7 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/devices/actarray.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +8,7 @@
 
 #include "devices/device_kind.h"
 #include "sim/core/assert.h"
+#include "sim/devices/arm_kinematics.h"
 #include "sim/devices/robot_snapshot.h"
 #include "sim/world/description.h"
 
@@ -20,11 +20,6 @@ namespace {
 constexpr double kReached = 1e-10;
 
 constexpr double kPi = std::numbers::pi;
-
-Eigen::Vector3d vector_of(JointAxis axis) {
-  const auto index = static_cast<int>(axis);
-  return (index < 3 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(index % 3);
-}
 
 }  // namespace
 
@@ -116,45 +111,10 @@ JointMotion advance_with_current(JointMotion motion, double current_share,
           final_speed + difference * (1.0 - gone)};
 }
 
-namespace {
-
-// The frame of the base, then the frame at the end of each joint's link, in B.
-std::vector<Eigen::Isometry3d> arm_frames(const ActArrayParams& arm,
-                                          const std::vector<double>& positions) {
-  Eigen::Isometry3d X = in_space(arm.X_BA, {arm.height_m, arm.roll_rad, arm.pitch_rad});
-  std::vector<Eigen::Isometry3d> frames = {X};
-  for (std::size_t i = 0; i < arm.joints.size(); ++i) {
-    const JointParams& joint = arm.joints[i];
-    const double position = i < positions.size() ? positions[i] : 0.0;
-    const Eigen::Vector3d axis = vector_of(joint.axis);
-    X.linear() *= rotation_of(joint.roll_rad, joint.pitch_rad, joint.yaw_rad);
-    if (joint.type == JointType::kLinear) {
-      X.translation() += X.linear() * (position * axis);
-    } else {
-      X.linear() *= Eigen::AngleAxisd(position, axis).toRotationMatrix();
-    }
-    X.translation() += X.linear() * Eigen::Vector3d(joint.length_m, 0.0, 0.0);
-    frames.push_back(X);
-  }
-  return frames;
-}
-
-}  // namespace
-
-std::vector<std::array<double, 3>> arm_points_m(const ActArrayParams& arm,
-                                                const std::vector<double>& positions) {
-  std::vector<std::array<double, 3>> points;
-  for (const Eigen::Isometry3d& frame : arm_frames(arm, positions)) {
-    const Eigen::Vector3d p = frame.translation();
-    points.push_back({p.x(), p.y(), p.z()});
-  }
-  return points;
-}
-
 Eigen::Isometry3d ActArray::end_in_body() const { return arm_frames(params_, positions()).back(); }
 
 bool ActArray::at_rest() const noexcept {
-  return std::ranges::all_of(joints_, [](const Joint& joint) {
+  return !trajectory_ && std::ranges::all_of(joints_, [](const Joint& joint) {
     return joint.mode == Mode::kStill ||
            (joint.mode == Mode::kGoal && joint.motion.position == joint.goal &&
             joint.motion.speed == 0.0);
@@ -277,6 +237,7 @@ ActArray::ActArray(std::string name, const ActArrayParams& params)
 std::optional<std::string> ActArray::apply(const Command& command) {
   if (const auto* move = std::get_if<JointCommand>(&command)) return apply(*move);
   if (const auto* setting = std::get_if<JointSettingCommand>(&command)) return apply(*setting);
+  if (const auto* path = std::get_if<TrajectoryCommand>(&command)) return apply(*path);
   return Sensor::apply(command);
 }
 
@@ -305,6 +266,7 @@ std::optional<std::string> ActArray::apply(const JointCommand& command) {
   const int end = moves_all ? count : first + moved;
   if (end > count) return no_such_joint(end - 1);
   if (!is_powered_) return std::nullopt;
+  trajectory_.reset();
   for (int i = first; i < end; ++i) {
     Joint& joint = joints_[static_cast<std::size_t>(i)];
     if (is_braked(joint)) continue;
@@ -334,6 +296,7 @@ std::optional<std::string> ActArray::apply(const JointCommand& command) {
 std::optional<std::string> ActArray::apply(const JointSettingCommand& command) {
   if (command.setting == JointSettingCommand::Setting::kPower) {
     is_powered_ = command.value != 0.0;
+    if (!is_powered_) trajectory_.reset();
     for (Joint& joint : joints_) {
       if (!is_powered_) joint.stop();
     }
@@ -373,8 +336,93 @@ std::optional<std::string> ActArray::set_brakes(bool applied) {
   return std::nullopt;
 }
 
+// --- trajectories
+
+void ArmTrajectory::archive(StateArchive& archive) {
+  archive.time(start_ns);
+  archive(has_started, origin, times_s, positions);
+}
+
+double ArmTrajectory::position(std::size_t joint, double time_s) const {
+  const std::size_t joints = origin.size();
+  double from = origin[joint];
+  double from_s = 0.0;
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    const double to = positions[i * joints + joint];
+    if (time_s < times_s[i]) return from + (to - from) * (time_s - from_s) / (times_s[i] - from_s);
+    from = to;
+    from_s = times_s[i];
+  }
+  return from;
+}
+
+std::optional<std::string> ActArray::apply(const TrajectoryCommand& command) {
+  const auto refuse = [this](const std::string& text) {
+    return "a trajectory of device " + name() + " " + text;
+  };
+  if (command.times_s.empty() || command.times_s.size() > kMaxTrajectory) {
+    return refuse("has 1 to " + std::to_string(kMaxTrajectory) + " points, not " +
+                  std::to_string(command.times_s.size()));
+  }
+  if (command.positions.size() != command.times_s.size() * joints_.size()) {
+    return refuse("needs " + std::to_string(joints_.size()) + " positions for each of its " +
+                  std::to_string(command.times_s.size()) + " points, and has " +
+                  std::to_string(command.positions.size()) + " in all");
+  }
+  if (command.times_s.front() < 0.0 || !std::ranges::is_sorted(command.times_s)) {
+    return refuse("needs times in ascending order, from 0 on");
+  }
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  if (!std::ranges::all_of(command.times_s, is_finite) ||
+      !std::ranges::all_of(command.positions, is_finite)) {
+    return refuse("has a number that is not finite");
+  }
+  constexpr double kLatest_s = 1e9;
+  if (command.times_s.back() > kLatest_s || command.start_s.value_or(0.0) > kLatest_s) {
+    return refuse("has a time after 1e9 s");
+  }
+  if (!is_powered_) return std::nullopt;
+  for (Joint& joint : joints_) joint.stop();
+  trajectory_.emplace();
+  trajectory_->start_ns = from_seconds(std::max(0.0, command.start_s.value_or(0.0)));
+  trajectory_->origin = positions();
+  trajectory_->times_s = command.times_s;
+  trajectory_->positions = command.positions;
+  return std::nullopt;
+}
+
+// The times count from the wanted start, or from the beginning of the first step after the command.
+void ActArray::follow_trajectory(const StepContext& context) {
+  const SimTime step_ns = context.world.simulation.step_ns;
+  const double dt_s = to_seconds(step_ns);
+  if (!trajectory_->has_started) {
+    trajectory_->has_started = true;
+    trajectory_->start_ns = std::max(trajectory_->start_ns, context.now_ns - step_ns);
+    trajectory_->origin = positions();
+  }
+  const double time_s = to_seconds(context.now_ns - trajectory_->start_ns);
+  bool arrived = time_s >= trajectory_->times_s.back();
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    Joint& joint = joints_[i];
+    const double speed_before = joint.motion.speed;
+    const double wanted =
+        std::clamp(trajectory_->position(i, time_s), joint.travel.min, joint.travel.max);
+    const double most = joint.travel.speed_max * dt_s;
+    const double way =
+        is_braked(joint) ? 0.0 : std::clamp(wanted - joint.motion.position, -most, most);
+    const bool is_there = is_braked(joint) || wanted - joint.motion.position == way;
+    joint.motion = {is_there && way != 0.0 ? wanted : joint.motion.position + way, way / dt_s};
+    joint.mean_acceleration = (joint.motion.speed - speed_before) / dt_s;
+    arrived = arrived && is_there;
+  }
+  if (!arrived) return;
+  trajectory_.reset();
+  for (Joint& joint : joints_) joint.stop();
+}
+
 void ActArray::integrate(const StepContext& context) {
   const double dt_s = to_seconds(context.world.simulation.step_ns);
+  if (trajectory_ && context.now_ns > trajectory_->start_ns) return follow_trajectory(context);
   for (Joint& joint : joints_) joint.step(dt_s);
 }
 
@@ -419,7 +467,12 @@ void ActArray::show(SimTime, RobotSnapshot& shot) const {
 
 void ActArray::archive(StateArchive& archive) {
   SensorOf::archive(archive);
-  archive(is_powered_, brakes_);
+  archive(is_powered_, brakes_, trajectory_);
+  archive.expect(!trajectory_ || (!trajectory_->times_s.empty() &&
+                                  trajectory_->positions.size() ==
+                                      trajectory_->times_s.size() * joints_.size() &&
+                                  trajectory_->origin.size() == joints_.size()),
+                 "a trajectory of all joints");
   for (Joint& joint : joints_) archive(joint);
   const std::size_t measured = reading().joints.size();
   archive.expect(measured == 0 || measured == joints_.size(), "a reading of each joint");

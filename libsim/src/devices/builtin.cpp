@@ -10,8 +10,8 @@
 #define SIM_DEVICE_KINDS(KIND) \
   KIND(accelerometer) KIND(actarray) KIND(aio) KIND(airspeed) KIND(altimeter) KIND(amcl) \
   KIND(attitude) KIND(barometer) KIND(battery) KIND(bumper) KIND(blinkenlight) \
-  KIND(blobfinder) KIND(camera) KIND(clock) KIND(collision) KIND(compass) KIND(fiducial) \
-  KIND(gps) KIND(gripper) KIND(gyroscope) KIND(imu) KIND(dio) KIND(infrared) KIND(laser) \
+  KIND(blobfinder) KIND(camera) KIND(clock) KIND(collision) KIND(compass) KIND(depth_camera) \
+  KIND(destination) KIND(fiducial) KIND(gps) KIND(gripper) KIND(gyroscope) KIND(hand) KIND(imu) KIND(dio) KIND(infrared) KIND(laser) \
   KIND(motion) KIND(odometry) KIND(opaque) KIND(orientation) KIND(pen) KIND(pose) \
   KIND(posture) KIND(proximity) KIND(ptz) KIND(semantic_camera) KIND(sonar) KIND(speech) \
   KIND(teleport) KIND(thermometer) KIND(velocity) KIND(wander) \

@@ -32,6 +32,7 @@ constexpr Field kGoto[] = {
     field<&GotoCommand::goal_m>("", "m"),
     field<&GotoCommand::tolerance_m>("tolerance", "m"),
     field<&GotoCommand::speed_mps>("speed", "m/s"),
+    field<&GotoCommand::z_m>("z", "m"),
 };
 constexpr Field kPlace[] = {
     field<&PlaceCommand::pose>("", "m, rad"),
@@ -115,6 +116,11 @@ constexpr Field kJointSetting[] = {
     field<&JointSettingCommand::joint>("joint").within(-1, ActArrayParams::kMaxJoints - 1),
     field<&JointSettingCommand::value>("value"),
 };
+constexpr Field kTrajectory[] = {
+    field<&TrajectoryCommand::start_s>("start", "s"),
+    field<&TrajectoryCommand::times_s>("times", "s"),
+    field<&TrajectoryCommand::positions>("positions", "m or rad"),
+};
 
 }  // namespace
 
@@ -140,14 +146,16 @@ SIM_FIELDS(PointCommand, kPoint)
 SIM_FIELDS(PanCommand, kPan)
 SIM_FIELDS(JointCommand, kJoint)
 SIM_FIELDS(JointSettingCommand, kJointSetting)
+SIM_FIELDS(TrajectoryCommand, kTrajectory)
 SIM_FIELDS(StopCommand, {})
 SIM_FIELDS(ResumeCommand, {})
 
 std::span<const AlternativeKind<Command>> command_kinds() {
   static constexpr auto kKinds = alternative_kinds<Command>(
-      {"twist",  "motors",  "set_pose", "goto", "stop",   "resume",        "place",  "translate",
-       "rotate", "heading", "position", "car",  "say",    "digital",       "analog", "light",
-       "grip",   "opaque",  "point",    "pan",  "joints", "joint_setting", "orient", "track"});
+      {"twist",         "motors", "set_pose", "goto",      "stop",  "resume", "place",
+       "translate",     "rotate", "heading",  "position",  "car",   "say",    "digital",
+       "analog",        "light",  "grip",     "opaque",    "point", "pan",    "joints",
+       "joint_setting", "orient", "track",    "trajectory"});
   return kKinds;
 }
 

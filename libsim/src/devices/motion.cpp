@@ -345,7 +345,13 @@ void Motion::deactivated(RobotControl&) {
 }
 
 Twist Motion::next_target(double dt_s) {
-  const Twist target = ramped(dt_s);
+  Twist target = ramped(dt_s);
+  if (params_.speed_loss_mps > 0.0) {
+    const double speed_mps = std::hypot(target.v_mps, target.lateral_mps);
+    const double left_mps = std::max(0.0, speed_mps - params_.speed_loss_mps);
+    const double reached = speed_mps > 0.0 ? left_mps / speed_mps : 0.0;
+    target = {reached * target.v_mps, target.omega_radps, reached * target.lateral_mps};
+  }
   if (slip_ == nullptr) return target;
   advance_slip(dt_s);
   return slipped(target);
@@ -454,6 +460,11 @@ constexpr Field kMotionSettings[] = {
                                       "time constant of the correlation of the slip")
         .above(0.0, 1000.0)
         .unlisted(MotionParams{}.slip_time_s),
+    field<&MotionParams::speed_loss_mps>("speed_loss", "m/s",
+                                         "by which the robot is slower than commanded")
+        .within(0.0, 10.0)
+        .with_realism(0.0, 0.0)
+        .unlisted(0.0),
     field<&MotionParams::latency_s>("latency", "s", "time from a command until it takes effect")
         .within(0.0, 10.0)
         .with_realism(0.0, 0.02)

@@ -6,10 +6,26 @@
 #include <utility>
 
 #include "devices/device_kind.h"
+#include "devices/goal.h"
 #include "sim/core/number_text.h"
 #include "sim/world/description.h"
 
 namespace sim {
+
+std::optional<std::string> refusal_of(const GotoCommand& goal) {
+  if (!goal.goal_m.allFinite() || !std::isfinite(goal.z_m.value_or(0.0))) {
+    return "a goal must be a point of finite coordinates";
+  }
+  if (!(goal.tolerance_m > 0.0) || !std::isfinite(goal.tolerance_m)) {
+    return "the tolerance of a goal must be a number of metres greater than 0, not " +
+           rounded_text(goal.tolerance_m, 6);
+  }
+  if (!(goal.speed_mps > 0.0) || !std::isfinite(goal.speed_mps)) {
+    return "the speed to a goal must be a number of m/s greater than 0, not " +
+           rounded_text(goal.speed_mps, 6);
+  }
+  return std::nullopt;
+}
 
 Twist waypoint_twist(const Pose& X_WB, const GotoCommand& goal, const WaypointParams& params) {
   const Vec2 way = goal.goal_m - X_WB.position();
@@ -34,15 +50,7 @@ double Waypoint::distance_m() const {
 
 std::optional<std::string> Waypoint::execute(const Command& command, RobotControl& robot) {
   if (const auto* go = std::get_if<GotoCommand>(&command)) {
-    if (!go->goal_m.allFinite()) return "a goal must be a point of finite coordinates";
-    if (!(go->tolerance_m > 0.0) || !std::isfinite(go->tolerance_m)) {
-      return "the tolerance of a goal must be a number of metres greater than 0, not " +
-             rounded_text(go->tolerance_m, 6);
-    }
-    if (!(go->speed_mps > 0.0) || !std::isfinite(go->speed_mps)) {
-      return "the speed to a goal must be a number of m/s greater than 0, not " +
-             rounded_text(go->speed_mps, 6);
-    }
+    if (auto refusal = refusal_of(*go)) return refusal;
     if (!robot.acquire_motors(*this)) return "the robot has no motors to drive to a goal with";
     goal_ = *go;
     has_goal_ = true;

@@ -121,18 +121,29 @@ class AbstractComponent:
 
 # --- Robots
 
+# MORSE's robots take any speed at once.
+MOTORS = {"max_speed": 20.0, "max_turn_rate_deg": 3600.0}
+
+
 class Robot(Place):
     """Shape and height of the body's origin over the floor."""
     footprint = (1.1, 0.8)
     origin_m = 0.0
     body_m = 0.7
+    friction = 0.5  # of Blender's materials, unless set otherwise
 
     def world(self):
         x, y, z = self.location
         roll, pitch, yaw = self.rotation
+        devices = {c.name: c.device() for c in self.components()}
+        kinds = [device["type"] for device in devices.values()]
+        if "motion" not in kinds and ("waypoint" in kinds or "destination" in kinds):
+            devices["motors"] = {"type": "motion", **MOTORS}  # through which those drive
+        for device in devices.values():
+            if device["type"] == "motion":
+                device["speed_loss"] = self.speed_loss()
         made = {"name": playpen_name(self.basename), "model": self.model_file(),
-                "pose": {"x": x, "y": y, "yaw_deg": degrees(yaw)},
-                "devices": {c.name: c.device() for c in self.components()}}
+                "pose": {"x": x, "y": y, "yaw_deg": degrees(yaw)}, "devices": devices}
         height = z + self.origin_m
         if height or roll or pitch:
             made["elevation"] = {"z": height, "roll_deg": degrees(roll), "pitch_deg": degrees(pitch)}
@@ -146,15 +157,20 @@ class Robot(Place):
             yield child
             yield from self.components(child)
 
-    def set_friction(self, _):
-        raise NotApplicable(_FORCES)
+    def set_friction(self, value):
+        self.friction = value
+
+    def speed_loss(self):
+        """Blender's friction slows a body down between two settings of its speed: MORSE's test of
+        friction expects 1.4 m in 2 s at 1 m/s with a friction of 5, and 2 m with 0."""
+        return 0.06 * self.friction
 
     @property
     def _bpy_object(self):
         raise NotApplicable("the scene changes settings of Blender's physics")
 
     def holonomic(self):
-        return any(isinstance(c, MotionXYW) for c in self.components())
+        return any(isinstance(c, (MotionXYW, Destination)) for c in self.components())
 
     def model_file(self):
         return "morse_%s%s.json" % (type(self).__name__.lower(), "_xyw" if self.holonomic() else "")
@@ -162,7 +178,6 @@ class Robot(Place):
     def model(self):
         length, width = (0.5 * side for side in self.footprint)
         kind = "omnidirectional" if self.holonomic() else "differential"
-        # MORSE's robots take any speed at once.
         return {"name": self.model_file()[:-5],
                 "footprint": [[length, -width], [length, width], [-length, width],
                               [-length, -width]],
@@ -173,10 +188,12 @@ class Robot(Place):
 
 class ATRV(Robot):
     origin_m = 0.1
+    friction = 0.25  # on wheels: MORSE's tests of its motion expect 2.0 m in 2.1 s
 
 
 class Morsy(Robot):
     footprint = (0.4, 0.4)
+    friction = 1.0  # it has no wheels: MORSE's test of its airspeed expects a loss of 0.06 m/s
 
 
 class Jido(Robot):
@@ -235,6 +252,12 @@ class Component(Place):
 
     def alter(self, modifier, **parameters):
         self.modifiers.append((modifier, parameters))
+
+    def robot(self):
+        owner = self.parent
+        while not isinstance(owner, Robot):
+            owner = owner.parent
+        return owner
 
     def device(self):
         made = {"type": self.kind}
@@ -418,6 +441,49 @@ class SemanticCamera(Component):
         return made
 
 
+class VideoCamera(Component):
+    kind = "camera"
+    near_m = 0.1
+    far_m = 100.0
+
+    def settings(self):
+        # The larger side of a picture is 32 focal lengths of 1 mm.
+        width = self.props.get("cam_width", 256)
+        height = self.props.get("cam_height", 256)
+        half = 16.0 / self.props.get("cam_focal", 25.0) * width / max(width, height)
+        base = self.robot().origin_m
+        return {"image": [width, height], "field_of_view_deg": 2.0 * degrees(math.atan(half)),
+                "range_max": self.props.get("cam_far", self.far_m),
+                "pose": self.planar_mount(), "height": base + self.location[2]}
+
+
+class DepthCamera(VideoCamera):
+    kind = "depth_camera"
+    near_m = 1.0
+    far_m = 20.0
+
+    def settings(self):
+        return dict(super().settings(), range_min=self.props.get("cam_near", self.near_m))
+
+
+class Light(Component):
+    kind = "blinkenlight"
+    default_frequency = None
+
+    def settings(self):
+        return {"enabled": self.props.get("emit", True), "period": 0}
+
+
+class Gripper(Component):
+    kind = "hand"
+
+    def settings(self):
+        made = {"angle_deg": self.props.get("Angle", 60.0),
+                "distance": self.props.get("Distance", 0.5)}
+        made.update(self.mount())
+        return made
+
+
 class PTUPosture(Component):
     kind = "posture"
 
@@ -437,7 +503,7 @@ class MotionVW(Actuator):
     kind = "motion"
 
     def settings(self):
-        return {"max_speed": 20.0, "max_turn_rate_deg": 3600.0}
+        return dict(MOTORS)
 
 
 class MotionVWDiff(MotionVW):
@@ -455,6 +521,14 @@ class Waypoint(Actuator):
         # MORSE's keeps its speed up to its goal, turns at half of it, and rolls out after a stop.
         return {"approach_gain": 50.0, "turn_gain": 4.0, "max_turn_rate_deg": degrees(0.5),
                 "stop_deceleration": 4.0}
+
+
+class Destination(Actuator):
+    kind = "destination"
+
+    def settings(self):
+        return {"speed": self.props.get("Speed", 5.0), "tolerance": self.props.get("Tolerance", 0.5),
+                "remain": self.props.get("RemainAtDestination", False)}
 
 
 class Teleport(Actuator):
@@ -496,7 +570,7 @@ class KukaLWR(Armature):
     """Lengths as in MORSE's test of its joints' lengths; the arm stands upright at rest."""
     joints = [{"name": "kuka_%d" % (i + 1), "length": length, "axis": axis,
                "min_deg": -limit, "max_deg": limit, "home_deg": 0, "centre_deg": 0,
-               "speed_deg": degrees(0.8), "speed_max_deg": degrees(0.8),
+               "speed_deg": degrees(0.8), "speed_max_deg": 3600,
                "acceleration_deg": 36000, "acceleration_max_deg": 36000}
               for i, (length, axis, limit) in enumerate((
                   (0.31, "x", 170), (0.20, "-y", 120), (0.20, "x", 170), (0.20, "y", 120),
@@ -511,12 +585,8 @@ _FLIES = "robots stay on the plane: nothing flies"
 _FORCES = "MORSE's forces of air and floor are not simulated"
 _PICTURES = "a view of columns cannot equal Blender's pictures"
 
-VideoCamera = missing("VideoCamera", _PICTURES)
-DepthCamera = missing("DepthCamera", "there is no camera of depths")
-Light = missing("Light", _PICTURES)
-Magnetometer = missing("Magnetometer", "the Earth's magnetic field is the same everywhere")
+Magnetometer = missing("Magnetometer", "there is no model of the Earth's magnetic field")
 SearchAndRescue = missing("SearchAndRescue", "victims are not simulated: there is no search_and_rescue sensor")
-Gripper = missing("Gripper", "grippers stand on the robot's body, not on an arm")
 Drag = missing("Drag", _FORCES)
 ExternalForce = missing("ExternalForce", _FORCES)
 SteerForce = missing("SteerForce", _FORCES)
@@ -526,7 +596,6 @@ RotorcraftVelocity = missing("RotorcraftVelocity", _FLIES)
 RotorcraftAttitude = missing("RotorcraftAttitude", _FLIES)
 StabilizedQuadrotor = missing("StabilizedQuadrotor", _FLIES)
 QuadrotorDynamicControl = missing("QuadrotorDynamicControl", _FLIES)
-Destination = missing("Destination", _FLIES)
 
 
 class Quadrotor(Robot):
@@ -536,6 +605,11 @@ class Quadrotor(Robot):
 
 class QUAD2012(Quadrotor):
     pass
+
+
+class Hummer(Robot):
+    def __init__(self, name=None):
+        raise NotApplicable(_FORCES)
 
 
 class Submarine(Robot):
@@ -576,6 +650,7 @@ BOXES = {
     "RedBox": (-7.48, 0.0, 0.96), "BlueBox": (-3.48, -3.0, 0.96), "GreenBox": (-6.4, 5.98, 0.96),
 }
 BOX_HEIGHT = 1.86
+COLOURS = {"RedBox": "#ff0000", "BlueBox": "#0000ff", "GreenBox": "#00ff00"}
 ENVIRONMENTS = ("empty", "indoors-1/boxes")
 
 
@@ -637,7 +712,7 @@ def playpen_name(name):
 def write_world(scene, folder):
     """Writes the scene as world.json, with its robot models. Returns the path."""
     env = scene.environment
-    reach = 60.0
+    reach = 300.0
     obstacles = []
     docks = []
     if env.filename == "indoors-1/boxes":
@@ -645,13 +720,17 @@ def write_world(scene, folder):
             props = getattr(scene, "environment_objects", {}).get(name)
             tags = ["Object"] + ([str(props.props["Type"])] if props and "Type" in props.props else [])
             obstacles.append({"name": name, "center": [x, y], "size": [side, side],
-                              "height": BOX_HEIGHT, "tags": tags})
+                              "height": BOX_HEIGHT, "tags": tags, "colour": COLOURS[name]})
     for o in scene.all:
         if isinstance(o, PassiveObject):
             tags = [key for key, value in o.props.items() if value is True]
-            obstacles.append({"name": playpen_name(o.basename or o.prefix),
-                              "center": o.location[:2], "size": [0.3, 0.3], "height": 0.5,
-                              "tags": tags})
+            side = BOXES[o.prefix][2] if o.prefix in BOXES else 0.3
+            made = {"name": playpen_name(o.basename or o.prefix), "center": o.location[:2],
+                    "size": [side, side], "height": BOX_HEIGHT if o.prefix in BOXES else 0.5,
+                    "tags": tags, "portable": "Graspable" in tags}
+            if o.prefix in COLOURS:
+                made["colour"] = COLOURS[o.prefix]
+            obstacles.append(made)
         if isinstance(o, Zone):
             docks.append({"pose": {"x": o.location[0], "y": o.location[1]},
                           "size": [2.0 * o.size[0], 2.0 * o.size[1]]})

@@ -8,6 +8,9 @@ Usage: run.py PLAYPEN MORSE [NAME ...]
 Each test has a process of its own. MORSE is a checkout of MORSE's source; its tests are imported as
 they are. builder.py stands in for morse.builder, and this program for morse.testing.testing. With names, only test files that contain
 one of them run. Prints a table in Markdown; its end status is 0.
+
+MORSE_SUITE_TIME in the environment is the pace of simulated time, such as 0.5; MORSE_SUITE_VERBOSE=1
+prints what failed.
 """
 import glob
 import importlib.util
@@ -46,6 +49,8 @@ class MorseTestCase(unittest.TestCase):
         world = builder.write_world(scene, self.folder.name)
         command = [PLAYPEN, "serve", world, "--port", "4000", "--stream-port", "60000",
                    "--out", os.path.join(self.folder.name, "out")]
+        if "MORSE_SUITE_TIME" in os.environ:
+            command += ["--time", os.environ["MORSE_SUITE_TIME"]]
         if scene.environment.sync_port:
             command += ["--sync-port", str(scene.environment.sync_port)]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
@@ -144,7 +149,7 @@ def tests_of(path):
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     loader = unittest.TestLoader()
-    loader.testMethodPrefix = "test_"
+    loader.testMethodPrefix = "test"
     for value in list(vars(module).values()):
         if inspect.isclass(value) and issubclass(value, MorseTestCase) and \
                 value.__module__ == module.__name__:

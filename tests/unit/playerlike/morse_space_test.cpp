@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "playerlike/host/host.h"
 #include "server/morse_components.h"
 #include "server/python_json.h"
+#include "sim/core/base64.h"
 #include "sim/simulation/simulation.h"
 
 namespace playerlike::server {
@@ -48,7 +50,12 @@ class MorseSpace : public testing::Test {
             "posture": {"of": "ptu"}, "orientation": {}, "altimeter": {"range": 1},
             "teleport": {"modifiers": [{"name": "NED"}]},
             "gps": {"level": "simple", "modifiers": [{"name": "UTM", "x_offset": 100}]},
-            "far": {"type": "gps", "longitude_deg": 43.6, "latitude_deg": 1.4333}
+            "far": {"type": "gps", "longitude_deg": 43.6, "latitude_deg": 1.4333},
+            "camera": {"image": [4, 3], "field_of_view_deg": 90},
+            "depth": {"type": "depth_camera", "image": [4, 3], "field_of_view_deg": 90,
+                      "height": 1},
+            "go": {"type": "destination", "speed": 2}, "arm": {"type": "actarray"},
+            "hand": {"on": "arm"}
           }}]})"))) {}
 
   std::vector<MorseComponent> components() {
@@ -130,6 +137,50 @@ TEST_F(MorseSpace, RecordsHaveMorsesKeys) {
   for (const char* angle : {"yaw", "pitch", "roll"}) EXPECT_EQ(gyro[angle], 0.0);
   // The robot stands on the floor: the altimeter is in range.
   EXPECT_EQ(record("r1.altimeter", 1)["z"], 0.0);
+}
+
+TEST_F(MorseSpace, PicturesAreThoseOfMorse) {
+  EXPECT_EQ(component("r1.camera").class_name, "VideoCamera");
+  EXPECT_EQ(component("r1.depth").class_name, "DepthCamera");
+  const json picture = record("r1.camera", 20);
+  EXPECT_EQ(picture["width"], 4);
+  EXPECT_EQ(picture["height"], 3);
+  // The focal length is half the width over tan 45 degrees.
+  const json matrix = json::parse("[[2, 0, 2], [0, 2, 1.5], [0, 0, 1]]");
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      EXPECT_NEAR(picture["intrinsic_matrix"][row][column], matrix[row][column], 1e-9);
+    }
+  }
+  const auto pixels = sim::from_base64(picture["image"].get<std::string>());
+  ASSERT_TRUE(pixels.has_value());
+  ASSERT_EQ(pixels->size(), 48U);  // red, green, blue and alpha
+  for (std::size_t i = 3; i < 48; i += 4) EXPECT_EQ((*pixels)[i], 255);
+  // The lowest row of depths shows the floor: z = 2 / (2.5 - 1.5).
+  const json points = record("r1.depth", 1);
+  const auto bytes = sim::from_base64(points["points"].get<std::string>());
+  ASSERT_TRUE(bytes.has_value());
+  ASSERT_GE(bytes->size(), 48U);
+  std::vector<float> floats(12);
+  std::memcpy(floats.data(), bytes->data(), 48);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(floats[3 * i], (static_cast<double>(i) - 1.5) * 1.0, 1e-6);  // to the right
+    EXPECT_NEAR(floats[3 * i + 1], 1.0, 1e-6);                               // down
+    EXPECT_NEAR(floats[3 * i + 2], 2.0, 1e-6);                               // ahead
+  }
+}
+
+TEST_F(MorseSpace, DestinationsAndHandsAreThoseOfMorse) {
+  EXPECT_EQ(component("r1.go").stream, StreamDirection::kIn);
+  const auto goal =
+      std::get<sim::GotoCommand>(command("r1.go", {{"x", 1.0}, {"y", 2.0}, {"z", 3.0}}));
+  EXPECT_EQ(goal.speed_mps, 2.0);
+  EXPECT_EQ(goal.tolerance_m, 0.5);
+  EXPECT_EQ(goal.z_m, 3.0);
+  EXPECT_EQ(std::get<sim::GotoCommand>(command("r1.go", {{"x", 1.0}, {"y", 2.0}})).z_m,
+            std::nullopt);
+  EXPECT_EQ(component("r1.arm.hand").class_name, "Gripper");
+  EXPECT_EQ(record("r1.arm.hand", 20)["held"], "");
 }
 
 }  // namespace

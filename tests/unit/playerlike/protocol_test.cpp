@@ -32,10 +32,12 @@
 #include "sim/devices/camera.h"
 #include "sim/devices/compass.h"
 #include "sim/devices/contact_sensors.h"
+#include "sim/devices/depth_camera.h"
 #include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gps.h"
 #include "sim/devices/gripper.h"
+#include "sim/devices/hand.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
@@ -304,6 +306,19 @@ void each(sim::CameraReading& v, F& f) {
   v.pixels.resize(static_cast<std::size_t>(3 * v.width * v.height));
 }
 template <typename F>
+void each(sim::DepthCameraReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.width), f(v.height), f(v.focal_px), f(v.centre_px), f(v.depths_m);
+  limit(v.width, 7);
+  limit(v.height, 5);
+  v.depths_m.resize(static_cast<std::size_t>(v.width * v.height));
+}
+template <typename F>
+void each(sim::HandReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.held), f(v.near);
+}
+template <typename F>
 void each(sim::PtzReading& v, F& f) {
   each_of_reading(v, f);
   f(v.pan_rad), f(v.tilt_rad), f(v.view_rad), f(v.moving);
@@ -469,7 +484,7 @@ void each(sim::SetPoseCommand& v, F& f) {
 }
 template <typename F>
 void each(sim::GotoCommand& v, F& f) {
-  f(v.goal_m), f(v.tolerance_m), f(v.speed_mps);
+  f(v.goal_m), f(v.tolerance_m), f(v.speed_mps), f(v.z_m);
 }
 template <typename F>
 void each(sim::StopCommand&, F&) {}
@@ -494,6 +509,10 @@ void each(sim::OrientCommand& v, F& f) {
 template <typename F>
 void each(sim::TrackCommand& v, F& f) {
   f(v.range_m), f(v.tag);
+}
+template <typename F>
+void each(sim::TrajectoryCommand& v, F& f) {
+  f(v.start_s), f(v.times_s), f(v.positions);
 }
 template <typename F>
 void each(sim::HeadingCommand& v, F& f) {
@@ -1226,7 +1245,9 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
                 arrives_if<sim::BlobfinderReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BumperReading>(*sensor, GetParam()) ||
                 arrives_if<sim::CameraReading>(*sensor, GetParam()) ||
+                arrives_if<sim::DepthCameraReading>(*sensor, GetParam()) ||
                 arrives_if<sim::DioReading>(*sensor, GetParam()) ||
+                arrives_if<sim::HandReading>(*sensor, GetParam()) ||
                 arrives_if<sim::OpaqueReading>(*sensor, GetParam()) ||
                 arrives_if<sim::CollisionReading>(*sensor, GetParam()) ||
                 arrives_if<sim::CompassReading>(*sensor, GetParam()) ||
@@ -1292,6 +1313,8 @@ TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
     all.emplace_back("amcl", std::make_unique<sim::AmclReading>());
     all.emplace_back("bumper", std::make_unique<sim::BumperReading>());
     all.emplace_back("camera", std::make_unique<sim::CameraReading>());
+    all.emplace_back("depth_camera", std::make_unique<sim::DepthCameraReading>());
+    all.emplace_back("hand", std::make_unique<sim::HandReading>());
     all.emplace_back("ptz", std::make_unique<sim::PtzReading>());
     all.emplace_back("blinkenlight", std::make_unique<sim::BlinkenlightReading>());
     all.emplace_back("dio", std::make_unique<sim::DioReading>());
@@ -1322,6 +1345,8 @@ TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
         for (const json& wrong : {json(nullptr), json("no such word"), json::object(), json(-1.5),
                                   json({json::object()}), json::array({nullptr})}) {
           if (wrong.type() == value.type() && !value.is_string()) continue;
+          const bool any_text = key == "held" || key == "near";
+          if (any_text && wrong.is_string()) continue;
           changed[key] = wrong;
           EXPECT_EQ(error_of([&] { static_cast<void>(decode_reading(changed, encoding)); }),
                     "protocol/bad-value")
@@ -1388,13 +1413,15 @@ TEST(Commands, AreRefusedWhenAnythingIsMissingWrongOrUnknown) {
       json changed = whole;
       changed.erase(key);
       const bool optional = key == "lateral" || key == "range" || key == "tag" ||
-                            key == "variance" || key == "covariance" ||
+                            key == "variance" || key == "covariance" || key == "start" ||
+                            (whole["kind"] == "goto" && key == "z") ||
                             (whole["kind"] == "light" && key != "kind");
       EXPECT_TRUE(refused(changed) || optional) << whole << " without " << key;
       for (const json& wrong : {json(nullptr), json("x"), json({1}), json(std::nan(""))}) {
         changed[key] = wrong;
         const bool any_text = (key == "text" || key == "tag") && wrong.is_string();
-        const bool any_numbers = key == "values" && wrong.is_array();
+        const bool any_numbers =
+            (key == "values" || key == "times" || key == "positions") && wrong.is_array();
         EXPECT_TRUE(refused(changed) || any_text || any_numbers) << changed;
       }
     }

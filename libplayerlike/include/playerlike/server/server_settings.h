@@ -37,6 +37,8 @@ struct ServerSettings {
   std::string bind = "127.0.0.1";  ///< an IPv4 or IPv6 address, or a name of this machine
   std::optional<int> port = 4000;  ///< port for services; 0: any free port; nullopt: no such port
   int stream_port = 60000;         ///< first of MORSE's stream ports; 0: any free ports
+  bool open_streams = false;       ///< opens all of MORSE's stream ports at the start, in the order
+                                   ///< of list_streams; otherwise each when a client asks for it
   std::optional<int> sync_port;    ///< port of MORSE's clock synchronisation; 0: any free port
   /// TCP port of Player's protocol for the robots whose port in the world is kPlayerPort. Others
   /// have the same distance to it as in the world. 0: any free ports; nullopt: no such ports.

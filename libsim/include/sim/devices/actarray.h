@@ -10,6 +10,7 @@
 #include "sim/core/pose.h"
 #include "sim/core/state_archive.h"
 #include "sim/core/time.h"
+#include "sim/devices/arm_kinematics.h"
 #include "sim/devices/device.h"
 
 namespace sim {
@@ -160,13 +161,21 @@ struct JointMotion {
 [[nodiscard]] JointMotion advance_with_current(JointMotion motion, double current_share,
                                                const JointTravel& travel, double dt_s);
 
-/// The base of an arm, then the end of the link of each joint, in B [m]; z is the height above the
-/// floor. See JointParams for the frames.
-/// @param positions  of the joints [m or rad]; joints beyond the list are at 0.
-[[nodiscard]] std::vector<std::array<double, 3>> arm_points_m(const ActArrayParams& arm,
-                                                              const std::vector<double>& positions);
+/// The way of all joints of an arm; see TrajectoryCommand.
+struct ArmTrajectory {
+  SimTime start_ns = 0;
+  bool has_started = false;
+  std::vector<double> origin;     ///< positions at the start [m or rad]
+  std::vector<double> times_s;    ///< after the start
+  std::vector<double> positions;  ///< of all joints for each time [m or rad]
 
-/// An arm: joints in series, each with its own motor. Takes JointCommand and JointSettingCommand.
+  /// Where a joint is to be at a time after the start [m or rad].
+  [[nodiscard]] double position(std::size_t joint, double time_s) const;
+  void archive(StateArchive& archive);
+};
+
+/// An arm: joints in series, each with its own motor. Takes JointCommand, JointSettingCommand and
+/// TrajectoryCommand.
 ///
 /// Kinematic: joints have no mass, do not influence each other and collide with nothing. Position
 /// commands and speed commands follow advance_to_goal(), commands with a current follow
@@ -174,6 +183,11 @@ struct JointMotion {
 /// acceleration or a current by its maximum. A joint stops at its limits. Without power, and under
 /// an applied brake, a joint stops at once, forgets its command and ignores others. Initially all
 /// joints are at their home positions, and the brakes are released.
+///
+/// On a trajectory, each joint moves at a constant speed from its position at the start, or from
+/// the last positions of the list, to the next ones, and is there at their time; accelerations are
+/// not limited. A joint that is commanded faster than its maximum speed comes later. Any
+/// JointCommand or TrajectoryCommand ends the trajectory, and so does the loss of power.
 class ActArray final : public SensorOf<ActArrayReading> {
  public:
   ActArray(std::string name, const ActArrayParams& params);
@@ -183,6 +197,8 @@ class ActArray final : public SensorOf<ActArrayReading> {
 
   /// Whether all joints are at rest.
   [[nodiscard]] bool at_rest() const noexcept;
+  /// Whether a trajectory is on its way, or waits for its start.
+  [[nodiscard]] bool on_trajectory() const noexcept { return trajectory_.has_value(); }
   /// Names of all joints, in their order.
   [[nodiscard]] std::vector<std::string> joint_names() const;
   /// Positions of all joints now [m or rad].
@@ -227,7 +243,9 @@ class ActArray final : public SensorOf<ActArrayReading> {
 
   [[nodiscard]] std::optional<std::string> apply(const JointCommand& command);
   [[nodiscard]] std::optional<std::string> apply(const JointSettingCommand& command);
+  [[nodiscard]] std::optional<std::string> apply(const TrajectoryCommand& command);
   [[nodiscard]] std::optional<std::string> set_brakes(bool applied);
+  void follow_trajectory(const StepContext& context);
   [[nodiscard]] std::string no_such_joint(int joint) const;
   [[nodiscard]] bool is_braked(const Joint& joint) const { return brakes_ && joint.has_brake; }
   [[nodiscard]] JointState state_of(const Joint& joint) const;
@@ -236,6 +254,7 @@ class ActArray final : public SensorOf<ActArrayReading> {
   std::vector<Joint> joints_;
   bool is_powered_;
   bool brakes_ = false;  // applied
+  std::optional<ArmTrajectory> trajectory_;
 };
 
 }  // namespace sim

@@ -40,6 +40,7 @@ class Blinkenlight final : public SensorOf<BlinkenlightReading> {
 
   [[nodiscard]] const BlinkenlightParams& params() const noexcept { return params_; }
   [[nodiscard]] Colour colour() const noexcept { return now_.colour; }
+  [[nodiscard]] bool enabled() const noexcept { return now_.enabled; }
   [[nodiscard]] bool lit(SimTime time_ns) const {
     return now_.enabled && is_lit(now_.period_s, now_.duty_cycle, time_ns);
   }

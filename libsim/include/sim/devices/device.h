@@ -71,11 +71,14 @@ struct SetPoseCommand {
   /// Covariances of x y [m^2], y yaw and x yaw [m rad], with `variance`; none: 0.
   std::optional<std::array<double, 3>> covariance = {};
 };
-/// Drive to a point of the world (waypoint). All numbers must be finite, tolerance and speed > 0.
+/// Drive to a point of the world (waypoint, destination). All numbers must be finite, tolerance and
+/// speed > 0.
 struct GotoCommand {
   Vec2 goal_m;               ///< in W [m]
   double tolerance_m = 0.5;  ///< distance to the goal at which the robot has arrived [m]
   double speed_mps = 1.0;    ///< maximum forward speed [m/s]; the motors' limits apply too
+  /// Height of the goal (Elevation) [m]; none: that of the robot. A waypoint ignores it.
+  std::optional<double> z_m = {};
 };
 /// Stop on the way to the goal, but keep the goal (waypoint).
 struct StopCommand {};
@@ -203,15 +206,23 @@ struct JointSettingCommand {
   int joint = -1;  ///< counted from 0; -1: all joints; ignored for power and brakes
   double value = 0.0;
 };
-inline constexpr std::size_t kMaxSpeech = 255;    ///< bytes
-inline constexpr std::size_t kMaxOpaque = 65536;  ///< bytes
+/// Move all joints of an arm through positions at given times (actarray).
+struct TrajectoryCommand {
+  /// Simulated time from which the times count [s]; none, or earlier than now: now.
+  std::optional<double> start_s = {};
+  std::vector<double> times_s;    ///< of the positions, >= 0, ascending, at most kMaxTrajectory [s]
+  std::vector<double> positions;  ///< of all joints for each time, one after the other [m or rad]
+};
+inline constexpr std::size_t kMaxTrajectory = 10000;  ///< positions of a trajectory
+inline constexpr std::size_t kMaxSpeech = 255;        ///< bytes
+inline constexpr std::size_t kMaxOpaque = 65536;      ///< bytes
 /// Any command to a device.
 using Command =
     std::variant<TwistCommand, MotorEnableCommand, SetPoseCommand, GotoCommand, StopCommand,
                  ResumeCommand, PlaceCommand, TranslateCommand, RotateCommand, HeadingCommand,
                  PositionCommand, CarCommand, SayCommand, DigitalOutputCommand, AnalogOutputCommand,
                  LightCommand, GripCommand, OpaqueCommand, PointCommand, PanCommand, JointCommand,
-                 JointSettingCommand, OrientCommand, TrackCommand>;
+                 JointSettingCommand, OrientCommand, TrackCommand, TrajectoryCommand>;
 
 class Device;
 class Sensor;
