@@ -352,6 +352,10 @@ Twist Motion::next_target(double dt_s) {
     const double reached = speed_mps > 0.0 ? left_mps / speed_mps : 0.0;
     target = {reached * target.v_mps, target.omega_radps, reached * target.lateral_mps};
   }
+  if (params_.turn_loss_radps > 0.0) {
+    const double left_radps = std::max(0.0, std::abs(target.omega_radps) - params_.turn_loss_radps);
+    target.omega_radps = std::copysign(left_radps, target.omega_radps);
+  }
   if (slip_ == nullptr) return target;
   advance_slip(dt_s);
   return slipped(target);
@@ -463,6 +467,11 @@ constexpr Field kMotionSettings[] = {
     field<&MotionParams::speed_loss_mps>("speed_loss", "m/s",
                                          "by which the robot is slower than commanded")
         .within(0.0, 10.0)
+        .with_realism(0.0, 0.0)
+        .unlisted(0.0),
+    field<&MotionParams::turn_loss_radps>("turn_loss_deg", "degrees/s",
+                                          "by which it turns more slowly than commanded")
+        .within(0.0, 3600.0)
         .with_realism(0.0, 0.0)
         .unlisted(0.0),
     field<&MotionParams::latency_s>("latency", "s", "time from a command until it takes effect")

@@ -142,6 +142,7 @@ class Robot(Place):
         for device in devices.values():
             if device["type"] == "motion":
                 device["speed_loss"] = self.speed_loss()
+                device["turn_loss_deg"] = degrees(0.04 * self.friction)  # fits MORSE's vw_testing
         made = {"name": playpen_name(self.basename), "model": self.model_file(),
                 "pose": {"x": x, "y": y, "yaw_deg": degrees(yaw)}, "devices": devices}
         height = z + self.origin_m

@@ -168,7 +168,8 @@ TEST(Destination, RefusesWhatItCannotDo) {
 // --- motion
 
 TEST(SpeedLoss, SlowsTheRobotByTheSameAmount) {
-  Simulation simulation(room_with(motors_with(R"(, "speed_loss": 0.1)") + R"("pose": {})"));
+  Simulation simulation(
+      room_with(motors_with(R"(, "speed_loss": 0.1, "turn_loss_deg": 18)") + R"("pose": {})"));
   EXPECT_EQ(send(simulation, "motion", TwistCommand{{0.3, 0.0, 0.4}}), std::nullopt);
   step(simulation, 2);
   // The speed is 0.5 - 0.1, in the same direction.
@@ -177,7 +178,7 @@ TEST(SpeedLoss, SlowsTheRobotByTheSameAmount) {
   EXPECT_EQ(send(simulation, "motion", TwistCommand{{-0.05, 1.0, 0.0}}), std::nullopt);
   step(simulation, 2);
   EXPECT_EQ(simulation.body(0).twist.v_mps, 0.0);
-  EXPECT_NEAR(simulation.body(0).twist.omega_radps, 1.0, 1e-6);
+  EXPECT_NEAR(simulation.body(0).twist.omega_radps, 1.0 - 0.1 * kPi, 1e-6);
 }
 
 // --- hand

@@ -25,8 +25,9 @@ struct MotionParams {
   double heading_tolerance_rad = 0.01;        ///< heading error on arrival [rad], > 0
   double slip = 0.0;         ///< standard deviation of each wheel's slip, [0, 0.2]; see WheelSlip
   double slip_time_s = 0.2;  ///< time in which slip loses its correlation, (0, 1000] [s]
-  double speed_loss_mps = 0.0;  ///< by which the robot is slower than its target, [0, 10] [m/s]
-  double latency_s = 0.0;       ///< from a command until it takes effect, [0, 10] [s]
+  double speed_loss_mps = 0.0;   ///< by which the robot is slower than its target, [0, 10] [m/s]
+  double turn_loss_radps = 0.0;  ///< by which it turns more slowly than its target, [0, 63] [rad/s]
+  double latency_s = 0.0;        ///< from a command until it takes effect, [0, 10] [s]
 };
 
 /// Slip of the wheels: s = 1 - v / (omega r), with v the speed of a wheel's centre over the floor,
