@@ -19,6 +19,7 @@ if [[ -n $given ]]; then
 else
   cmake --preset dev >/dev/null
   cmake --build build/dev --target playpen docs_thirteen docs_layers docs_living_arena docs_moving docs_mirror docs_snd_snd_goals \
+    docs_wavefront_office_goals \
     docs_speech_speech docs_blinkenlight_blinkenlight docs_camera_camera docs_gripper_gripper \
     docs_actarray_actarray \
     compat_four_ports compat_roomba_maze \
@@ -118,6 +119,10 @@ take shapes.png shapes
 
 run default snd -- "$bin/docs_snd_snd_goals"
 take snd/scene.png snd
+
+run worlds/examples/wavefront_amcl.json wavefront_amcl --snapshot-every 200 --duration 201 -- \
+  "$bin/docs_wavefront_office_goals"
+take wavefront_amcl/snapshots/scene_000200.000s.png wavefront_amcl
 
 for solution in wall avoid; do
   run worlds/tasks/par_intro.json "$solution" --duration 30 -- "$bin/par_intro_solution_$solution"

@@ -6,6 +6,7 @@
 /// libplayerc++/playerc++.h, makes Player's classes available in namespace CCMorse too, and defines
 /// PI.
 
+#include "libCCMorse/AmclDriver.h"
 #include "libCCMorse/ArenaProxy.h"
 #include "libCCMorse/ClientProxy.h"
 #include "libCCMorse/Drawing.h"

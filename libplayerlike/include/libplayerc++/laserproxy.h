@@ -4,8 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
+#include <memory>
 
 #include "libplayerc++/clientproxy.h"
+
+namespace playerlike {
+class PoseFeed;
+}  // namespace playerlike
 
 namespace PlayerCc {
 
@@ -71,8 +76,9 @@ class LaserProxy : public ClientProxy {
 
   /// Mount pose: the pose of L in the robot's body frame [m, rad].
   player_pose3d_t GetPose();
-  /// Pose of the robot from the newest reading of a localisation device to which this client has
-  /// subscribed (with a Position2dProxy); zero if there is none.
+  /// Pose of the robot. Of a driver laserposeinterpolator: at the time of the scan. Of other
+  /// lasers: from the newest reading of a localisation device to which this client has subscribed
+  /// (with a Position2dProxy). Zero if there is none.
   player_pose3d_t GetRobotPose();
   /// Size of the device's case from its settings [m]. For an S1R's Hokuyo URG-04LX it is 5 x 5 x 7
   /// cm.
@@ -105,7 +111,8 @@ class LaserProxy : public ClientProxy {
   std::size_t mFirst = 0;  // index of the first shown beam among the measured ones
   std::size_t mStride = 1;
   std::size_t mShown = 0;
-  double mRangeRes = 0.0;  // 0: not rounded
+  double mRangeRes = 0.0;                        // 0: not rounded
+  std::shared_ptr<playerlike::PoseFeed> mPoses;  // of a driver laserposeinterpolator; else null
 };
 
 }  // namespace PlayerCc

@@ -1,8 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <iosfwd>
+#include <type_traits>
 #include <vector>
 
 #include "libplayerc++/clientproxy.h"
@@ -60,15 +62,25 @@ class LocalizeProxy : public ClientProxy {
   /// Tells amcl, or the localisation of a Player server, where the robot is. It has no effect on a
   /// `pose` device, which cannot get lost. To move a robot, use SimulationProxy::SetPose2d().
   /// @param pose  x [m], y [m], yaw [rad].
-  /// @param cov   covariance; only its first three numbers are read, the variances of x and y [m^2]
-  ///              and of yaw [rad^2], because arrays of programs for Player 2.1 end there. Null:
-  ///              the variances of the device's settings (amcl), or 0.5 m and 15 degrees (a Player
-  ///              server).
-  /// @throws PlayerError kBadArgument for a pose that is null or not finite, and for variances that
-  ///         are not finite or negative.
-  void SetPose(double pose[3], double cov[6]);
+  /// @param cov   covariance. An array of 3 numbers, as in Player 2.1, has the variances of x and y
+  ///              [m^2] and of yaw [rad^2]. An array of 6 numbers, as in Player 3, adds the
+  ///              covariances of x and y [m^2], y and yaw, x and yaw [m rad]. Of a pointer the
+  ///              first 3 numbers are read. Null: the variances of the device's settings (amcl), or
+  ///              0.5 m and 15 degrees (a Player server).
+  /// @throws PlayerError kBadArgument for a pose that is null or not finite, and for a covariance
+  ///         that is not finite or not positive semidefinite.
+  template <typename Covariance,
+            typename = typename std::enable_if<std::is_array<Covariance>::value ||
+                                               std::is_pointer<Covariance>::value>::type>
+  void SetPose(double pose[3], const Covariance& cov) {
+    TellPose(pose, cov, std::is_array<Covariance>::value ? std::extent<Covariance>::value : 3);
+  }
+  /// Same as SetPose() with a null pointer.
+  void SetPose(double pose[3], std::nullptr_t) { TellPose(pose, nullptr, 0); }
 
  private:
+  void TellPose(const double* aPose, const double* aCovariance, std::size_t aCount);
+
   // Guarded by the client's mutex.
   std::vector<player_pose2d_t> mParticles;
   std::vector<double> mWeights;  // of mParticles

@@ -1,11 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "devices/errors.h"
 #include "drivers/local_driver_start.h"
+#include "drivers/named_settings.h"
 #include "libCCMorse/LocalDriver.h"
 #include "proxies/link.h"
 
@@ -37,16 +36,6 @@ playerlike::GoalDriverSettings defaults_for(const playerlike::RobotInfo* robot) 
 
 const sim::FieldTable& table_of(const playerlike::GoalDriverSettings& settings) {
   return playerlike::goal_driver_kinds()[settings.index()].fields();
-}
-
-const sim::Field& find_setting(const std::string& fun, const sim::FieldTable& table,
-                               const std::string& name) {
-  std::string known;
-  for (const sim::Field& field : table.fields) {
-    if (field.name == name) return field;
-    known += (known.empty() ? "" : ", ") + std::string(field.name);
-  }
-  playerlike::refuse(fun, "there is no setting \"" + name + "\"; there are: " + known);
 }
 
 }  // namespace
@@ -141,16 +130,8 @@ void LocalDriver::Set(const std::string& aName, double aValue) {
   const std::string fun = Fun("Set");
   playerlike::GoalDriverSettings settings = mThread->settings();
   const sim::FieldTable& table = table_of(settings);
-  const sim::Field& field = find_setting(fun, table, aName);
   void* const object = sim::object_in(settings);
-  if (field.type == sim::FieldType::kInt) {
-    if (aValue != std::floor(aValue) || std::abs(aValue) > std::numeric_limits<int>::max()) {
-      playerlike::refuse(fun, aName + " must be a whole number");
-    }
-    sim::set_integer(field, field.set(object), static_cast<int>(aValue));
-  } else {
-    *static_cast<double*>(field.set(object)) = aValue * playerlike::unit_of_setting(field);
-  }
+  playerlike::set_named(fun, table, playerlike::is_number, object, aName, aValue);
   const std::string fault = playerlike::fault_of(table, object);
   if (!fault.empty()) playerlike::refuse(fun, fault);
   translated(fun.c_str(), [&] {
@@ -161,13 +142,8 @@ void LocalDriver::Set(const std::string& aName, double aValue) {
 
 double LocalDriver::Get(const std::string& aName) const {
   const playerlike::GoalDriverSettings settings = mThread->settings();
-  const sim::Field& field = find_setting(Fun("Get"), table_of(settings), aName);
-  const void* const value = field.get(sim::object_in(settings));
-  if (value == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  if (field.type == sim::FieldType::kInt) {
-    return static_cast<double>(sim::integer_at(field, value));
-  }
-  return *static_cast<const double*>(value) / playerlike::unit_of_setting(field);
+  return playerlike::get_named(Fun("Get"), table_of(settings), playerlike::is_number,
+                               sim::object_in(settings), aName);
 }
 
 VfhDriver::VfhDriver(PlayerClient* aClient, uint32_t aPosition, uint32_t aLaser)

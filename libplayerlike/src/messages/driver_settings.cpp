@@ -2,22 +2,19 @@
 #include "playerlike/messages/driver_settings.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <string_view>
-#include <utility>
 
-#include "playerlike/messages/messages.h"
-#include "sim/core/error.h"
-#include "sim/core/number_text.h"
+#include "messages/driver_reader.h"
 
 namespace sim {
 namespace {
 
+using playerlike::CspaceSettings;
 using playerlike::GotoSettings;
 using playerlike::NdSettings;
+using playerlike::PoseInterpolatorSettings;
 using playerlike::SndSettings;
 using playerlike::VfhSettings;
 using playerlike::WavefrontSettings;
@@ -211,8 +208,25 @@ constexpr Field kWavefrontFields[] = {
     field<&WavefrontSettings::draw>("draw", "", "whether the path is drawn on a layer"),
 };
 
+constexpr Field kCspaceFields[] = {
+    field<&CspaceSettings::radius_m>("radius", "m", "radius of the disc around the laser")
+        .above(0, kMostMetres),
+    field<&CspaceSettings::step>("step", "", "every n-th beam counts as an obstacle")
+        .within(1, 8192),
+};
+
+constexpr Field kPoseInterpolatorFields[] = {
+    field<&PoseInterpolatorSettings::position>("position", "",
+                                               "index of the `position2d` that gives the poses")
+        .within(0, kMostIndex),
+    field<&PoseInterpolatorSettings::interpolate>(
+        "interpolate", "", "whether the pose is that of the scan's time, or the newest one"),
+};
+
 }  // namespace
 
+SIM_FIELDS(CspaceSettings, kCspaceFields)
+SIM_FIELDS(PoseInterpolatorSettings, kPoseInterpolatorFields)
 SIM_FIELDS(SndSettings, kSndFields)
 SIM_FIELDS(VfhSettings, kVfhFields)
 SIM_FIELDS(NdSettings, kNdFields)
@@ -225,199 +239,15 @@ namespace playerlike {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-constexpr int kMaxIndex = 65535;
-constexpr const char* kNoDevice = "none";
 
-std::string number_text(double value) { return sim::rounded_text(value, 6); }
-
-std::string range_of(const sim::Field& field) {
-  const sim::NumberRange& range = field.range;
-  const std::string unit = *range.unit == '\0' ? "" : std::string(" ") + range.unit;
-  const std::string most = number_text(range.max) + unit;
-  return range.min_exclusive ? "greater than " + number_text(range.min) + " and at most " + most
-                             : "from " + number_text(range.min) + " to " + most;
-}
-
-bool is_in_range(const sim::Field& field, double value) {
-  const double shown = value / unit_of_setting(field);
-  // An angle of the greatest number of degrees may be a little greater after the conversion.
-  const double most = field.range.max * (1.0 + 1e-15);
-  return (field.range.min_exclusive ? shown > field.range.min : shown >= field.range.min) &&
-         shown <= most;
-}
-
-template <typename Number>
-std::optional<Number> parsed(const std::string& text) {
-  Number value{};
-  const char* end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || at != end) return std::nullopt;
-  return value;
-}
-
-// What the drivers of a robot depend on.
-struct RobotParts {
-  std::vector<std::string> types;  // of its devices
-  const std::vector<sim::DriverDescription>& drivers;
-  double radius_m = 0.0;
-  double max_speed_mps = 0.0;
-  double max_turn_rate_radps = 0.0;
-
-  [[nodiscard]] int count_of(std::string_view interface) const {
-    return static_cast<int>(std::ranges::count_if(
-        types, [&](const std::string& type) { return carries(type, interface); }));
-  }
-  [[nodiscard]] bool has_motors() const {
-    return std::ranges::find(types, "motion") != types.end();
-  }
-};
+constexpr const char* kBlackboardDriver = "localbb";
+constexpr const char* kConverters[] = {"lasertoranger", "rangertolaser", kBlackboardDriver};
 
 struct Drivers {
   std::vector<GoalDriverInfo> goal_drivers;
   std::vector<PlannerInfo> planners;
+  std::vector<ScanDriverInfo> scan_drivers;
 };
-
-// Reads one driver and collects its errors.
-class DriverReader {
- public:
-  DriverReader(const sim::DriverDescription& driver, std::string file, std::string pointer,
-               std::vector<sim::ConfigIssue>& issues)
-      : driver_(driver), file_(std::move(file)), pointer_(std::move(pointer)), issues_(issues) {}
-
-  void complain(const std::string& id, const std::string& key, const std::string& expected,
-                const std::string& found, const std::string& hint = "") {
-    issues_.push_back(
-        {id, file_, key.empty() ? pointer_ : pointer_ + '/' + key, expected, found, hint});
-  }
-
-  void index(const std::string& key, int& index) {
-    known_.push_back(key);
-    if (const std::string* text = find(key)) whole_number(key, *text, 0, kMaxIndex, "", index);
-  }
-
-  void settings(const sim::FieldTable& table, void* object) {
-    for (const sim::Field& field : table.fields) {
-      known_.emplace_back(field.name);
-      if (const std::string* text = find(field.name)) setting(field, *text, object);
-    }
-  }
-
-  void refuse_unknown_keys() {
-    for (const auto& [key, text] : driver_.settings) {
-      if (std::ranges::find(known_, key) != known_.end()) continue;
-      std::string list;
-      for (const std::string& name : known_) list += (list.empty() ? "" : ", ") + name;
-      const std::string near = sim::nearest_word(key, known_);
-      complain("world/unknown-key", key, "one of the settings of \"" + driver_.type + "\": " + list,
-               "the unknown key \"" + key + '"',
-               near.empty() ? "" : "did you mean \"" + near + "\"?");
-    }
-  }
-
-  // A device of the robot that the driver uses.
-  void need(const char* key, int index, int count, const char* what) {
-    if (index < count) return;
-    complain("world/driver-device", key,
-             count == 0 ? std::string("a robot with a ") + what
-                        : std::string("the index of one of the robot's ") + std::to_string(count) +
-                              " devices that are a " + what,
-             count == 0 ? kNoDevice : std::to_string(index));
-  }
-
-  void need_motors(const RobotParts& robot) {
-    if (robot.has_motors()) return;
-    complain("world/driver-device", "", "a robot with motors (a device \"motion\")", kNoDevice);
-  }
-
- private:
-  [[nodiscard]] const std::string* find(const std::string& key) const {
-    const auto it = driver_.settings.find(key);
-    return it == driver_.settings.end() ? nullptr : &it->second;
-  }
-
-  void setting(const sim::Field& field, const std::string& text, void* object) {
-    const char* const key = field.name;
-    if (field.type == sim::FieldType::kInt) {
-      int value = 0;
-      if (whole_number(key, text, field.least, field.greatest, field.range.unit, value)) {
-        sim::set_integer(field, field.set(object), value);
-      }
-      return;
-    }
-    if (field.type == sim::FieldType::kBool) {
-      if (text != "true" && text != "false") {
-        complain("world/wrong-type", key, "true or false", '"' + text + '"');
-      } else {
-        *static_cast<bool*>(field.set(object)) = text == "true";
-      }
-      return;
-    }
-    const std::string expected = "a number " + range_of(field);
-    const std::optional<double> value = parsed<double>(text);
-    if (!value) {
-      complain("world/wrong-type", key, expected, '"' + text + '"');
-    } else if (!is_in_range(field, *value * unit_of_setting(field))) {
-      complain("world/out-of-range", key, expected, text);
-    } else {
-      *static_cast<double*>(field.set(object)) = *value * unit_of_setting(field);
-    }
-  }
-
-  bool whole_number(const std::string& key, const std::string& text, std::int64_t least,
-                    std::int64_t greatest, const std::string& unit, int& number) {
-    const std::string expected = "a whole number from " + std::to_string(least) + " to " +
-                                 std::to_string(greatest) + (unit.empty() ? "" : " " + unit);
-    const std::optional<int> value = parsed<int>(text);
-    if (!value) {
-      complain("world/wrong-type", key, expected, '"' + text + '"');
-    } else if (*value < least || *value > greatest) {
-      complain("world/out-of-range", key, expected, text);
-    } else {
-      number = *value;
-      return true;
-    }
-    return false;
-  }
-
-  const sim::DriverDescription& driver_;
-  std::string file_;
-  std::string pointer_;
-  std::vector<sim::ConfigIssue>& issues_;
-  std::vector<std::string> known_;
-};
-
-// The indices of an interface on a robot's port.
-class Indices {
- public:
-  Indices(const char* interface, int devices) : interface_(interface), devices_(devices) {
-    for (int i = 0; i < devices; ++i) taken_.insert(i);
-  }
-  void take(DriverReader& reader, int index) {
-    if (index < 0 || taken_.insert(index).second) return;
-    reader.complain("world/driver-index", "index",
-                    std::string("an index that no other ") + interface_ + " of the robot has",
-                    std::to_string(index),
-                    (devices_ == 0 ? std::string()
-                                   : "devices have 0 to " + std::to_string(devices_ - 1) + "; ") +
-                        "without an index a driver takes the first free one");
-  }
-  // Gives the first free indices to drivers without an index.
-  template <typename Driver>
-  void fill(std::vector<Driver>& drivers) {
-    int next = 0;
-    for (Driver& driver : drivers) {
-      if (driver.index >= 0) continue;
-      while (!taken_.insert(next).second) ++next;
-      driver.index = next;
-    }
-  }
-
- private:
-  const char* interface_;
-  int devices_;
-  std::set<int> taken_;
-};
-
 template <std::size_t... kIndex>
 GoalDriverSettings settings_of_kind(std::size_t kind, const RobotParts& robot,
                                     std::index_sequence<kIndex...> /*kinds*/) {
@@ -464,6 +294,29 @@ PlannerInfo read_planner(DriverReader& reader, const RobotParts& robot) {
   return read;
 }
 
+ScanDriverInfo read_scan_driver(DriverReader& reader, std::size_t kind, const RobotParts& robot) {
+  ScanDriverInfo read;
+  read.settings = scan_driver_kinds()[kind].make();
+  reader.index("index", read.index);
+  reader.index("laser", read.laser);
+  reader.settings(scan_driver_kinds()[kind].fields(), sim::object_in(read.settings));
+  reader.refuse_unknown_keys();
+  reader.need("laser", read.laser, robot.count_of("laser"), "laser");
+  if (const auto* stamped = std::get_if<PoseInterpolatorSettings>(&read.settings)) {
+    reader.need("position", stamped->position, robot.count_of("position2d"), "position2d");
+  }
+  return read;
+}
+
+// An entry for a driver of Player that converts between interfaces: every robot has both.
+void read_converter(DriverReader& reader, const std::string& type, const RobotParts& robot) {
+  int laser = 0;
+  const bool is_of_laser = type != kBlackboardDriver;
+  if (is_of_laser) reader.index("laser", laser);
+  reader.refuse_unknown_keys();
+  if (is_of_laser) reader.need("laser", laser, robot.count_of("laser"), "laser");
+}
+
 // Chooses the driver that gets a planner's waypoints.
 void find_output(DriverReader& reader, const std::vector<GoalDriverInfo>& drivers, int& output) {
   if (drivers.empty()) {
@@ -489,6 +342,7 @@ Drivers read_all(const RobotParts& robot, const std::string& file, const std::st
   Drivers drivers;
   Indices positions("position2d", robot.count_of("position2d"));
   Indices planners("planner", 0);
+  Indices lasers("laser", robot.count_of("laser"));
   std::vector<DriverReader> of_planners;
   const auto& kinds = goal_driver_kinds();
   for (std::size_t d = 0; d < robot.drivers.size(); ++d) {
@@ -504,6 +358,15 @@ Drivers read_all(const RobotParts& robot, const std::string& file, const std::st
       drivers.planners.push_back(read_planner(reader, robot));
       planners.take(reader, drivers.planners.back().index);
       of_planners.push_back(reader);
+    } else if (const auto scans = std::ranges::find_if(
+                   scan_driver_kinds(),
+                   [&](const ScanDriverKind& known) { return driver.type == known.name; });
+               scans != scan_driver_kinds().end()) {
+      const auto number = static_cast<std::size_t>(scans - scan_driver_kinds().begin());
+      drivers.scan_drivers.push_back(read_scan_driver(reader, number, robot));
+      lasers.take(reader, drivers.scan_drivers.back().index);
+    } else if (std::ranges::find(kConverters, driver.type) != std::end(kConverters)) {
+      read_converter(reader, driver.type, robot);
     } else {
       std::string list;
       for (const DriverType& type : driver_types()) {
@@ -515,6 +378,7 @@ Drivers read_all(const RobotParts& robot, const std::string& file, const std::st
   }
   positions.fill(drivers.goal_drivers);
   planners.fill(drivers.planners);
+  lasers.fill(drivers.scan_drivers);
   for (std::size_t p = 0; p < of_planners.size(); ++p) {
     find_output(of_planners[p], drivers.goal_drivers, drivers.planners[p].settings.output);
   }
@@ -633,13 +497,26 @@ const std::array<GoalDriverKind, std::variant_size_v<GoalDriverSettings>>& goal_
   return kKinds;
 }
 
+const std::array<ScanDriverKind, std::variant_size_v<ScanDriverSettings>>& scan_driver_kinds() {
+  static constexpr auto kKinds =
+      sim::alternative_kinds<ScanDriverSettings>({"lasercspace", "laserposeinterpolator"});
+  return kKinds;
+}
+
 const std::vector<DriverType>& driver_types() {
   static const auto* const types = [] {
     auto* made = new std::vector<DriverType>;
     for (const GoalDriverKind& kind : goal_driver_kinds()) {
-      made->push_back({kind.name, &kind.fields(), true});
+      made->push_back({kind.name, &kind.fields(), DriverUse::kDrives});
     }
-    made->push_back({PlannerInfo::type(), &sim::fields_of<WavefrontSettings>(), false});
+    made->push_back({PlannerInfo::type(), &sim::fields_of<WavefrontSettings>(), DriverUse::kPlans});
+    for (const ScanDriverKind& kind : scan_driver_kinds()) {
+      made->push_back({kind.name, &kind.fields(), DriverUse::kScans});
+    }
+    static const sim::FieldTable kNone{};
+    for (const char* converter : kConverters) {
+      made->push_back({converter, &kNone, DriverUse::kConverts});
+    }
     return made;
   }();
   return *types;
@@ -650,13 +527,14 @@ double unit_of_setting(const sim::Field& field) { return field.is_angle ? kDegre
 std::string fault_of(const sim::FieldTable& table, const void* settings) {
   for (const sim::Field& field : table.fields) {
     const void* const value = field.get(settings);
-    if (value == nullptr || field.type == sim::FieldType::kBool) continue;
+    if (value == nullptr) continue;
     if (field.type == sim::FieldType::kInt) {
       const std::int64_t number = sim::integer_at(field, value);
       if (number >= field.least && number <= field.greatest) continue;
       return std::string(field.name) + " must be " + range_of(field) + ", but is " +
              std::to_string(number);
     }
+    if (field.type != sim::FieldType::kNumber) continue;
     const double number = *static_cast<const double*>(value);
     if (is_in_range(field, number)) continue;
     return std::string(field.name) + " must be " + range_of(field) + ", but is " +
@@ -676,6 +554,7 @@ void read_drivers(RobotInfo& robot, const std::string& file, const std::string& 
   if (!issues.empty()) throw sim::ConfigError(std::move(issues));
   robot.goal_drivers = std::move(read.goal_drivers);
   robot.planners = std::move(read.planners);
+  robot.scan_drivers = std::move(read.scan_drivers);
 }
 
 void check_drivers(const sim::WorldDescription& world) {

@@ -143,6 +143,12 @@ void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visi
         for (std::size_t i = 0; i < devices.size(); ++i) {
           visit(interface, static_cast<int>(i), static_cast<int>(r), *devices[i], nullptr);
         }
+        if (interface == "laser") {
+          for (const ScanDriverInfo& driver : robot.scan_drivers) {
+            visit(interface, driver.index, static_cast<int>(r),
+                  *devices[static_cast<std::size_t>(driver.laser)], driver.type());
+          }
+        }
         if (interface != "position2d") continue;
         for (const GoalDriverInfo& driver : robot.goal_drivers) {
           visit(interface, driver.index, static_cast<int>(r),
@@ -202,6 +208,18 @@ std::optional<InterfaceBinding> look_up(const std::vector<RobotInfo>& robots, in
       const DeviceInfo* const source = pose_source(*robot, planner);
       if (planner.index != index || source == nullptr) continue;
       return InterfaceBinding{source->id, std::nullopt, number, nullptr, &planner};
+    }
+  }
+  if (interface == "laser" && !devices.empty()) {
+    for (const ScanDriverInfo& driver : robot->scan_drivers) {
+      if (driver.index != index) continue;
+      return InterfaceBinding{devices[static_cast<std::size_t>(driver.laser)]->id,
+                              std::nullopt,
+                              number,
+                              nullptr,
+                              nullptr,
+                              nullptr,
+                              &driver};
     }
   }
   if (interface != "position2d" || devices.empty()) return std::nullopt;

@@ -515,6 +515,7 @@ void read_known_drivers(RobotInfo& robot, std::size_t number) {
   }
   robot.goal_drivers = std::move(known.goal_drivers);
   robot.planners = std::move(known.planners);
+  robot.scan_drivers = std::move(known.scan_drivers);
 }
 
 }  // namespace

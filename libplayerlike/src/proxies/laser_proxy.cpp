@@ -1,14 +1,18 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <ostream>
 #include <string>
+#include <variant>
 
 #include "devices/errors.h"
 #include "libplayerc++/laserproxy.h"
 #include "proxies/beam_window.h"
 #include "proxies/link.h"
+#include "proxies/pose_feed.h"
 #include "sim/devices/laser.h"
 
 namespace PlayerCc {
@@ -32,6 +36,16 @@ LaserProxy::LaserProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aI
   mCount = mShown = scanner.count;
   mLink->measured = detail::announced_scan(scanner);
   mLink->show(mLink->measured);
+  const playerlike::ScanDriverInfo* const driver = mLink->binding.scan_driver;
+  if (driver == nullptr) return;
+  if (const auto* stamps = std::get_if<playerlike::PoseInterpolatorSettings>(&driver->settings)) {
+    playerlike::translated(fun, [&] {
+      const playerlike::InterfaceBinding poses = playerlike::find_interface(
+          mLink->core->robots(), mLink->core->session().port(), "position2d", stamps->position);
+      mPoses =
+          std::make_shared<playerlike::PoseFeed>(mLink->core, poses.reading, stamps->interpolate);
+    });
+  }
 }
 
 LaserProxy::~LaserProxy() { ClientProxy::Unsubscribe(); }
@@ -39,7 +53,9 @@ LaserProxy::~LaserProxy() { ClientProxy::Unsubscribe(); }
 void LaserProxy::HandleReading() {
   const auto* scan = mLink->newest.find<LaserReading>();
   if (scan == nullptr) return View();
-  mLink->measured = mLink->newest.reading;
+  const playerlike::ScanDriverInfo* const driver = mLink->binding.scan_driver;
+  mLink->measured = driver == nullptr ? mLink->newest.reading
+                                      : playerlike::made_scan(*driver, mLink->newest.reading);
   if (scan->ranges_m.size() != mCount) {
     // The scan differs from the announced geometry: expose all of it.
     mCount = scan->ranges_m.size();
@@ -187,7 +203,9 @@ player_pose3d_t LaserProxy::GetPose() {
 
 player_pose3d_t LaserProxy::GetRobotPose() {
   const scoped_lock_t lock(LockData("LaserProxy::GetRobotPose"));
-  const sim::Pose pose = mLink->core->last_pose(mLink->binding.robot).value_or(sim::Pose{});
+  const std::optional<sim::Pose> known = mPoses ? mPoses->poses().at(mLink->measured->time_ns)
+                                                : mLink->core->last_pose(mLink->binding.robot);
+  const sim::Pose pose = known.value_or(sim::Pose{});
   return {pose.x_m, pose.y_m, 0.0, 0.0, 0.0, pose.yaw_rad};
 }
 

@@ -1,4 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <ostream>
 #include <string>
@@ -98,24 +100,27 @@ double LocalizeProxy::GetParticleWeight(int index) const {
   return mLink->element_or_zero(fun, {"particle", "particles"}, index, mWeights);
 }
 
-void LocalizeProxy::SetPose(double pose[3], double cov[6]) {
+void LocalizeProxy::TellPose(const double* aPose, const double* aCovariance, std::size_t aCount) {
   const char* fun = "LocalizeProxy::SetPose";
-  if (pose == nullptr) {
-    playerlike::refuse(fun, "the pose is a null pointer");
-  }
+  if (aPose == nullptr) playerlike::refuse(fun, "the pose is a null pointer");
   playerlike::require_finite(
-      fun, {{"the pose's x", pose[0]}, {"the pose's y", pose[1]}, {"the pose's yaw", pose[2]}});
+      fun, {{"the pose's x", aPose[0]}, {"the pose's y", aPose[1]}, {"the pose's yaw", aPose[2]}});
+  const bool has_variances = aCovariance != nullptr;
+  if (has_variances && aCount < 3) {
+    playerlike::refuse(
+        fun, "the covariance must have 3 or 6 numbers, but has " + std::to_string(aCount));
+  }
   const scoped_lock_t lock(LockData(fun));
   if (mLink->info().type != "amcl") return;  // the arena's localisation knows the pose
-  sim::SetPoseCommand command{{pose[0], pose[1], sim::normalize_angle(pose[2])}};
-  if (cov != nullptr) {
-    // Arrays of programs for Player 2.1 end after the variances.
-    command.variance = {cov[0], cov[1], cov[2]};
-    if (!sim::is_valid({*command.variance, {}})) {
-      playerlike::refuse(fun,
-                         "the covariance's first three numbers, the variances of x, y and "
-                         "yaw, must be finite and not negative");
-    }
+  const sim::Pose pose{aPose[0], aPose[1], sim::normalize_angle(aPose[2])};
+  if (!has_variances) return mLink->send(fun, sim::SetPoseCommand{pose});
+  std::array<double, 6> covariance{};
+  std::copy_n(aCovariance, aCount < covariance.size() ? 3 : covariance.size(), covariance.begin());
+  const sim::SetPoseCommand command = playerlike::set_pose_command(pose, covariance);
+  if (!sim::is_valid({*command.variance, *command.covariance})) {
+    playerlike::refuse(fun,
+                       "the covariance must be finite and positive semidefinite; its first three "
+                       "numbers are the variances of x, y and yaw");
   }
   mLink->send(fun, command);
 }

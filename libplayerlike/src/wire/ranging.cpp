@@ -4,8 +4,12 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
+#include <variant>
+#include <vector>
 
 #include "libplayerinterface/player_constants.h"
+#include "session/scan_drivers.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/rangers.h"
 #include "wire/robot_device.h"
@@ -57,40 +61,49 @@ std::uint8_t to_byte(double value) {
   return static_cast<std::uint8_t>(std::min(value, 255.0));
 }
 
-/// LaserProxy's counterpart.
+/// LaserProxy's counterpart: a laser, or a driver that makes other scans of a laser's.
 class LaserDevice final : public RobotDevice {
  public:
   explicit LaserDevice(const DeviceContext& context)
       : RobotDevice(context),
         scanner_(scanner_settings(info().properties)),
         beams_(scanner_),
-        range_max_m_(scanner_.range_max_m) {}
+        range_max_m_(scanner_.range_max_m) {
+    const ScanDriverInfo* const driver = binding().scan_driver;
+    if (driver == nullptr) return;
+    if (const auto* stamps = std::get_if<PoseInterpolatorSettings>(&driver->settings)) {
+      poses_.emplace(stamps->interpolate);
+      pose_source_ =
+          find_interface(session().robots(), robot().port, "position2d", stamps->position).reading;
+    }
+  }
+
+  [[nodiscard]] std::vector<DeviceId> sources() const override {
+    if (!poses_) return RobotDevice::sources();
+    return {binding().reading, pose_source_};
+  }
 
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
-    const auto* scan = reading_as<sim::LaserReading>(reading);
-    if (scan == nullptr) return;
-    beams_.update(*scan);
-    range_max_m_ = scan->range_max_m;
-    scan_.min_angle = static_cast<float>(beams_.min_rad());
-    scan_.max_angle = static_cast<float>(beams_.max_rad());
-    scan_.resolution = static_cast<float>(beams_.spacing_rad());
-    scan_.max_range = static_cast<float>(range_max_m_);
-    scan_.id = static_cast<std::uint32_t>(scan->sequence);
-    const BeamWindow& window = beams_.window;
-    scan_.ranges.resize(window.shown);
-    // Clients expect an intensity for each range; simulated lasers measure none.
-    scan_.intensity.assign(window.shown, 0);
-    const bool has_intensities = scan->intensities.size() == scan->ranges_m.size();
-    for (std::size_t i = 0; i < window.shown; ++i) {
-      const double range_m = scan->ranges_m[window.first + i * window.stride];
-      scan_.ranges[i] = static_cast<float>(
-          range_res_m_ > 0.0 ? limited_range_m(range_m, range_res_m_, 0.0, range_max_m_) : range_m);
-      if (has_intensities) {
-        scan_.intensity[i] = to_byte(scan->intensities[window.first + i * window.stride]);
-      }
+    if (const auto* pose = reading_as<sim::PoseReading>(reading); pose != nullptr && poses_) {
+      poses_->add(*pose);
+      send_waiting(sink);
     }
-    constexpr std::size_t kOtherFields = 64;
-    sink.data(PLAYER_LASER_DATA_SCAN, encode_long(scan_, kOtherFields + 5 * window.shown));
+    const auto* measured = reading_as<sim::LaserReading>(reading);
+    if (measured == nullptr) return;
+    if (poses_) {
+      if (waiting_.size() == kMostWaiting) waiting_.erase(waiting_.begin());
+      waiting_.push_back(*measured);
+      return send_waiting(sink);
+    }
+    const ScanDriverInfo* const driver = binding().scan_driver;
+    const auto* cspace =
+        driver == nullptr ? nullptr : std::get_if<CspaceSettings>(&driver->settings);
+    if (cspace != nullptr) {
+      take(*configuration_space(*measured, *cspace));
+    } else {
+      take(*measured);
+    }
+    sink.data(PLAYER_LASER_DATA_SCAN, encode_long(scan_, length()));
   }
 
  protected:
@@ -114,6 +127,49 @@ class LaserDevice final : public RobotDevice {
   }
 
  private:
+  // Player's driver keeps this many scans that wait for a pose.
+  static constexpr std::size_t kMostWaiting = 100;
+
+  // Sends the scans whose poses are known.
+  void send_waiting(DataSink& sink) {
+    while (!waiting_.empty() && poses_->knows(waiting_.front().time_ns)) {
+      take(waiting_.front());
+      const player::LaserDataScanpose stamped{scan_,
+                                              pose_2d(*poses_->at(waiting_.front().time_ns))};
+      waiting_.erase(waiting_.begin());
+      sink.data(PLAYER_LASER_DATA_SCANPOSE, encode_long(stamped, length()));
+    }
+  }
+
+  [[nodiscard]] std::size_t length() const {
+    constexpr std::size_t kOtherFields = 64;
+    return kOtherFields + 5 * scan_.ranges.size();
+  }
+
+  // Makes the message of a scan.
+  void take(const sim::LaserReading& scan) {
+    beams_.update(scan);
+    range_max_m_ = scan.range_max_m;
+    scan_.min_angle = static_cast<float>(beams_.min_rad());
+    scan_.max_angle = static_cast<float>(beams_.max_rad());
+    scan_.resolution = static_cast<float>(beams_.spacing_rad());
+    scan_.max_range = static_cast<float>(range_max_m_);
+    scan_.id = static_cast<std::uint32_t>(scan.sequence);
+    const BeamWindow& window = beams_.window;
+    scan_.ranges.resize(window.shown);
+    // Clients expect an intensity for each range; simulated lasers measure none.
+    scan_.intensity.assign(window.shown, 0);
+    const bool has_intensities = scan.intensities.size() == scan.ranges_m.size();
+    for (std::size_t i = 0; i < window.shown; ++i) {
+      const double range_m = scan.ranges_m[window.first + i * window.stride];
+      scan_.ranges[i] = static_cast<float>(
+          range_res_m_ > 0.0 ? limited_range_m(range_m, range_res_m_, 0.0, range_max_m_) : range_m);
+      if (has_intensities) {
+        scan_.intensity[i] = to_byte(scan.intensities[window.first + i * window.stride]);
+      }
+    }
+  }
+
   [[nodiscard]] player::LaserConfig config() const {
     player::LaserConfig now;
     now.min_angle = static_cast<float>(beams_.min_rad());
@@ -149,6 +205,10 @@ class LaserDevice final : public RobotDevice {
   double range_max_m_;
   double range_res_m_ = 0.0;  // 0: ranges are not rounded
   player::LaserData scan_;    // keeps its memory
+  // Of a driver laserposeinterpolator.
+  std::optional<ScanPoses> poses_;
+  DeviceId pose_source_{-1, -1};
+  std::vector<sim::LaserReading> waiting_;  // scans without a pose yet
 };
 
 /// RangerProxy's counterpart: a laser, or a ring of sonars or infrared sensors.

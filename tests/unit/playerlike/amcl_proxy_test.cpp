@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// LocalizeProxy with the amcl device, and amcl as a driver of a world.
+// LocalizeProxy with the amcl device, by function calls, over Playpen's protocol and over Player's,
+// and amcl as a driver of a world.
 #include <gtest/gtest.h>
 #include <libplayerc++/playerc++.h>
 
@@ -7,7 +8,10 @@
 #include <limits>
 #include <string>
 
+#include "patient_host.h"
 #include "playerlike/host/host.h"
+#include "playerlike/server/server.h"
+#include "reachable_host.h"
 #include "sim/core/error.h"
 #include "sim/simulation/simulation.h"
 
@@ -26,7 +30,9 @@ constexpr const char* kDriver =
                     "pf_min_samples": 150, "pf_max_samples": 1000}])";
 
 /// Drives 1 m and compares the poses.
-void expect_tracking(PlayerCc::PlayerClient& client) {
+/// @param has_map  whether the client knows the size of the map; Player's protocol has no message
+///                 for it.
+void expect_tracking(PlayerCc::PlayerClient& client, bool has_map = true) {
   PlayerCc::Position2dProxy position(&client, 0);
   PlayerCc::LocalizeProxy localize(&client, 0);
   EXPECT_EQ(localize.GetHypothCount(), 0U);
@@ -41,9 +47,9 @@ void expect_tracking(PlayerCc::PlayerClient& client) {
   EXPECT_NEAR(best.mean.pa, position.GetYaw(), 0.1);
   EXPECT_GT(best.cov[0], 0.0);
   EXPECT_GT(best.alpha, 0.5);
-  EXPECT_EQ(localize.GetMapSizeX(), 71U);
-  EXPECT_EQ(localize.GetMapSizeY(), 77U);
-  EXPECT_EQ(localize.GetMapScale(), 0.05);
+  EXPECT_EQ(localize.GetMapSizeX(), has_map ? 71U : 0U);
+  EXPECT_EQ(localize.GetMapSizeY(), has_map ? 77U : 0U);
+  EXPECT_EQ(localize.GetMapScale(), has_map ? 0.05 : 0.0);
   EXPECT_EQ(localize.GetPendingCount(), 0U);
 
   ASSERT_EQ(localize.GetParticles(), 0);
@@ -68,6 +74,8 @@ void expect_tracking(PlayerCc::PlayerClient& client) {
   client.Read();
   EXPECT_NEAR(localize.GetHypoth(0).mean.px, 1.5, 0.05);
   EXPECT_NEAR(localize.GetHypoth(0).mean.py, 2.0, 0.05);
+  EXPECT_EQ(localize.GetParticles(), 0);
+  EXPECT_NEAR(localize.GetParticlePose(0).px, 1.5, 0.05);
   localize.SetPose(pose, nullptr);  // with the covariance of the settings
   cov[0] = -1.0;
   EXPECT_THROW(localize.SetPose(pose, cov), PlayerCc::PlayerError);
@@ -75,10 +83,97 @@ void expect_tracking(PlayerCc::PlayerClient& client) {
   EXPECT_THROW(localize.SetPose(pose, cov), PlayerCc::PlayerError);
 }
 
-TEST(AmclProxy, ShowsHypothesesAndParticlesInTheProcess) {
+class AmclTransports : public testing::TestWithParam<test::Transport> {};
+
+INSTANTIATE_TEST_SUITE_P(Transports, AmclTransports,
+                         testing::Values(test::Transport::kInProcess, test::Transport::kCbor,
+                                         test::Transport::kJson),
+                         [](const auto& instance) { return test::transport_name(instance.param); });
+
+TEST_P(AmclTransports, HypothesesParticlesAndSetPoseWork) {
+  const test::ReachableHost host(test::patient_host(world_with(kDriver)), GetParam());
+  PlayerCc::PlayerClient client(host.connect(6665));
+  expect_tracking(client);
+}
+
+TEST(AmclProxy, HypothesesParticlesAndSetPoseWorkOverPlayersProtocol) {
+  ServerSettings settings;
+  settings.port = 0;
+  settings.player_port = 0;
+  const Server server(test::patient_host(world_with(kDriver)), settings);
+  PlayerCc::PlayerClient client("player://127.0.0.1:" +
+                                std::to_string(server.player_ports().at(6665)));
+  expect_tracking(client, false);
+}
+
+// What the particles say of the covariance of a pose, after SetPose() and before the next scan.
+struct Spread {
+  double xx = 0.0;
+  double xy = 0.0;
+};
+template <typename Covariance>
+Spread spread_after(const Covariance& cov) {
+  // update_thresh is never reached, and the first scan is used before SetPose().
+  const auto host = Host::create(world_with(
+      R"("devices": {"laser": {"frequency": 1}},
+         "drivers": [{"type": "amcl", "init_pose": {"x": 0.5, "y": 0.4, "yaw_deg": 90},
+                      "pf_min_samples": 4000, "pf_max_samples": 4000}])"));
+  PlayerCc::PlayerClient client(host->connect(6665));
+  PlayerCc::LocalizeProxy localize(&client, 0);
+  for (int i = 0; i < 12; ++i) client.Read();
+  double pose[3] = {1.5, 2.0, 0.0};
+  localize.SetPose(pose, cov);
+  for (int i = 0; i < 2; ++i) client.Read();
+  EXPECT_EQ(localize.GetParticles(), 0);
+  const auto count = static_cast<int>(localize.GetNumParticles());
+  EXPECT_EQ(count, 4000);
+  Spread spread;
+  for (int i = 0; i < count; ++i) {
+    const player_pose2d_t particle = localize.GetParticlePose(i);
+    const double weight = localize.GetParticleWeight(i);
+    spread.xx += weight * (particle.px - 1.5) * (particle.px - 1.5);
+    spread.xy += weight * (particle.px - 1.5) * (particle.py - 2.0);
+  }
+  return spread;
+}
+
+// Four standard errors of a variance of 4000 numbers: 4 sqrt(2 / 4000) of it.
+constexpr double kVariance_m2 = 0.04;
+constexpr double kBound_m2 = 4.0 * 0.0224 * kVariance_m2;
+
+TEST(AmclProxy, ReadsSixNumbersOfAnArrayAsPlayer3HasThem) {
+  const double whole[6] = {kVariance_m2, kVariance_m2, 0.01, 0.03, 0.0, 0.0};
+  const Spread spread = spread_after(whole);
+  EXPECT_NEAR(spread.xx, kVariance_m2, kBound_m2);
+  EXPECT_NEAR(spread.xy, 0.03, kBound_m2);
+}
+
+TEST(AmclProxy, ReadsThreeNumbersOfAnArrayAsPlayer2HasThem) {
+  const double variances[3] = {kVariance_m2, kVariance_m2, 0.01};
+  const Spread spread = spread_after(variances);
+  EXPECT_NEAR(spread.xx, kVariance_m2, kBound_m2);
+  EXPECT_NEAR(spread.xy, 0.0, kBound_m2);
+}
+
+TEST(AmclProxy, ReadsTheThreeVariancesOfAPointer) {
+  double whole[6] = {kVariance_m2, kVariance_m2, 0.01, 9.0, 9.0, 9.0};
+  double* const pointer = whole;
+  const Spread spread = spread_after(pointer);
+  EXPECT_NEAR(spread.xx, kVariance_m2, kBound_m2);
+  EXPECT_NEAR(spread.xy, 0.0, kBound_m2);
+}
+
+TEST(AmclProxy, RefusesACovarianceThatNoPoseHas) {
   const auto host = Host::create(world_with(kDriver));
   PlayerCc::PlayerClient client(host->connect(6665));
-  expect_tracking(client);
+  PlayerCc::LocalizeProxy localize(&client, 0);
+  double pose[3] = {1.5, 2.0, 0.3};
+  const double impossible[6] = {0.01, 0.01, 0.01, 0.02, 0.0, 0.0};  // correlation 2
+  EXPECT_THROW(localize.SetPose(pose, impossible), PlayerCc::PlayerError);
+  const double too_short[2] = {0.01, 0.01};
+  EXPECT_THROW(localize.SetPose(pose, too_short), PlayerCc::PlayerError);
+  EXPECT_THROW(localize.SetPose(nullptr, impossible), PlayerCc::PlayerError);
+  localize.SetPose(pose, NULL);  // as C programs write it
 }
 
 TEST(AmclProxy, FollowsTheArenasLocalisation) {

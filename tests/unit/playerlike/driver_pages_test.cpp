@@ -30,7 +30,14 @@ const std::vector<Page>& pages() {
       {"vfh", "vfh.md", "VFH+: a position2d whose GoTo() avoids obstacles."},
       {"nd", "nd.md", "Nearness-Diagram navigation: a position2d whose GoTo() avoids obstacles."},
       {"goto", "drivers.md", "A position2d whose GoTo() drives straight to the goal."},
-      {"wavefront", "wavefront.md", "A planner that drives the robot along paths on the map."}};
+      {"wavefront", "wavefront.md", "A planner that drives the robot along paths on the map."},
+      {"lasercspace", "lasercspace.md",
+       "A laser whose ranges end at the border of the free configuration space."},
+      {"laserposeinterpolator", "laserposeinterpolator.md",
+       "A laser whose scans have the robot's pose."},
+      {"lasertoranger", "drivers.md", "Changes nothing: every laser is a ranger, too."},
+      {"rangertolaser", "drivers.md", "Changes nothing: every ranger of a laser is a laser, too."},
+      {"localbb", "drivers.md", "Changes nothing: every port has blackboard:0."}};
   return kPages;
 }
 
@@ -41,12 +48,18 @@ void for_each_driver(Visit visit) {
     const auto& kinds = goal_driver_kinds();
     const auto kind = std::ranges::find_if(
         kinds, [&](const GoalDriverKind& known) { return type.name == known.name; });
-    if (kind == kinds.end()) {
-      const WavefrontSettings defaults;
-      visit(type, static_cast<const void*>(&defaults));
-    } else {
+    const auto& scans = scan_driver_kinds();
+    const auto scan = std::ranges::find_if(
+        scans, [&](const ScanDriverKind& known) { return type.name == known.name; });
+    if (kind != kinds.end()) {
       const GoalDriverSettings defaults = kind->make();
       visit(type, sim::object_in(defaults));
+    } else if (scan != scans.end()) {
+      const ScanDriverSettings defaults = scan->make();
+      visit(type, sim::object_in(defaults));
+    } else {
+      const WavefrontSettings defaults;  // converters have no table of their own
+      visit(type, static_cast<const void*>(&defaults));
     }
   }
 }
@@ -86,6 +99,7 @@ TEST(DriverPages, EachDriverHasAPage) {
 
 TEST(DriverPages, HaveTheTablesThatTheFieldsMake) {
   for_each_driver([](const DriverType& type, const void* defaults) {
+    if (type.settings->fields.empty()) return;
     const std::string file = kRoot + "/docs/" + page_of(type).file;
     const std::string page = test_support::read_bytes(file);
     if (type.name == "snd") {  // its table also names the fields of SndSettings
@@ -121,18 +135,36 @@ Json index_schema(const std::string& description, std::optional<int> by_default)
   return schema;
 }
 
+// The interface that a driver provides; null: none.
+const char* interface_of(const DriverType& type) {
+  switch (type.use) {
+    case DriverUse::kDrives:
+      return "position2d";
+    case DriverUse::kPlans:
+      return "planner";
+    case DriverUse::kScans:
+      return "laser";
+    case DriverUse::kConverts:
+      break;
+  }
+  return nullptr;
+}
+
 Json with_drivers(Json schema) {
   Json made = Json::object();
   Json choices = Json::array();
   for_each_driver([&](const DriverType& type, const void* defaults) {
     Json properties = {{"type", {{"description", "The driver."}, {"const", type.name}}}};
-    properties["index"] = index_schema(std::string("Index of its ") +
-                                           (type.drives_to_goals ? "position2d" : "planner") +
-                                           " on the robot's port; by default the first free one.",
-                                       std::nullopt);
-    if (type.drives_to_goals) {
+    if (const char* const interface = interface_of(type)) {
+      properties["index"] = index_schema(std::string("Index of its ") + interface +
+                                             " on the robot's port; by default the first free one.",
+                                         std::nullopt);
+    }
+    if (type.use == DriverUse::kDrives) {
       properties["position"] =
           index_schema("Index of the robot's position2d that measures its pose.", 0);
+    }
+    if (type.use != DriverUse::kPlans && type.name != "localbb") {
       properties["laser"] = index_schema("Index of the robot's laser.", 0);
     }
     for (const sim::Field& field : type.settings->fields) {

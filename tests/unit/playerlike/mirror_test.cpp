@@ -19,6 +19,7 @@
 #include "patience.h"
 #include "playerlike/host/host.h"
 #include "sim/core/error.h"
+#include "sim/devices/amcl.h"
 #include "temporary_folder.h"
 
 namespace playerlike {
@@ -133,6 +134,33 @@ TEST_F(MirrorTest, AnotherDeviceCanTellThePose) {
   open(world_text(R"(, "pose": "position2d:1")"));
   measures({{test::kOdometry, test::pose_reading(1.0, {3.0, 3.0, 0.0})}});
   EXPECT_NEAR(pose().x_m, 3.0, 1e-12);
+}
+
+// A real robot that localises itself gives several hypotheses; the most likely one counts.
+TEST_F(MirrorTest, ALocalisationCanTellThePose) {
+  for (DeviceInfo& device : real_->robots[0].devices) {
+    if (device.name == "pose") device.type = "amcl";
+  }
+  open(world_text(R"(, "pose": "localize:0", "offset": {"x": 1, "y": 2, "yaw_deg": 90})"));
+  const auto localised = std::make_shared<sim::AmclReading>();
+  localised->time_ns = sim::from_seconds(3.0);
+  localised->sequence = 1;
+  localised->hypotheses = {{{0.5, 0.2, 0.3}, {{0.01, 0.01, 0.01}, {}}, 0.7},
+                           {{-2.0, 1.0, 0.0}, {{0.01, 0.01, 0.01}, {}}, 0.3}};
+  real_->add_round({{test::kPose, localised}});
+  EXPECT_TRUE(eventually([this] {
+    mirror_->before_step();
+    return std::abs(pose().x_m - 0.8) < 1e-12;
+  }));
+  EXPECT_NEAR(pose().y_m, 2.5, 1e-12);
+  EXPECT_NEAR(pose().yaw_rad, 0.3 + std::numbers::pi / 2, 1e-12);
+  EXPECT_FALSE(mirror_->replaces(device("pose"))) << "it is no device that measures the pose";
+  // A localisation without hypotheses moves nothing.
+  const auto lost = std::make_shared<sim::AmclReading>();
+  lost->sequence = 2;
+  real_->add_round({{test::kPose, lost}});
+  measures({{test::kOdometry, test::pose_reading(3.2, {})}});
+  EXPECT_NEAR(pose().x_m, 0.8, 1e-12);
 }
 
 TEST_F(MirrorTest, RealityWinsOverWalls) {

@@ -293,6 +293,37 @@ TEST(DrawScene, ConesRaysBumpersAndSightsAreDrawn) {
   EXPECT_TRUE(is_light(pixel_at(draw_scene(scene, plain_options()), {2.75, 2.3})));
 }
 
+TEST(DrawScene, ParticlesAreStrokesAndHypothesesEllipsesOfTwoDeviations) {
+  SceneSnapshot scene = small_scene();
+  RobotSnapshot robot = robot_at({2.0, 2.0, 0.0}, {0, 0, 255, 255});
+  robot.particles = {{3.05, 3.05, 0.0}, {0.35, 3.55, 0.5 * std::numbers::pi}};
+  PoseHypothesis hypothesis;
+  hypothesis.mean = {1.05, 1.05, 0.0};
+  hypothesis.covariance.variance = {0.04, 0.01, 0.01};  // deviations of 0.2 m and 0.1 m
+  hypothesis.weight = 1.0;
+  robot.hypotheses = {hypothesis};
+  scene.robots = {robot};
+  const Image drawn = draw_scene(scene, plain_options());
+  const auto is_ink = [&](const Vec2& place) { return pixel_at(drawn, place)[0] < 200; };
+  // Strokes of 7 px, 0.03 m, from the particle along its heading.
+  EXPECT_TRUE(is_ink({3.05, 3.05}));
+  EXPECT_TRUE(is_ink({3.07, 3.05}));
+  EXPECT_FALSE(is_ink({3.03, 3.05}));
+  EXPECT_TRUE(is_ink({0.35, 3.57}));
+  EXPECT_FALSE(is_ink({0.35, 3.53}));
+  // The ends of the ellipse's axes, 0.4 m and 0.2 m from its centre, and the heading's line.
+  EXPECT_TRUE(is_ink({1.45, 1.05}));
+  EXPECT_TRUE(is_ink({0.65, 1.05}));
+  EXPECT_TRUE(is_ink({1.05, 1.25}));
+  EXPECT_TRUE(is_ink({1.05, 0.85}));
+  EXPECT_TRUE(is_ink({1.12, 1.05}));
+  EXPECT_TRUE(is_light(pixel_at(drawn, {0.93, 1.05})));
+  // Poses that are not numbers are left out.
+  scene.robots[0].particles = {{std::nan(""), 1.0, 0.0}};
+  scene.robots[0].hypotheses[0].covariance.variance[0] = std::nan("");
+  EXPECT_TRUE(is_light(pixel_at(draw_scene(scene, plain_options()), {1.45, 1.05})));
+}
+
 // The trail's opacity is 0.8 at its newest end.
 TEST(DrawScene, TrailIsFaintWhereTheProgramDrawsItInColour) {
   SceneSnapshot scene = small_scene();

@@ -201,7 +201,39 @@ struct PlannerInfo {
   [[nodiscard]] static const char* type() { return "wavefront"; }
 };
 
-/// Parses the drivers of one robot: fills `goal_drivers` and `planners` from `drivers`.
+/// Settings of `lasercspace` (docs/lasercspace.md), with the names and defaults of Player's driver.
+struct CspaceSettings {
+  double radius_m = 0.5;  ///< of the robot
+  int step = 1;           ///< every n-th beam counts as an obstacle
+};
+
+/// Settings of `laserposeinterpolator` (docs/drivers.md), with the names and defaults of Player's
+/// driver.
+struct PoseInterpolatorSettings {
+  int position = 0;         ///< index of the position2d that gives the poses
+  bool interpolate = true;  ///< false: each scan has the newest pose
+};
+
+/// Settings of any driver that makes other scans of a laser's.
+using ScanDriverSettings = std::variant<CspaceSettings, PoseInterpolatorSettings>;
+using ScanDriverKind = sim::AlternativeKind<ScanDriverSettings>;  ///< a type of such a driver
+
+/// The drivers that make scans, in the order of ScanDriverSettings.
+[[nodiscard]] const std::array<ScanDriverKind, std::variant_size_v<ScanDriverSettings>>&
+scan_driver_kinds();
+
+/// A driver of a world's `drivers` table that makes scans: a further laser.
+struct ScanDriverInfo {
+  ScanDriverSettings settings;
+  int index = -1;  ///< index of its laser on the robot's port
+  int laser = 0;   ///< index of the laser that measures
+
+  /// Its type in world files, e.g. "lasercspace".
+  [[nodiscard]] const char* type() const { return scan_driver_kinds()[settings.index()].name; }
+};
+
+/// Parses the drivers of one robot: fills `goal_drivers`, `planners` and `scan_drivers` from
+/// `drivers`.
 /// @param robot    its devices, drivers, radius and speeds are set.
 /// @param file     as messages call the world.
 /// @param pointer  JSON pointer of the robot, e.g. "/robots/0".
@@ -212,11 +244,19 @@ void read_drivers(RobotInfo& robot, const std::string& file, const std::string& 
 /// @throws sim::ConfigError with all that is wrong.
 void check_drivers(const sim::WorldDescription& world);
 
+/// What a driver gives its robot.
+enum class DriverUse {
+  kDrives,    ///< a position2d that drives to goals; further settings: index, position, laser
+  kPlans,     ///< a planner; further setting: index
+  kScans,     ///< a laser; further settings: index, laser
+  kConverts,  ///< nothing: every robot has both interfaces; further setting: laser
+};
+
 /// The types of drivers that a world can name, with their tables of settings.
 struct DriverType {
   std::string name;
   const sim::FieldTable* settings;
-  bool drives_to_goals;  ///< it has the settings index, position and laser, too
+  DriverUse use;
 };
 [[nodiscard]] const std::vector<DriverType>& driver_types();  ///< all types of drivers
 

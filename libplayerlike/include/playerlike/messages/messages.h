@@ -68,6 +68,7 @@ struct RobotInfo {
   std::vector<sim::DriverDescription> drivers;  ///< as in the world file
   std::vector<GoalDriverInfo> goal_drivers;     ///< parsed from `drivers`, see read_drivers()
   std::vector<PlannerInfo> planners;            ///< parsed from `drivers`
+  std::vector<ScanDriverInfo> scan_drivers;     ///< parsed from `drivers`
   std::vector<DeviceInfo> devices;
   /// All addresses of the port, if the robot is that of a Player server. Otherwise they follow from
   /// the devices' types, see find_interface().
@@ -178,6 +179,8 @@ struct InterfaceBinding {
   const PlannerInfo* planner = nullptr;    ///< planner, or null; belongs to the list of robots
   const PlayerAddress* address = nullptr;  ///< of a Player server, or null; belongs to the list of
                                            ///< robots
+  const ScanDriverInfo* scan_driver = nullptr;  ///< driver that makes scans of the readings, or
+                                                ///< null; belongs to the list of robots
 
   /// Whether the address belongs to the world instead of a device. The world answers requests and
   /// makes no readings.
@@ -186,6 +189,7 @@ struct InterfaceBinding {
   /// of the world.
   [[nodiscard]] const char* driver_type() const {
     if (driver != nullptr) return driver->type();
+    if (scan_driver != nullptr) return scan_driver->type();
     return planner != nullptr ? PlannerInfo::type() : nullptr;
   }
 };
