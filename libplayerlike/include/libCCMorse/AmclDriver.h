@@ -45,8 +45,8 @@ class AmclDriver {
   ///                        odometry is 1.
   /// @param aLaser          index of the laser.
   /// @param aMapResolution  side of a cell of the map [m].
-  /// @throws PlayerError kNoSuchDevice for an index that the port does not have, kNotAvailable or
-  ///         kDenied if the client may not read the map, kBadArgument for a null pointer or a map
+  /// @throws PlayerError kNoSuchDevice for an index that the port does not have, kNotAvailable if
+  ///         the client may not read the map, kBadArgument for a null pointer or a map
   ///         without a free cell.
   explicit AmclDriver(PlayerClient* aClient, uint32_t aOdometry = 1, uint32_t aLaser = 0,
                       double aMapResolution = 0.05);

@@ -154,7 +154,6 @@ TEST_F(MirrorTest, ALocalisationCanTellThePose) {
   }));
   EXPECT_NEAR(pose().y_m, 2.5, 1e-12);
   EXPECT_NEAR(pose().yaw_rad, 0.3 + std::numbers::pi / 2, 1e-12);
-  EXPECT_FALSE(mirror_->replaces(device("pose"))) << "it is no device that measures the pose";
   // A localisation without hypotheses moves nothing.
   const auto lost = std::make_shared<sim::AmclReading>();
   lost->sequence = 2;
