@@ -118,10 +118,9 @@ void add_part(const Body& body, const Mount& mount, bool solid, bool seen, Robot
 void set_body(Report& report, RobotDraft& robot) {
   const Polygon whole = outline_above(robot.parts, 0.0);
   // Only superstructures may reach beyond the footprint, as what is not solid does.
-  const bool overhangs =
-      std::any_of(robot.parts.begin(), robot.parts.end(), [&](const RobotDraft::Part& part) {
-        return !part.solid && !contains(whole, part.points);
-      });
+  const bool overhangs = std::any_of(
+      robot.parts.begin(), robot.parts.end(),
+      [&](const RobotDraft::Part& part) { return !part.solid && !contains(whole, part.points); });
   const double height_m = overhangs ? 0.0 : height_of_body(robot.parts, whole);
   Polygon outline = whole;
   reduce_corners(outline, kMostCorners);
