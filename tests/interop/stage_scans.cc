@@ -48,9 +48,12 @@ std::vector<Robot> find_robots(Stg::World& world) {
   return robots;
 }
 
-/// Advances simulated time until all rangers have measured from the present pose.
+/// Advances simulated time until all rangers have measured from the present pose: they do so every
+/// 100 ms, unless the world says otherwise.
 void measure(Stg::World& world) {
-  for (int i = 0; i < 4; ++i) world.Update();
+  const Stg::usec_t until = world.SimTimeNow() + 300000;
+  int updates = 0;
+  for (; updates < 4 || world.SimTimeNow() < until; ++updates) world.Update();
 }
 
 /// Angle of a beam from the middle of a sensor's field of view.

@@ -141,6 +141,16 @@ TEST(StageDrivers, OthersAreLeftOutWithAMessage) {
   EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:4: the driver \"nd\" is left out")));
 }
 
+TEST(StageDrivers, AnInterfaceThatTheModelLacksIsLeftOutIfItHasOthers) {
+  test_support::TemporaryFolder folder;
+  folder.write("w.world", "position ( name \"r0\" size [0.4 0.4 0.2] )");
+  const WorldDescription world = load_world(folder.write(
+      "some.cfg",
+      "driver ( name \"stage\" provides [\"simulation:0\"] worldfile \"w.world\" )\n"
+      "driver ( name \"stage\" provides [\"position2d:0\" \"laser:0\"] model \"r0\" )"));
+  EXPECT_THAT(world.notes, Contains(HasSubstr("some.cfg:2: no model on r0 that offers \"laser\"")));
+}
+
 TEST(StageDrivers, TheOnlyModelThatIsUnknownIsTheFirstRobot) {
   test_support::TemporaryFolder folder;
   folder.write("w.world", "position ( name \"r0\" size [0.4 0.4 0.2] )");

@@ -179,7 +179,14 @@ class PlayerFile {
     RobotDraft* robot = find_robot(name);
     if (robot == nullptr && !only_world) robot = missing_robot(driver.place_of("model"), name);
     if (robot == nullptr) return;
-    for (const Address& address : provided) bind(*robot, address);
+    // A model that offers some of the interfaces is meant.
+    std::vector<const Address*> unbound;
+    for (const Address& address : provided) {
+      if (!bind(*robot, address)) unbound.push_back(&address);
+    }
+    for (const Address* address : unbound) {
+      missing_device(*robot, *address, must_match_ && unbound.size() == provided.size());
+    }
   }
 
   /// Without any driver for models, as in the file of a second server: the robots have the default
@@ -226,11 +233,16 @@ class PlayerFile {
 
   /// Gives a device of a robot an address, as Stage does: the first one of the right type that has
   /// none of this interface yet.
-  void bind(RobotDraft& robot, const Address& address) {
-    if (is_everywhere(address.interface)) return note_port(robot, address);
+  /// @return false if there is none.
+  bool bind(RobotDraft& robot, const Address& address) {
+    if (is_everywhere(address.interface)) {
+      note_port(robot, address);
+      return true;
+    }
     if (address.interface == "position2d") {
       note_port(robot, address);
-      return take(robot, address, robot.robot["interfaces"]["position2d"][0].get<std::string>());
+      take(robot, address, robot.robot["interfaces"]["position2d"][0].get<std::string>());
+      return true;
     }
     const auto row =
         std::find_if(interface_rows().begin(), interface_rows().end(),
@@ -238,7 +250,7 @@ class PlayerFile {
     if (row == interface_rows().end()) {
       report_.note("interface " + address.interface, address.place,
                    "the interface " + in_quotes(address.interface) + " is left out");
-      return;
+      return true;
     }
     for (const DraftDevice& device : robot.list) {
       const bool fits = std::find(row->stage_types.begin(), row->stage_types.end(),
@@ -246,11 +258,16 @@ class PlayerFile {
                         (row->device.empty() || row->device == device.type);
       if (!fits || !bound_.emplace(&robot, device.name).second) continue;
       note_port(robot, address);
-      return take(robot, address, device.name);
+      take(robot, address, device.name);
+      return true;
     }
+    return false;
+  }
+
+  void missing_device(const RobotDraft& robot, const Address& address, bool is_error) {
     const std::string expected = "a model on " + robot.stage_name + " that offers \"" +
                                  address.interface + "\", not used by another address";
-    if (must_match_) {
+    if (is_error) {
       report_.error(address.place, "stage/no-model", expected, "none");
     } else {
       report_.note("no device " + address.interface, address.place,
@@ -440,7 +457,8 @@ class PlayerFile {
     settings["laser"] = *laser;
     const auto& positions = taken_[&robot]["position2d"];
     const auto position = positions.find(index_of(driver.required, "position2d", "odometry", 0));
-    if (position != positions.end()) settings["odometry"] = position->second;
+    settings["odometry"] = position != positions.end() ? Json(position->second)
+                                                       : robot.robot["interfaces"]["position2d"][0];
     robot.robot["drivers"].push_back(std::move(settings));
   }
 
