@@ -164,7 +164,7 @@ for name in "${names[@]}"; do
       failed=1
       continue
     fi
-    file=$(find "$out/imported/$name" -name '*.json' | head -n 1)
+    file=$(find "$out/imported/$name" -name '*.json' ! -name '*.model.json' | head -n 1)
   fi
   mapfile -t robots < <(robots_of "$file" "$out/$name.txt")
   timeout 300 "$out/compare_stage" "$file" "$out/$name.txt" --list "$list" "${robots[@]}" 2>"$out/$name.compare.err" || {
