@@ -69,11 +69,19 @@ class LocalizeProxy : public ClientProxy {
   ///              0.5 m and 15 degrees (a Player server).
   /// @throws PlayerError kBadArgument for a pose that is null or not finite, and for a covariance
   ///         that is not finite or not positive semidefinite.
-  template <typename Covariance,
-            typename = typename std::enable_if<std::is_array<Covariance>::value ||
-                                               std::is_pointer<Covariance>::value>::type>
-  void SetPose(double pose[3], const Covariance& cov) {
-    TellPose(pose, cov, std::is_array<Covariance>::value ? std::extent<Covariance>::value : 3);
+  template <std::size_t kCount>
+  void SetPose(double pose[3], const double (&cov)[kCount]) {
+    TellPose(pose, cov, kCount);
+  }
+  template <std::size_t kCount>
+  void SetPose(double pose[3], double (&cov)[kCount]) {
+    TellPose(pose, cov, kCount);
+  }
+  /// Same, for a pointer. A template, since arrays would otherwise come here.
+  template <typename Pointer>
+  typename std::enable_if<std::is_convertible<Pointer, const double*>::value>::type SetPose(
+      double pose[3], Pointer cov) {
+    TellPose(pose, cov, 3);
   }
   /// Same as SetPose() with a null pointer.
   void SetPose(double pose[3], std::nullptr_t) { TellPose(pose, nullptr, 0); }

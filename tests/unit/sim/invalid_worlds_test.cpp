@@ -375,7 +375,7 @@ TEST(ErrorPage, ListsEachIdThatTheSourceUsesAndNoOther) {
   std::set<std::string> used;
   for (const char* folder : {"libsim/src", "libplayerlike/src", "apps"}) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (entry.path().extension() != ".cpp") continue;
+      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
       const std::string text = read_bytes(entry.path());
       for (std::sregex_iterator it(text.begin(), text.end(), in_source), end; it != end; ++it) {
         used.insert((*it)[1]);

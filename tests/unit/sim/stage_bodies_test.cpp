@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "sim/core/number_text.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/outline.h"
 #include "sim/world/robot_model.h"
@@ -85,8 +86,8 @@ TEST(StageBodies, PartsThatAreSeenBeyondTheFootprintStayVisible) {
 TEST(StageBodies, HaveAtMostThirtyTwoSuperstructures) {
   std::string parts = "size [0.4 0.4 0.2] ";
   for (int i = 0; i < 40; ++i) {
-    parts += "model ( size [0.02 0.02 0.1] pose [" + std::to_string(0.04 * (i % 8) - 0.16) + ' ' +
-             std::to_string(0.04 * (i / 8) - 0.1) + " 0 0] )";
+    parts += "model ( size [0.02 0.02 0.1] pose [" + shortest_text(0.04 * (i % 8) - 0.16) + ' ' +
+             shortest_text(0.04 * (i / 8) - 0.1) + " 0 0] )";
   }
   EXPECT_THAT(model_of(parts).superstructures, SizeIs(32));
 }
