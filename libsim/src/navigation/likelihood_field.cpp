@@ -108,8 +108,10 @@ Vec2 LikelihoodField::free_position(double uniform) const {
   const std::size_t index =
       free_[std::min(last, static_cast<std::size_t>(uniform * static_cast<double>(free_.size())))];
   const auto width = static_cast<std::size_t>(width_);
-  return origin_ + cell_size_m_ * Vec2(static_cast<double>(index % width) + 0.5,
-                                       static_cast<double>(index / width) + 0.5);
+  const std::size_t column = index % width;
+  const std::size_t row = index / width;
+  return origin_ +
+         cell_size_m_ * Vec2(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
 }
 
 }  // namespace sim

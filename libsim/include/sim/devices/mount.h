@@ -42,7 +42,7 @@ class Ptz;
 /// The mounting of a sensor, with the device that carries it.
 class Mounting {
  public:
-  explicit Mounting(SensorMount mount) : mount_(std::move(mount)) {}
+  explicit Mounting(const SensorMount& mount) : mount_(mount) {}
 
   /// As Device::connect().
   std::optional<std::string> connect(std::string_view robot, const DeviceDirectory& devices);

@@ -177,10 +177,10 @@ class Translator {
   std::string token_of(const Properties& model, const std::string& parent) {
     const std::string& type = model.entity().type;
     const int number = counts_[parent + "." + type]++;
-    const std::string automatic =
-        (parent.empty() ? "" : parent + ".") + type + ":" + std::to_string(number);
     const std::string name = model.text("name", "");
-    if (name.empty()) return automatic;
+    if (name.empty()) {
+      return (parent.empty() ? "" : parent + ".") + type + ":" + std::to_string(number);
+    }
     if (name.front() == '/') return name.substr(1);
     return parent.empty() ? name : parent + "." + name;
   }
