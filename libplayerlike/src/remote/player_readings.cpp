@@ -110,7 +110,7 @@ Made scan(std::uint8_t subtype, std::string_view payload) {
 }
 
 std::shared_ptr<sim::RangerReading> ring(std::vector<double> ranges_m, const DeviceInfo& device) {
-  const auto reading = std::make_shared<sim::RangerReading>();
+  auto reading = std::make_shared<sim::RangerReading>();
   reading->ranges_m = std::move(ranges_m);
   reading->range_max_m = setting_of(device.properties, "range_max");
   reading->field_of_view_rad = setting_of(device.properties, "field_of_view");

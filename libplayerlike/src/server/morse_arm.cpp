@@ -255,9 +255,9 @@ struct Reach {
   Eigen::Isometry3d from_W;  // the target before the request
   Eigen::Isometry3d to_W;    // the target that is wanted
 
-  [[nodiscard]] std::vector<double> solve(const Eigen::Isometry3d& target_W,
+  [[nodiscard]] std::vector<double> solve(const Eigen::Isometry3d& X_WT,
                                           const std::vector<double>& start, int steps) const {
-    Eigen::Isometry3d X_BE = X_WB.inverse() * target_W;
+    Eigen::Isometry3d X_BE = X_WB.inverse() * X_WT;
     X_BE.linear() *= axes_of_bone().transpose();
     return sim::solve_arm(arm, start, X_BE, kOrientationWeight, steps);
   }
@@ -279,18 +279,18 @@ Reach reach_of(MorseCall& call) {
     made.X_WB = sim::in_space(body.X_WB, body.elevation);
     return made;
   });
-  Eigen::Isometry3d target_B;
+  Eigen::Isometry3d X_BT;
   if (const auto kept = call.state.target_of(call.component->name)) {
-    target_B = *kept;
+    X_BT = *kept;
   } else {
     std::vector<double> home;
     for (const sim::JointParams& joint : reach.arm.joints) {
       home.push_back(sim::travel_of(joint).home);
     }
-    target_B = sim::arm_frames(reach.arm, home).back();
-    target_B.linear() *= axes_of_bone();
+    X_BT = sim::arm_frames(reach.arm, home).back();
+    X_BT.linear() *= axes_of_bone();
   }
-  reach.from_W = reach.to_W = reach.X_WB * target_B;
+  reach.from_W = reach.to_W = reach.X_WB * X_BT;
   const bool relative = !call.arguments.has(3) || call.arguments.boolean(3);
   const Eigen::Vector3d shift = vector_in(call, 1);
   reach.to_W.translation() = relative ? reach.from_W.translation() + shift : shift;

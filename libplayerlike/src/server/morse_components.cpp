@@ -286,9 +286,9 @@ StreamFormat stream_format(const sim::Simulation& simulation, DeviceId device) {
     const auto* params = std::any_cast<sim::OdometryParams>(&description.params);
     format.odometry = params != nullptr ? params->level : sim::OdometryParams{}.level;
   } else if (const auto* pose = std::any_cast<sim::PoseParams>(&description.params)) {
-    format.coordinates = *pose;
+    format.coordinates = static_cast<const sim::CoordinateParams&>(*pose);
   } else if (const auto* gps = std::any_cast<sim::GpsParams>(&description.params)) {
-    format.coordinates = *gps;
+    format.coordinates = static_cast<const sim::CoordinateParams&>(*gps);
     format.gps = gps->level;
   } else if (description.type == "camera") {
     const auto* camera = std::any_cast<sim::CameraParams>(&description.params);

@@ -127,8 +127,8 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
     const auto found = targets_.find(component);
     return found != targets_.end() ? std::optional(found->second) : std::nullopt;
   }
-  void keep_target(const std::string& component, const Eigen::Isometry3d& target_B) {
-    targets_.insert_or_assign(component, target_B);
+  void keep_target(const std::string& component, const Eigen::Isometry3d& X_BT) {
+    targets_.insert_or_assign(component, X_BT);
   }
   /// The targets are again where they were at the start.
   void forget_targets() { targets_.clear(); }

@@ -263,16 +263,17 @@ void Shape::add_line(const std::vector<Vec2>& points, double width_px, bool clos
 }
 
 void Shape::add_dashed_outline(const std::vector<Vec2>& points, double width_px, double dash_px) {
+  // Bounds the work for an outline far longer than the picture.
+  constexpr double kMostPeriods = 8000.0;
+  const double most_per_side = std::max(1.0, kMostPeriods / static_cast<double>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec2& a = points[i];
     const Vec2& b = points[(i + 1) % points.size()];
     // A side consists of half a dash, alternating gaps and dashes, and half a dash: n periods.
     const double length = (b - a).norm();
     if (!std::isfinite(length)) continue;
-    constexpr double kMostPeriods =
-        2000.0;  // bounds the work for a side far longer than the picture
     const int periods =
-        static_cast<int>(std::clamp(std::round(length / (2.0 * dash_px)), 1.0, kMostPeriods));
+        static_cast<int>(std::clamp(std::round(length / (2.0 * dash_px)), 1.0, most_per_side));
     for (int k = 0; k <= periods; ++k) {
       const double begin = std::max(0.0, (k - 0.25) / periods);
       const double end = std::min(1.0, (k + 0.25) / periods);

@@ -33,9 +33,9 @@ using test_support::TemporaryFolder;
 using testing::HasSubstr;
 
 constexpr const char* kFolderVariable = "PLAYPEN_STATE_TEST_FOLDER";
-constexpr int kSteps = 1200;
+constexpr int kSteps = 600;
 constexpr int kSnapshots = 50;
-constexpr int kGoOn = 60;  // steps after a restore
+constexpr int kGoOn = 30;  // steps after a restore
 
 const fs::path kWorlds = fs::path(PLAYPEN_SOURCE_DIR) / "worlds";
 
@@ -540,7 +540,7 @@ TEST(Snapshots, OfAnyBytesAreRefusedOrGoOn) {
   const Snapshot good = simulation.save();
   std::mt19937 random(99);
   int refused = 0;
-  for (int round = 0; round < 400; ++round) {
+  for (int round = 0; round < 200; ++round) {
     Snapshot bad = good;
     for (int k = 1 + number_in(random, 3); k > 0; --k) {
       const std::size_t at = kHeader + random() % (good.size() - kHeader);
