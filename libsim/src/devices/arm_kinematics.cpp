@@ -27,7 +27,7 @@ struct PlacedAxis {
 template <typename Visit>
 Eigen::Isometry3d walk(const ActArrayParams& arm, const std::vector<double>& positions,
                        Visit visit) {
-  const Eigen::Isometry3d X_BA = in_space(arm.X_BA, {arm.height_m, arm.roll_rad, arm.pitch_rad});
+  Eigen::Isometry3d X_BA = in_space(arm.X_BA, {arm.height_m, arm.roll_rad, arm.pitch_rad});
   Eigen::Isometry3d X = X_BA;
   for (std::size_t i = 0; i < arm.joints.size(); ++i) {
     const JointParams& joint = arm.joints[i];

@@ -24,7 +24,7 @@ void Ptz::Axis::step(double dt_s) {
 
 Ptz::Ptz(std::string name, const PtzParams& params)
     : SensorOf(std::move(name), "ptz", params.frequency_hz),
-      mount_(params),
+      mount_(static_cast<const MountPose&>(params)),
       pan_{-params.pan_max_rad, params.pan_max_rad, params.pan_speed_radps, 0.0, 0.0, 0.0},
       tilt_{-params.tilt_max_rad, params.tilt_max_rad, params.tilt_speed_radps, 0.0, 0.0, 0.0},
       view_{params.view_min_rad, params.view_max_rad, params.zoom_speed_radps,
