@@ -281,7 +281,9 @@ Beams beams_of(const sim::Simulation& simulation, int robot, const std::string& 
 class Comparison {
  public:
   Comparison(const std::string& world, std::size_t list)
-      : simulation_(sim::load_world(world)), list_(list) {}
+      : simulation_(sim::load_world(world)), list_(list) {
+    for (int i = 0; i < simulation_.robot_count(); ++i) X_WB_.push_back(simulation_.body(i).X_WB);
+  }
 
   void name(const std::string& stage, const std::string& own) {
     if (const auto robot = simulation_.find_robot(own)) robots_[stage] = *robot;
@@ -302,10 +304,7 @@ class Comparison {
       } else if (what == "pose") {
         compare_scans();
         words >> name;
-        // In Stage the others have returned to where they were.
-        if (name != stage_name_ && starts_.count(stage_name_) != 0) {
-          place(stage_name_, starts_.at(stage_name_));
-        }
+        return_others(name);
         place(name, read_pose(words));
       } else if (what == "ranger") {
         std::size_t index = 0, sensors = 0;
@@ -372,6 +371,22 @@ class Comparison {
     }
   }
 
+  /// Puts all robots but one where they were at the start, as in Stage. They may have moved: a robot
+  /// that is put beside another one, whose body is a little larger in Playpen, shoves it.
+  void return_others(const std::string& name) {
+    std::map<int, Pose> to;
+    for (std::size_t i = 0; i < X_WB_.size(); ++i) to[static_cast<int>(i)] = X_WB_[i];
+    for (const auto& [stage, X_WB] : starts_) {
+      if (robots_.count(stage) != 0) to[robots_.at(stage)] = X_WB;
+    }
+    if (robots_.count(name) != 0) to.erase(robots_.at(name));
+    for (const auto& [robot, X_WB] : to) {
+      const std::string& own = simulation_.world().robots[static_cast<std::size_t>(robot)].name;
+      // Where its way is not free, it stays; the scans show that.
+      static_cast<void>(simulation_.place_object(own, X_WB));
+    }
+  }
+
   /// Rangers of the robot, in the order of their indices.
   [[nodiscard]] std::vector<std::string> rangers() const {
     const auto& robot = simulation_.world().robots[static_cast<std::size_t>(robot_)];
@@ -415,6 +430,14 @@ class Comparison {
     // Stage draws lines in the order of a block's points, which Playpen does not keep.
     Raster rasters[2] = {Raster(cell_m_), Raster(cell_m_)};
     for (const Side& side : sides_above(simulation_, -1, -1.0)) rasters[0].draw(side, false);
+    // Paddles of grippers, which Playpen's rangers do not see.
+    for (int i = 0; i < simulation_.robot_count(); ++i) {
+      std::vector<Side> paddles;
+      for (const sim::Polygon& paddle : simulation_.robot_snapshot(i).paddles) {
+        add(paddles, paddle, simulation_.body(i).X_WB, "paddle");
+      }
+      for (const Side& side : paddles) rasters[0].draw(side, false);
+    }
     rasters[1] = rasters[0];
     for (const Side& side : sides) {
       rasters[0].draw(side, true);
@@ -508,6 +531,7 @@ class Comparison {
   double cell_m_ = 0.02;
   std::map<std::string, int> robots_;
   std::map<std::string, Pose> starts_;
+  std::vector<Pose> X_WB_;  ///< of all robots at the start
   std::string stage_name_;
   int robot_ = -1;
   std::vector<std::vector<Scan>> scans_;  // of the present pose, ranger by ranger

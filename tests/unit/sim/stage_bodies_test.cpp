@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "sim/core/number_text.h"
@@ -42,6 +43,24 @@ TEST(StageBodies, WhatIsNotHigherThanTheBodyAddsNothing) {
       model_of("size [0.4 0.4 0.5] model ( size [0.1 0.1 0.1] pose [0 0 -0.4 0] )");
   EXPECT_NEAR(model.height_m, 0.5, 1e-9);
   EXPECT_THAT(model.superstructures, IsEmpty());
+}
+
+// The paddles take 0.66 of the length, so the base is 0.068 x 0.3 m.
+TEST(StageBodies, TheBaseOfAGripperIsAPartOfTheBody) {
+  const std::string gripper = "gripper ( size [0.2 0.3 0.2] pose [0.3 0 -0.5 0] ";
+  const RobotModel solid = model_of("size [0.4 0.4 0.5] " + gripper + ")");
+  double front_m = 0.0;
+  for (const Vec2& corner : solid.footprint) front_m = std::max(front_m, corner.x());
+  EXPECT_NEAR(front_m, 0.268, 1e-9);
+  EXPECT_NEAR(solid.height_m, 0.2, 1e-9);
+  ASSERT_THAT(solid.superstructures, SizeIs(1));
+  EXPECT_NEAR(solid.superstructures[0].height_m, 0.5, 1e-9);
+  // Not solid: rangers see it, but it touches nothing.
+  const RobotModel seen = model_of("size [0.4 0.4 0.5] " + gripper + " obstacle_return 0 )");
+  EXPECT_NEAR(area_m2(seen.footprint), 0.16, 1e-9);
+  ASSERT_THAT(seen.superstructures, SizeIs(2));
+  EXPECT_NEAR(area_m2(seen.superstructures[1].outline), 0.068 * 0.3, 1e-9);
+  EXPECT_NEAR(seen.superstructures[1].height_m, 0.2, 1e-9);
 }
 
 // Teeth of half the height before a body: together they are 1 x 0.8 m, the body alone 0.8 x 0.8 m.

@@ -298,10 +298,14 @@ void add_bumper(const Properties& bumper, const Mount& mount, const Context& con
   add(robot, "bumper", "bumper", std::move(settings));
 }
 
+// Sizes of the paddles are shares of the model's size (libstage/model_gripper.cc).
+std::array<double, 3> paddle_shares(const Properties& gripper) {
+  return gripper.tuple<3>("paddle_size", "fff", {0.66, 0.1, 0.4});
+}
+
 void add_gripper(const Properties& gripper, const Mount& mount, const Body& body,
                  const Context& context, RobotDraft& robot) {
-  // Sizes of the paddles are shares of the model's size (libstage/model_gripper.cc).
-  const auto paddle = gripper.tuple<3>("paddle_size", "fff", {0.66, 0.1, 0.4});
+  const std::array<double, 3> paddle = paddle_shares(gripper);
   const double length_m = paddle[0] * body.size_m[0];
   const double thickness_m = paddle[1] * body.size_m[1];
   Json settings;
@@ -423,6 +427,18 @@ std::array<double, 3> device_size_m(const std::string& type) {
 
 bool device_has_block(const std::string& type) {
   return type == "bumper" || type == "actuator" || type == "laser";
+}
+
+Body gripper_base(const Properties& gripper, const Body& body) {
+  const double back_m = -0.5 * body.size_m[0];
+  const double side_m = 0.5 * body.size_m[1];
+  const double front_m = back_m + (1.0 - paddle_shares(gripper)[0]) * body.size_m[0];
+  Body base;
+  base.size_m = body.size_m;
+  base.blocks = {{{{back_m, -side_m}, {front_m, -side_m}, {front_m, side_m}, {back_m, side_m}},
+                  0.0,
+                  body.size_m[2]}};
+  return base;
 }
 
 bool add_device(const Entity& model, const Mount& mount, const Body& body, const Context& context,

@@ -84,6 +84,8 @@ struct Mount {
 [[nodiscard]] std::array<double, 3> device_size_m(const std::string& type);
 /// Whether a device's model has a block as large as its size unless it has blocks of its own.
 [[nodiscard]] bool device_has_block(const std::string& type);
+/// The body of a gripper: what carries its paddles, which are those of the device.
+[[nodiscard]] Body gripper_base(const Properties& gripper, const Body& body);
 /// Whether an entity of that type is a device of a robot.
 [[nodiscard]] bool is_device(const std::string& type);
 

@@ -536,9 +536,10 @@ class Translator {
     }
     const Returns returns = read_returns(properties);
     tell_charging(properties);
-    // The paddles of a gripper are those of its device.
-    if (entity.type != "gripper" && entity.type != "bumper") {
-      add_part(body, mount, returns.obstacle, returns.ranger, draft);
+    if (entity.type != "bumper") {
+      const bool gripper = entity.type == "gripper";
+      add_part(gripper ? gripper_base(properties, body) : body, mount, returns.obstacle,
+               returns.ranger, draft);
     }
     if (returns.fiducial > 0 && !draft.robot.contains("fiducial")) {
       draft.robot["fiducial"] = returns.fiducial;
