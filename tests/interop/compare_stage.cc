@@ -371,8 +371,8 @@ class Comparison {
     }
   }
 
-  /// Puts all robots but one where they were at the start, as in Stage. They may have moved: a robot
-  /// that is put beside another one, whose body is a little larger in Playpen, shoves it.
+  /// Puts all robots but one where they were at the start, as in Stage. They may have moved: a
+  /// robot that is put beside another one, whose body is a little larger in Playpen, shoves it.
   void return_others(const std::string& name) {
     std::map<int, Pose> to;
     for (std::size_t i = 0; i < X_WB_.size(); ++i) to[static_cast<int>(i)] = X_WB_[i];
