@@ -160,7 +160,8 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
 
 CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world) {
   CLI::Option* const option = command.add_option(
-      "world", world, "World file, or the name of a shipped world (cave), or 'default'");
+      "world", world,
+      "World file (Stage's .world and .cfg, too), name of a shipped world, or 'default'");
   return line.takes(option->required()->type_name(""), ValueKind::Kind::kWorld);
 }
 
@@ -183,7 +184,7 @@ void add_run(CommandLine& line) {
                return good;
              });
   add_port(command, "--player-port",
-           "Let Player's clients look on: first port of Player's protocol, one for each robot; 0: "
+           "Let Player's clients watch: first port of Player's protocol, one for each robot; 0: "
            "any [none]",
            request->settings.player_port);
   command.add_flag("--view", request->view,

@@ -136,18 +136,17 @@ constexpr Field kNdFields[] = {
     field<&NdSettings::safety_dist_m>("safety_dist", "m", "added to the radius of the disc")
         .within(0, kMostMetres),
     field<&NdSettings::rotate_stuck_time_s>(
-        "rotate_stuck_time", "s",
-        "blocked after turning on the spot at the goal for this time in vain")
+        "rotate_stuck_time", "s", "turning on the spot at the goal for this time counts as blocked")
         .above(0, kMostTime_s),
     field<&NdSettings::translate_stuck_time_s>(
         "translate_stuck_time", "s",
-        "blocked after driving for this time without the next two settings")
+        "less movement than the next two settings in this time counts as blocked")
         .above(0, kMostTime_s),
     field<&NdSettings::translate_stuck_dist_m>("translate_stuck_dist", "m",
-                                               "distance that counts as driving")
+                                               "distance that counts as movement")
         .within(0, kMostMetres),
     field<&NdSettings::translate_stuck_angle_rad>("translate_stuck_angle_deg", "degrees",
-                                                  "turn that counts as driving")
+                                                  "turn that counts as movement")
         .within(0, 180),
     field<&NdSettings::patience_s>("patience", "s", kPatienceMeaning).above(0, kMostTime_s),
 };

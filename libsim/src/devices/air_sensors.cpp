@@ -162,9 +162,10 @@ constexpr Field kThermometerSettings[] = {
     field<&ThermometerParams::fire_c>("fire", "degrees C", "what a fire adds at its place")
         .within(0.0, 1e4),
     field<&ThermometerParams::attenuation_1pm>("attenuation", "1/m",
-                                               "how fast that decreases with the distance")
+                                               "rate of its decrease with the distance")
         .within(0.0, 1000.0),
-    field<&ThermometerParams::range_m>("range", "m", "farther fires are not felt").above(0.0, 1e6),
+    field<&ThermometerParams::range_m>("range", "m", "fires farther away add nothing")
+        .above(0.0, 1e6),
     field<&ThermometerParams::tag>("tag", "", "robots and obstacles with this tag are fires"),
     field<&ThermometerParams::noise_c>("noise", "degrees C",
                                        "standard deviation of the temperature")

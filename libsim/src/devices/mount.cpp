@@ -29,7 +29,7 @@ Eigen::Isometry3d Mounting::in_body() const {
 }
 
 constexpr Field kMountPose[] = {
-    field<&MountPose::x_m>("x", "m", "place on what carries it, forward")
+    field<&MountPose::x_m>("x", "m", "position on its carrier, forward")
         .within(-100.0, 100.0)
         .unlisted(0.0),
     field<&MountPose::y_m>("y", "m", "to the left").within(-100.0, 100.0).unlisted(0.0),

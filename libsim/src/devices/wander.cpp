@@ -80,7 +80,7 @@ void Wander::archive(StateArchive& archive) {
 
 constexpr Field kWanderSettings[] = {
     field<&WanderParams::laser>("laser", "", "name of the robot's laser"),
-    field<&WanderParams::speed_mps>("speed", "m/s", "with free way").above(0.0, 20.0),
+    field<&WanderParams::speed_mps>("speed", "m/s", "while the way is free").above(0.0, 20.0),
     field<&WanderParams::slow_speed_mps>("slow_speed", "m/s", "while it turns away")
         .within(0.0, 20.0),
     field<&WanderParams::turn_rate_radps>("turn_rate_deg", "degrees/s",

@@ -152,7 +152,8 @@ constexpr Field kWaypointSettings[] = {
                                                 "maximum on the way to a goal; default 2 rad/s")
         .above(0.0, 3600.0),
     field<&WaypointParams::stop_deceleration_mps2>(
-        "stop_deceleration", "m/s^2", "of the robot after a stop on the way; 0: it stops at once")
+        "stop_deceleration", "m/s^2",
+        "of a robot that is stopped before its goal; 0: it stops at once")
         .within(0.0, 1000.0)
         .unlisted(0.0),
 };

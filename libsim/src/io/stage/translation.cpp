@@ -408,7 +408,8 @@ class Translator {
       outline = convex_outline(std::move(outline));
       reduce_corners(outline, kMostOutlineVertices);
       report_.note("crossing", place,
-                   "a block whose sides cross becomes the convex outline around it");
+                   "a block whose sides cross, or that has more than 64 corners, becomes the "
+                   "convex outline around it");
     }
     if (outline.size() < 3 || area_m2(outline) < 1e-6) {
       report_.note("thin", place, "blocks of less than 1 mm^2 are left out");
