@@ -17,6 +17,9 @@
 namespace sim::render {
 namespace {
 
+// More robots than this are a crowd.
+constexpr std::size_t kCrowd = 20;
+
 class LabelPainter {
  public:
   LabelPainter(const SceneSnapshot& scene, const Layout& layout, const LabelOptions& options,
@@ -47,7 +50,7 @@ class LabelPainter {
 
   // Draws names and scores next to the robots. Each label takes the position around its robot that
   // covers the least of other labels and robots. A second pass moves early labels away from later
-  // ones.
+  // ones. In a crowd, names that would still cover another one or a robot are left out.
   void draw_labels() {
     std::vector<Label> labels;
     std::vector<Rectangle> bodies;
@@ -90,9 +93,17 @@ class LabelPainter {
         labels[i].place = best_place(labels[i], names, bodies);
       }
     }
+    const bool crowd = labels.size() > kCrowd;
+    std::vector<Rectangle> taken = bodies;
     for (const Label& label : labels) {
-      if (!label.text.empty()) {
+      const bool covers = crowd && std::any_of(taken.begin(), taken.end(), [&](const auto& other) {
+                            return label.place.overlap(other) > 0.0;
+                          });
+      if (!label.text.empty() && !covers) {
         painter_.draw_text(label.text, {label.place.left, label.place.bottom}, label.style);
+        const Vec2 gap(0.0, 0.3 * (label.place.bottom - label.place.top));
+        taken.push_back(rectangle(Vec2(label.place.left, label.place.top) - gap,
+                                  Vec2(label.place.right, label.place.bottom) + gap));
       }
       if (!label.score.empty()) draw_score(label);
     }

@@ -127,6 +127,30 @@ TEST(RenderParts, FollowKeepsTheRobotInTheMiddle) {
   EXPECT_EQ(draw_scene(scene, options).width, 1600);
 }
 
+// Bytes that the names of some robots change.
+long changed_by_names(int robots) {
+  SceneSnapshot scene = scene_of(robots);
+  for (RobotSnapshot& robot : scene.robots) {
+    robot.name += " has a long name";
+    robot.X_WB.x_m = 1.5 + 0.2 * robot.X_WB.x_m;
+    robot.X_WB.y_m = 1.5 + 0.2 * robot.X_WB.y_m;
+  }
+  RenderOptions options = plain();
+  const Image bare = draw_scene(scene, options);
+  options.names = true;
+  const Image named = draw_scene(scene, options);
+  long changed = 0;
+  for (std::size_t i = 0; i < bare.rgb.size(); ++i) changed += bare.rgb[i] != named.rgb[i] ? 1 : 0;
+  return changed;
+}
+
+TEST(RenderParts, InACrowdNamesDoNotCoverEachOther) {
+  const long few = changed_by_names(20);
+  const long crowd = changed_by_names(60);
+  EXPECT_GT(crowd, few / 20);
+  EXPECT_LT(crowd, few);
+}
+
 TEST(RenderParts, CollisionsAndGoalsAreMarkedUnlessHidden) {
   SceneSnapshot scene = scene_of(1);
   scene.collisions = {{0, {2.0, 2.0}, 1.0}, {0, {2.0, 2.0}, 2.0}};
