@@ -141,7 +141,7 @@ void add_check(CommandLine& line) {
   CLI::Option* const files =
       command.add_option("file", *names, "Files, or names of shipped worlds, tasks and models");
   line.takes(files->required()->type_name(""), ValueKind::Kind::kNamedFile);
-  command.footer("Exit status: 0 all are sound, 2 some are not.");
+  command.footer("Exit status: 0 all files are valid, 2 some are not.");
   command.callback([names, &line] { line.status = check(*names); });
 }
 

@@ -47,9 +47,9 @@ CommandLine::CommandLine(std::string name)
   app.require_subcommand(0, 1);
   app.formatter(std::make_shared<HelpFormatter>(*this));  // commands inherit the formatter
   app.footer(
-      "Exit status: 0 fine, 1 the program failed, 2 bad input.\n"
-      "'playpen help COMMAND' tells more of a command, 'playpen list' shows worlds,\n"
-      "tasks and models, and 'playpen doctor' looks for what is amiss.");
+      "Exit status: 0 success, 1 the program failed, 2 bad input.\n"
+      "'playpen help COMMAND' explains a command, 'playpen list' shows worlds,\n"
+      "tasks and models, and 'playpen doctor' checks whether all features work.");
   add_run(*this);
   add_grade(*this);
   add_serve(*this);

@@ -34,8 +34,8 @@ std::string label(Health health, bool colour) {
       return tinted("ok    ", Tint::kGood, colour);
     case Health::kNote:
       return "note  ";
-    case Health::kAmiss:
-      return tinted("AMISS ", Tint::kWarning, colour);
+    case Health::kWarning:
+      return tinted("WARN  ", Tint::kWarning, colour);
     case Health::kBroken:
       return tinted("BROKEN", Tint::kBad, colour);
   }
@@ -56,13 +56,13 @@ void print(const Finding& finding) {
 
 int doctor() {
   std::size_t broken = 0;
-  std::size_t amiss = 0;
+  std::size_t warnings = 0;
   for (const Section& section : kSections) {
     std::cout << tinted(section.heading, Tint::kStrong, shows_colour(STDOUT_FILENO)) << std::endl;
     for (const Finding& finding : section.check()) {
       print(finding);
       if (finding.health == Health::kBroken) ++broken;
-      if (finding.health == Health::kAmiss) ++amiss;
+      if (finding.health == Health::kWarning) ++warnings;
     }
   }
   std::cout << '\n';
@@ -70,7 +70,7 @@ int doctor() {
     std::cout << "Runs do not work: see what is BROKEN.\n";
     return kProgramFailed;
   }
-  std::cout << "Runs work." << (amiss > 0 ? " What is AMISS concerns other features." : "") << '\n';
+  std::cout << "Runs work." << (warnings > 0 ? " WARN lines concern other features." : "") << '\n';
   return kOk;
 }
 
@@ -82,8 +82,7 @@ void add_doctor(CommandLine& line) {
     std::string file;
   };
   const auto request = std::make_shared<Request>();
-  CLI::App& command =
-      line.add_command("doctor", "Look for what is amiss: installation, packages, display, films");
+  CLI::App& command = line.add_command("doctor", "Check installation, packages, display and films");
   // Hidden option, for the processes that the checks start.
   command.add_option("--probe", request->probe)->group("");
   command.add_option("--file", request->file)->group("");

@@ -159,7 +159,7 @@ bool look_for(const Tool& tool, const fs::path& log, Findings& findings) {
       return true;
     }
   }
-  findings.push_back({Health::kAmiss, std::string(tool.what) + ": none", "",
+  findings.push_back({Health::kWarning, std::string(tool.what) + ": none", "",
                       std::string("sudo apt install ") + tool.package});
   return false;
 }
@@ -180,7 +180,7 @@ void check_pkgconfig(const fs::path& log, Findings& findings) {
                         "pkg-config finds playerc++ and playerc only if it is told where to look",
                         "", "export PKG_CONFIG_PATH=" + shell_word(folder->string())});
   } else {
-    findings.push_back({Health::kAmiss,
+    findings.push_back({Health::kWarning,
                         "pkg-config does not take " + (*folder / "playerc++.pc").string(),
                         kInstallAgain});
   }
@@ -194,19 +194,19 @@ Finding trial_build(const ScratchFolder& scratch) {
     fs::create_directories(project);
     copy_template(project_template("client"), project);
   } catch (const std::runtime_error& error) {
-    return {Health::kAmiss, std::string("no program could be built: ") + error.what(), ""};
+    return {Health::kWarning, std::string("no program could be built: ") + error.what(), ""};
   }
   const Outcome configured =
       outcome_of({"cmake", "-S", project.string(), "-B", build}, scratch / "configure.log");
   if (!configured.success) {
-    return {Health::kAmiss,
+    return {Health::kWarning,
             "a client program cannot be configured by CMake: " + reasons(configured.output),
             "install the packages that are named; in Playpen's source tree, "
             "apps/install_dependencies.sh does"};
   }
   const Outcome built = outcome_of({"cmake", "--build", build}, scratch / "build.log");
   if (!built.success) {
-    return {Health::kAmiss, "a client program cannot be built: " + reasons(built.output),
+    return {Health::kWarning, "a client program cannot be built: " + reasons(built.output),
             "install the packages that are named; in Playpen's source tree, "
             "apps/install_dependencies.sh does"};
   }
@@ -303,7 +303,7 @@ Findings check_installation() {
     findings.push_back({Health::kGood, "the program of the live window: " + viewer.string(), ""});
   } else {
     findings.push_back(
-        {Health::kAmiss, "--view lacks its program, " + viewer.string(), kInstallAgain});
+        {Health::kWarning, "--view lacks its program, " + viewer.string(), kInstallAgain});
   }
 
   std::string missing;
@@ -314,7 +314,7 @@ Findings check_installation() {
     findings.push_back({Health::kGood, "the templates of 'playpen new' are there", ""});
   } else {
     findings.push_back(
-        {Health::kAmiss, "'playpen new' lacks the templates " + missing, kInstallAgain});
+        {Health::kWarning, "'playpen new' lacks the templates " + missing, kInstallAgain});
   }
   return findings;
 }
@@ -367,14 +367,15 @@ Findings check_building() {
     if (pkgconfig) check_pkgconfig(log, findings);
     const std::optional<fs::path> prefix = package_prefix();
     if (!prefix) {
-      findings.push_back({Health::kAmiss, "the CMake package of Playpen is not beside this program",
+      findings.push_back({Health::kWarning,
+                          "the CMake package of Playpen is not beside this program",
                           kInstallAgain});
     } else if (compiler && cmake && make) {
       findings.push_back(trial_build(scratch));
     }
   } catch (const std::exception& error) {
     findings.push_back(
-        {Health::kAmiss, std::string("building cannot be tried: ") + error.what(), ""});
+        {Health::kWarning, std::string("building cannot be tried: ") + error.what(), ""});
   }
   return findings;
 }
@@ -383,7 +384,7 @@ Findings check_display() {
   constexpr const char* kFilmInstead =
       "without a display, record a film: playpen run ... --record film.mp4";
   if (variable("DISPLAY").empty()) {
-    return {{Health::kAmiss,
+    return {{Health::kWarning,
              variable("WAYLAND_DISPLAY").empty()
                  ? "there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set"
                  : "the window needs an X display, and DISPLAY is not set; Xwayland sets it",
@@ -398,11 +399,11 @@ Findings check_display() {
                "the display " + variable("DISPLAY") + " can be used, " + last_line(outcome.output),
                ""}};
     }
-    return {{Health::kAmiss,
+    return {{Health::kWarning,
              "the display " + variable("DISPLAY") + " cannot be used: " + last_line(outcome.output),
              kFilmInstead}};
   } catch (const std::exception& error) {
-    return {{Health::kAmiss, std::string("the display cannot be tried: ") + error.what(), ""}};
+    return {{Health::kWarning, std::string("the display cannot be tried: ") + error.what(), ""}};
   }
 }
 
@@ -416,20 +417,20 @@ Findings check_films() {
         {own_file(), "doctor", "--probe", "film", "--file", film.string()}, scratch / "film.log");
     const std::string bytes = read_bytes(film);
     if (!outcome.success || bytes.empty()) {
-      return {{Health::kAmiss, "no .mp4 can be written: " + last_line(outcome.output), kInstead}};
+      return {{Health::kWarning, "no .mp4 can be written: " + last_line(outcome.output), kInstead}};
     }
     // The name of the codec in the film's table of contents (ISO 14496-15, ISO 14496-14).
     if (bytes.find("avc1") != std::string::npos) {
       return {{Health::kGood, "an .mp4 was written as H.264, which browsers play", ""}};
     }
     return {
-        {Health::kAmiss,
+        {Health::kWarning,
          "an .mp4 was written, but not as H.264: FFmpeg has no encoder of it, so browsers do not "
          "play the film",
          "install FFmpeg's libraries with libx264 (Debian: sudo apt install libavcodec-extra), "
          "or convert films: ffmpeg -i film.mp4 -c:v libx264 other.mp4"}};
   } catch (const std::exception& error) {
-    return {{Health::kAmiss, std::string("no film can be tried: ") + error.what(), ""}};
+    return {{Health::kWarning, std::string("no film can be tried: ") + error.what(), ""}};
   }
 }
 
@@ -476,13 +477,13 @@ Findings check_variables() {
     if (!name.starts_with("PLAYPEN_")) continue;
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string near = sim::nearest_word(name, known);
-    findings.push_back({Health::kAmiss, name + " is set, but Playpen has no such variable",
+    findings.push_back({Health::kWarning, name + " is set, but Playpen has no such variable",
                         near.empty() ? "unset " + name : "did you mean " + near + "?"});
   }
   try {
     static_cast<void>(playerlike::RunSettings::from_environment());
   } catch (const sim::ConfigError& error) {
-    findings.push_back({Health::kAmiss, error.what(), "set it to what is expected, or unset it"});
+    findings.push_back({Health::kWarning, error.what(), "set it to what is expected, or unset it"});
   }
   if (findings.empty()) findings.push_back({Health::kGood, "none of Playpen's is set", ""});
   return findings;

@@ -11,7 +11,7 @@ namespace playpen {
 enum class Health {
   kGood,
   kNote,    ///< worth knowing
-  kAmiss,   ///< something is missing, but a run does not need it
+  kWarning,   ///< something is missing, but a run does not need it
   kBroken,  ///< something is missing that every run needs
 };
 

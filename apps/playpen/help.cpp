@@ -14,7 +14,8 @@ void add_help(CommandLine& line) {
     bool man = false;
   };
   const auto request = std::make_shared<Request>();
-  CLI::App& command = line.add_command("help", "Tell of playpen, or more of one of its commands");
+  CLI::App& command =
+      line.add_command("help", "Print the help of playpen or of one of its commands");
   CLI::Option* const about =
       command.add_option("command", request->command, "The command to tell more of");
   about->type_name("");

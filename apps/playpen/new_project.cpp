@@ -85,12 +85,12 @@ void add_new(CommandLine& line) {
            (near.empty() ? "" : "; did you mean '" + near + "'?");
   });
   CLI::Option* const folder =
-      command.add_option("dir", request->folder, "Folder to make; it may be there if it is empty");
+      command.add_option("dir", request->folder, "New folder, or an empty one");
   line.takes(folder->required()->type_name(""), ValueKind::Kind::kFolder);
   command.footer(
-      "intro, planning, exploration, traps, exploration_changing and chase are the\n"
-      "course's tasks (docs/course_guide.md), client is the smallest client program,\n"
-      "with CMakeLists.txt and Makefile.\n"
+      "intro, planning, exploration, traps, exploration_changing, chase and\n"
+      "localization are the course's tasks (docs/course_guide.md), client is the\n"
+      "smallest client program, with CMakeLists.txt and Makefile.\n"
       "For example:\n"
       "  playpen new intro my_robot");
   command.callback([request, &line] {

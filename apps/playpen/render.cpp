@@ -106,11 +106,11 @@ void add_render(CommandLine& line) {
              });
   add_view_mode(line, command, request->view_mode);
   add_picture_options(line, command, request->pictures);
-  CLI::Option* const canvas = command.add_flag("--canvas", request->canvas,
-                                               "The canvas alone, a whole number of pixels a cell");
+  CLI::Option* const canvas = command.add_flag(
+      "--canvas", request->canvas, "Only the canvas, with a whole number of pixels per cell");
   command
       .add_flag("--map", request->map,
-                "The true map, a cell of the canvas each: as a picture, or as a map_server pair")
+                "The true map with the cells of the canvas, as a picture or as a map_server pair")
       ->excludes(canvas);
   command.footer("For example: playpen render cave --out cave.png");
   command.callback([request, &line] { line.status = render(*request); });

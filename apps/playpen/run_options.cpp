@@ -61,7 +61,7 @@ void add_realism(CommandLine& line, CLI::App& command, std::optional<sim::Realis
 void add_picture_options(CommandLine& line, CLI::App& command,
                          sim::render::RenderOptions& pictures) {
   CLI::Option* const follow = add_parsed(
-      command, "--follow", "Pictures and film show what is round this robot, so wide",
+      command, "--follow", "Pictures and film show the surroundings of this robot, METRES wide",
       "NAME[,METRES]", playerlike::kFollowExpected,
       [&pictures](const std::string& text) { return playerlike::parse_follow(text, pictures); });
   add_parsed(
@@ -118,13 +118,13 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
                    return sim::render::FilmWriter::is_film_name(text);
                  });
   line.takes(record, ValueKind::Kind::kFile);
-  add_parsed(command, "--record-fps", "Frames a second of the film [25]", "N",
+  add_parsed(command, "--record-fps", "Frames per second of the film [25]", "N",
              playerlike::kFilmFpsExpected,
              [&settings](const std::string& text) {
                return playerlike::parse_film_fps(text, settings.film_fps);
              })
       ->needs(record);
-  add_parsed(command, "--record-speed", "Simulated seconds a second of the film [1]", "X",
+  add_parsed(command, "--record-speed", "Simulated seconds per second of the film [1]", "X",
              playerlike::kFilmSpeedExpected,
              [&settings](const std::string& text) {
                return playerlike::parse_film_speed(text, settings.film_speed);
@@ -173,10 +173,10 @@ void add_run(CommandLine& line) {
       "After '--' come the client program and its arguments, for example\n"
       "  playpen run par_intro --duration 60 -- ./robot --port 6665\n"
       "'playpen list worlds' shows the names of worlds.\n"
-      "Exit status: 0 fine, 1 the program failed, 2 bad input.");
+      "Exit status: 0 success, 1 the program failed, 2 bad input.");
   add_world(line, command, request->world);
   add_run_settings(line, command, request->settings, "the world's, else lockstep");
-  add_parsed(command, "--clients", "Hold time until so many clients have joined [the world's]", "N",
+  add_parsed(command, "--clients", "Hold time until N clients have joined [the world's]", "N",
              playerlike::kClientsExpected, [request](const std::string& text) {
                int clients = 0;
                const bool good = playerlike::parse_clients(text, clients);

@@ -87,7 +87,7 @@ void add_serve(CommandLine& line) {
   line.takes(token_file->type_name("FILE"), ValueKind::Kind::kFile);
   command.add_flag("--open", server.open, "Let other machines connect without a token");
   add_parsed(command, "--clients",
-             "Hold time until so many clients have joined; 0: do not wait [the world's]", "N",
+             "Hold time until N clients have joined; 0: do not wait [the world's]", "N",
              "a whole number from 0 to 1000", [request](const std::string& text) {
                int clients = 0;
                const bool good = parse_number(text, clients) && clients >= 0 && clients <= 1000;

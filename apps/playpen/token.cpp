@@ -41,11 +41,12 @@ void add_token(CommandLine& line) {
       "  (umask 077; playpen token cave > tokens.json)\n"
       "  playpen serve cave --bind 0.0.0.0 --token-file tokens.json");
   CLI::Option* const world = add_world(line, command, request->world)->required(false);
-  add_parsed(
-      command, "--count", "So many tokens, one a line [1]", "N", "a whole number from 1 to 1000",
-      [request](const std::string& text) {
-        return parse_number(text, request->count) && request->count >= 1 && request->count <= 1000;
-      })
+  add_parsed(command, "--count", "Number of tokens, one per line [1]", "N",
+             "a whole number from 1 to 1000",
+             [request](const std::string& text) {
+               return parse_number(text, request->count) && request->count >= 1 &&
+                      request->count <= 1000;
+             })
       ->excludes(world);
   command.callback([request] {
     if (!request->world.empty()) return print_token_file(request->world);

@@ -147,7 +147,7 @@ TEST(PlaypenDoctor, FindsThatRunsWorkAndProgramsCanBeBuilt) {
                                 HasSubstr("read a laser in the default world"),
                                 HasSubstr("configured and built by CMake"), HasSubstr("Films"),
                                 HasSubstr("Core dumps"), Not(HasSubstr("BROKEN"))));
-  EXPECT_THAT(result.out, ContainsRegex("AMISS +there is no display"));
+  EXPECT_THAT(result.out, ContainsRegex("WARN +there is no display"));
   EXPECT_THAT(result.out, HasSubstr("--record film.mp4"));
   EXPECT_TRUE(fs::is_empty(folder / ".")) << "it leaves something behind";
   std::istringstream lines(result.out);
@@ -172,12 +172,12 @@ TEST(PlaypenDoctor, TellsOfVariablesAndOfABadDisplay) {
                                             {"PLAYPEN_WROLD", "cave.json"},
                                             {"PLAYPEN_ENCODING", "json"}});
   EXPECT_EQ(result.status, 0) << result.out;  // a run sets PLAYPEN_SEED itself
-  EXPECT_THAT(result.out, ContainsRegex("AMISS +the display :4321"));
-  EXPECT_THAT(result.out, ContainsRegex("AMISS +PLAYPEN_SEED"));
+  EXPECT_THAT(result.out, ContainsRegex("WARN +the display :4321"));
+  EXPECT_THAT(result.out, ContainsRegex("WARN +PLAYPEN_SEED"));
   EXPECT_THAT(result.out, ContainsRegex("note +PLAYPEN_ENCODING=json"));
-  EXPECT_THAT(result.out, ContainsRegex("AMISS +PLAYPEN_WROLD"));
+  EXPECT_THAT(result.out, ContainsRegex("WARN +PLAYPEN_WROLD"));
   EXPECT_THAT(result.out, HasSubstr("did you mean PLAYPEN_WORLD?"));
-  EXPECT_THAT(result.out, AllOf(ContainsRegex("AMISS +C\\+\\+ compiler: none"),
+  EXPECT_THAT(result.out, AllOf(ContainsRegex("WARN +C\\+\\+ compiler: none"),
                                 HasSubstr("sudo apt install g++")));
 }
 
@@ -193,8 +193,8 @@ TEST(PlaypenDoctor, FailsWhereRunsCannotWork) {
   EXPECT_THAT(result.out,
               AllOf(ContainsRegex("BROKEN +the folder of worlds"),
                     ContainsRegex("BROKEN +the library that makes sleeps"),
-                    ContainsRegex("AMISS +--view lacks"),
-                    ContainsRegex("AMISS +'playpen new' lacks"), HasSubstr("Runs do not work")));
+                    ContainsRegex("WARN +--view lacks"),
+                    ContainsRegex("WARN +'playpen new' lacks"), HasSubstr("Runs do not work")));
 }
 
 }  // namespace
