@@ -116,6 +116,7 @@ std::vector<Case> cases() {
       {"past_the_end", kCave, {"sonar 99 reads -1", "nothing was thrown"}, 3.0},
       {"potential_field", kCave, {}, 2.0},
       {"read_signals", kCave, {"150 poses"}, 1.0},
+      {"roomba_blobs", "examples/roomba_room.json", {"bumped into red, seen often"}, 4.0, 9.0, 1},
       {"roomba_goal",
        "examples/roomba_room.json",
        {"361 beams; I am at (-5.", "odometry says (0.0", "at the goal"},
