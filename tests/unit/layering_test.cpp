@@ -169,7 +169,8 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"imr-h", {}},
       {"replace", {}},
       // Their implementation.
-      {"devices", {"messages", "process", "session", "connect", "libCCMorse", "libplayerc++"}},
+      {"devices",
+       {"messages", "process", "session", "virtual_time", "connect", "libCCMorse", "libplayerc++"}},
       {"proxies",
        {"messages", "session", "virtual_time", "connect", "libCCMorse", "libplayerc++", "devices"}},
       {"drivers",

@@ -193,6 +193,13 @@ void Connection::set_busy(bool busy) {
   if (was_paused && !paused() && !processing_ && !reading_) process_soon();
 }
 
+std::optional<std::uint64_t> Connection::settled_input() const {
+  if (state_ != State::kOpen || paused()) return bytes_in_;
+  asio::error_code error;
+  if (process_posted_ || (reading_ && socket_.available(error) > 0)) return std::nullopt;
+  return bytes_in_;
+}
+
 std::optional<int> Connection::local_process() {
   return socket_.is_open() ? peer_process(socket_.native_handle()) : std::nullopt;
 }

@@ -83,6 +83,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   void set_busy(bool busy) override;
   void set_framing(protocol::Framing framing) override { splitter_.set_framing(framing); }
   void acknowledge_at_once() override { acknowledges_at_once_ = true; }
+  [[nodiscard]] std::optional<std::uint64_t> settled_input() const override;
   [[nodiscard]] std::optional<int> local_process() override;
   [[nodiscard]] std::uint32_t own_ipv4() const override;
   [[nodiscard]] const std::string& name() const noexcept override { return name_; }

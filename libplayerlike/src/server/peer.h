@@ -94,6 +94,8 @@ class Peer {
   /// From now on input is acknowledged to the other end's system at once, if no answer does so. The
   /// next message of a client that leaves Nagle's algorithm on then follows without delay.
   virtual void acknowledge_at_once() {}
+  /// Bytes of input that the handler has got; nullopt while more has arrived that it could take.
+  [[nodiscard]] virtual std::optional<std::uint64_t> settled_input() const { return 0; }
   /// The process at the other end; nullopt if it is unknown or on another machine. See
   /// peer_process().
   [[nodiscard]] virtual std::optional<int> local_process() { return std::nullopt; }
@@ -130,6 +132,7 @@ class Handler {
 class Hub;
 class MorseState;    // morse_state.h
 struct NativeState;  // native_state.h
+struct PlayerState;  // player_connection.h
 
 /// Creates the handler of a new connection.
 using MakeHandler = std::function<std::unique_ptr<Handler>(Peer&, Hub&)>;
@@ -205,6 +208,8 @@ class Hub {
   std::shared_ptr<MorseState> morse_state;
   /// State of the connections in Playpen's own protocol, created for the first one.
   std::shared_ptr<NativeState> native_state;
+  /// State of the connections in Player's protocol, created for the first one.
+  std::shared_ptr<PlayerState> player_state;
 
  private:
   TokenThrottle throttle_;  ///< counts wrong tokens on all ports

@@ -2,6 +2,7 @@
 #include "server/player_connection.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "libplayerinterface/player_constants.h"
@@ -19,6 +20,8 @@ using protocol::ProtocolError;
 // More rules are refused; real clients have one for each device at most.
 constexpr std::size_t kMaxRules = 256;
 constexpr int kMaxNotes = 20;
+// A client that sends without a pause must not stop time.
+constexpr int kMaxTurns = 16;
 
 bool same_device(const Devaddr& a, const Devaddr& b) {
   return a.interf == b.interf && a.index == b.index;
@@ -40,6 +43,8 @@ PlayerConnection::PlayerConnection(Peer& peer, Hub& hub, int robot_port, int tcp
       robot_port_(robot_port),
       tcp_port_(tcp_port),
       host_(peer.own_ipv4()),
+      state_(hub.player_state ? hub.player_state
+                              : hub.player_state = std::make_shared<PlayerState>()),
       self_(std::make_shared<PlayerConnection*>(this)),
       rights_(hub.access().rights({}, robot_port)),
       guard_(hub.host(), rights_, robot_port, hub.settings().onlookers),
@@ -53,9 +58,10 @@ PlayerConnection::PlayerConnection(Peer& peer, Hub& hub, int robot_port, int tcp
   // Player queues all data until a client says otherwise.
   session_.request(ReplaceRequest{std::nullopt, false});
   peer_.send(player::banner());
+  state_->peers.push_back(&peer_);
 }
 
-PlayerConnection::~PlayerConnection() = default;
+PlayerConnection::~PlayerConnection() { std::erase(state_->peers, &peer_); }
 
 void PlayerConnection::on_message(std::string_view bytes) {
   try {
@@ -261,7 +267,8 @@ void PlayerConnection::request_data() {
   respond(own_address(PLAYER_PLAYER_CODE, 0), PLAYER_PLAYER_REQ_DATA, {rights_.connect, ""});
   if (!pull_ || !rights_.connect) return;
   requested_ = true;
-  begin_to_wait();
+  turns_ = 0;
+  wait_after_others();
 }
 
 // --- Devices
@@ -446,6 +453,35 @@ void PlayerConnection::begin_to_wait() {
     return;
   }
   finish_round(outcome);
+}
+
+std::optional<std::uint64_t> PlayerConnection::others_input() const {
+  std::uint64_t total = 0;
+  for (const Peer* peer : state_->peers) {
+    if (peer == &peer_) continue;
+    const std::optional<std::uint64_t> bytes = peer->settled_input();
+    if (!bytes) return std::nullopt;
+    total += *bytes;
+  }
+  return total;
+}
+
+// A program that has several connections expects its commands on one of them to take effect before
+// the time that it lets pass on another one. They arrived before the data request, but the event
+// loop may serve the data request first. So wait until a turn of the loop finds no further input. A
+// turn completes reads that have begun.
+void PlayerConnection::wait_after_others() {
+  if (state_->peers.size() < 2 || hub_.settings().onlookers ||
+      hub_.host().time().mode == sim::TimeMode::kPaced) {
+    return begin_to_wait();
+  }
+  const std::optional<std::uint64_t> now = others_input();
+  const std::optional<std::uint64_t> before = std::exchange(others_input_, now);
+  if ((turns_ > 0 && now && now == before) || turns_ == kMaxTurns) return begin_to_wait();
+  ++turns_;
+  hub_.after(std::chrono::microseconds(0), [this, weak = std::weak_ptr(self_)] {
+    if (!weak.expired()) wait_after_others();
+  });
 }
 
 void PlayerConnection::on_wait_end() {

@@ -18,6 +18,11 @@
 
 namespace playerlike::server {
 
+/// State that the connections in Player's protocol share, see Hub::player_state.
+struct PlayerState {
+  std::vector<const Peer*> peers;  ///< of all handlers
+};
+
 /// Handles one connection in Player's protocol (docs/player_wire.md).
 ///
 /// Answers each request at once. A data request in PULL mode begins a wait of the connection's
@@ -91,6 +96,10 @@ class PlayerConnection final : public Handler, private wire::DataSink {
   [[nodiscard]] bool wants_round() const;
   /// Begins a wait if the client wants a round.
   void begin_to_wait();
+  /// The input of all other connections, see Peer::settled_input().
+  [[nodiscard]] std::optional<std::uint64_t> others_input() const;
+  /// Calls begin_to_wait() when the input of the other connections that has arrived was handled.
+  void wait_after_others();
   void on_wait_end();
   void finish_round(Outcome outcome);
   /// Adds the SYNCH message, which tells how many data were dropped since the last one.
@@ -109,7 +118,8 @@ class PlayerConnection final : public Handler, private wire::DataSink {
   Hub& hub_;
   const int robot_port_;
   const int tcp_port_;
-  const std::uint32_t host_;                 ///< this end's address in Player's form
+  const std::uint32_t host_;  ///< this end's address in Player's form
+  std::shared_ptr<PlayerState> state_;
   std::shared_ptr<PlayerConnection*> self_;  ///< expires with the handler; later tasks check it
   std::vector<std::string> tokens_;          ///< that the client has presented
   Rights rights_;
@@ -120,6 +130,8 @@ class PlayerConnection final : public Handler, private wire::DataSink {
   bool pull_ = false;
   bool requested_ = false;  ///< PULL: data was requested and has not been sent
   bool waiting_ = false;
+  std::optional<std::uint64_t> others_input_;  ///< at the last turn, see Peer::settled_input()
+  int turns_ = 0;            ///< of the event loop since wait_after_others() was first called
   bool has_joined_ = false;  ///< takes part in the lockstep
   ThreadId thread_id_ = 0;
   std::vector<player::AddReplaceRuleReq> rules_;

@@ -9,8 +9,10 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "playpen_process.h"
@@ -22,7 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test_support::address_of;
 using test_support::playpen;
+using test_support::Process;
 using test_support::ProcessResult;
 using test_support::read_report;
 using test_support::run_process;
@@ -112,6 +116,7 @@ std::vector<Case> cases() {
       {"past_the_end", kCave, {"sonar 99 reads -1", "nothing was thrown"}, 3.0},
       {"potential_field", kCave, {}, 2.0},
       {"read_signals", kCave, {"150 poses"}, 1.0},
+      {"roomba_blobs", "examples/roomba_room.json", {"bumped into red, seen often"}, 4.0, 9.0, 1},
       {"roomba_goal",
        "examples/roomba_room.json",
        {"361 beams; I am at (-5.", "odometry says (0.0", "at the goal"},
@@ -169,46 +174,98 @@ void expect_outcome(const Case& c, const ProcessResult& result, const json& repo
   EXPECT_EQ(moving, c.moving_robots) << result.out << result.err;
 }
 
-class CompatPrograms : public testing::TestWithParam<Case> {
- protected:
-  /// `playpen run OPTIONS WORLD -- PROGRAM`.
-  [[nodiscard]] ProcessResult run(const std::vector<std::string>& options = {}) {
-    std::vector<std::string> call = {"run", world(),      "--out",
-                                     out(), "--duration", GetParam().duration_s};
-    call.insert(call.end(), options.begin(), options.end());
-    call.emplace_back("--");
+/// How a run across a network compares with one in the program's own process.
+enum class Network {
+  kEqual,      ///< in lockstep: equal output and report
+  kOwnOutput,  ///< in lockstep: equal report, other output
+  kOutcome,    ///< in lockstep: does what it was written for
+  kRealTime,   ///< runs with a paced server, see SleepingPrograms
+  kNone,       ///< cannot run
+};
+struct Difference {
+  Network network = Network::kEqual;
+  std::string why;
+};
+using Differences = std::map<std::string, Difference>;
+
+/// Programs that differ over all protocols.
+const Differences& differences() {
+  static const std::string sleeps = "its sleeps and clocks follow the wall clock";
+  static const Differences known = {
+      {"background_thread", {Network::kRealTime, sleeps}},
+      {"bumper_maze", {Network::kRealTime, sleeps}},
+      {"posix_threads", {Network::kRealTime, sleeps}},
+      {"square_sleeping", {Network::kRealTime, sleeps}},
+      {"standard_threads", {Network::kRealTime, sleeps}},
+      {"wall_clock", {Network::kRealTime, sleeps}},
+  };
+  return known;
+}
+
+/// Further programs that differ over Player's protocol.
+const Differences& player_differences() {
+  static const std::string precision = "ranges have single precision";
+  static const Differences known = {
+      {"arena_gate", {Network::kNone, "Player has no interface for arenas"}},
+      {"exceptions", {Network::kOwnOutput, "it prints errors, which name the server"}},
+      {"infrared", {Network::kOutcome, "ranges and voltages have single precision"}},
+      {"logger", {Network::kOwnOutput, "it prints the names of devices and drivers"}},
+      {"own_goto",
+       {Network::kOutcome, "it peeks, which requests the next data already, as in Player"}},
+      {"past_the_end", {Network::kOutcome, precision}},
+      {"potential_field", {Network::kOutcome, precision}},
+      {"scorpion_wander", {Network::kOutcome, precision}},
+      {"three_sonars", {Network::kOutcome, precision}},
+      {"wander_laser", {Network::kOwnOutput, "it prints the name of the client"}},
+      {"wander_sonar", {Network::kOutcome, precision}},
+  };
+  return known;
+}
+
+Network network_of(const Case& c, const Differences& further = {}) {
+  for (const Differences* list : {&further, &differences()}) {
+    if (const auto it = list->find(c.program); it != list->end()) return it->second.network;
+  }
+  return Network::kEqual;
+}
+
+/// A folder for the files of a program's run, and how to start it there.
+class ProgramRun {
+ public:
+  explicit ProgramRun(Case what) : case_(std::move(what)) {}
+
+  [[nodiscard]] const Case& what() const { return case_; }
+  /// `playpen run WORLD -- PROGRAM`.
+  [[nodiscard]] ProcessResult embedded() const {
+    std::vector<std::string> call = {"run",        world(),          "--out",   out(),
+                                     "--duration", case_.duration_s, "--quiet", "--"};
     const std::vector<std::string> words = program();
     call.insert(call.end(), words.begin(), words.end());
     return playpen(call, in_folder());
   }
-  /// `playpen serve WORLD OPTIONS` in lockstep, and the program.
-  /// @param address  of the server, by what it prints, for PLAYPEN_WORLD.
-  template <typename Address>
-  [[nodiscard]] ProcessResult serve(const std::vector<std::string>& options, Address address) {
+  /// `playpen serve WORLD --time TIME OPTIONS`.
+  [[nodiscard]] std::unique_ptr<Process> server(const std::string& time,
+                                                const std::vector<std::string>& options) const {
     std::vector<std::string> call = {
-        PLAYPEN_COMMAND,       "serve",  world(),    "--out",  out(), "--duration",
-        GetParam().duration_s, "--time", "lockstep", "--port", "0",   "--quiet"};
+        PLAYPEN_COMMAND,  "serve",  world(), "--out",  out(), "--duration",
+        case_.duration_s, "--time", time,    "--port", "0",   "--quiet"};
     call.insert(call.end(), options.begin(), options.end());
-    test_support::Process server(call);
-    test_support::ProcessOptions remote = in_folder();
-    remote.environment["PLAYPEN_WORLD"] = address(server);
-    if (remote.environment["PLAYPEN_WORLD"].empty()) return {};
-    const ProcessResult result = run_process(program(), remote);
-    // A program may end before the run does.
-    server.send_signal(SIGTERM);
-    const ProcessResult end = server.finish();
-    EXPECT_EQ(end.status, 0) << end.err;
-    return result;
+    return std::make_unique<Process>(call);
   }
-  [[nodiscard]] std::string out() const { return folder_ / "out"; }
+  /// The program, whose PLAYPEN_WORLD is a server's address.
+  [[nodiscard]] std::unique_ptr<Process> client(const std::string& address) const {
+    test_support::ProcessOptions options = in_folder();
+    options.environment["PLAYPEN_WORLD"] = address;
+    return std::make_unique<Process>(program(), options);
+  }
+  [[nodiscard]] json report() const { return read_report(out()); }
 
  private:
-  [[nodiscard]] static std::string world() {
-    return PLAYPEN_SOURCE_DIR "/worlds/" + GetParam().world;
-  }
-  [[nodiscard]] static std::vector<std::string> program() {
-    std::vector<std::string> words = {PROGRAMS + GetParam().program};
-    words.insert(words.end(), GetParam().arguments.begin(), GetParam().arguments.end());
+  [[nodiscard]] std::string out() const { return folder_ / "out"; }
+  [[nodiscard]] std::string world() const { return PLAYPEN_SOURCE_DIR "/worlds/" + case_.world; }
+  [[nodiscard]] std::vector<std::string> program() const {
+    std::vector<std::string> words = {PROGRAMS + case_.program};
+    words.insert(words.end(), case_.arguments.begin(), case_.arguments.end());
     return words;
   }
   [[nodiscard]] test_support::ProcessOptions in_folder() const {
@@ -217,89 +274,143 @@ class CompatPrograms : public testing::TestWithParam<Case> {
     return options;
   }
 
+  const Case case_;
   const TemporaryFolder folder_;
 };
 
-TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
-  const Case& c = GetParam();
-  const ProcessResult result = run();
-  ASSERT_FALSE(result.timed_out) << result.out << result.err;
-  if (c.program == "two_clients_one_port") {
-    for (const char* host : {"\"192.0.2.17\"", "\"robot-lab\""}) {
-      EXPECT_THAT(result.err, HasSubstr(host));
-    }
-  }
-  expect_outcome(c, result, read_report(out()));
+/// A server and its address.
+struct Served {
+  std::unique_ptr<Process> server;
+  std::string address;  ///< for PLAYPEN_WORLD
+};
+
+Served serve_own(const ProgramRun& run, const std::string& time) {
+  Served served{run.server(time, {}), ""};
+  served.address = address_of(*served.server);
+  return served;
 }
 
-/// Programs that are not run over Player's protocol, and why.
-const std::map<std::string, std::string> kNotOverPlayersProtocol = {
-    {"arena_gate", "Player has no interface for arenas"},
-    {"background_thread", "its sleeps would take real time"},
-    {"bumper_maze", "its sleeps would take real time"},
-    {"posix_threads", "its threads share one connection's rounds, and one drives by old data"},
-    {"square_sleeping", "its sleeps would take real time"},
-    {"standard_threads", "its sleeps would take real time"},
-    {"wall_clock", "its sleeps would take real time"},
-};
-/// Programs whose output or report differs in detail over Player's protocol, and why.
-const std::map<std::string, std::string> kOtherDetails = {
-    {"bigbob_pair", "commands of its two clients may reach the server in another order"},
-    {"blackboard", "its two clients end in another order"},
-    {"exceptions", "it prints errors, which name the server"},
-    {"four_ports", "commands of its four clients may reach the server in another order"},
-    {"infrared", "ranges and voltages have single precision"},
-    {"logger", "it prints the names of devices and drivers"},
-    {"own_goto", "it looks for data without waiting, which finds them a round earlier"},
-    {"past_the_end", "ranges have single precision"},
-    {"potential_field", "ranges have single precision"},
-    {"scorpion_wander", "ranges have single precision"},
-    {"three_sonars", "ranges have single precision"},
-    {"two_clients_one_port", "commands of its clients may reach the server in another order"},
-    {"wander_laser", "it prints the names of devices and drivers"},
-    {"wander_sonar", "ranges have single precision"},
+/// Serves Player's protocol. The ports of robots must follow one another, as programs for several
+/// robots expect, and others may have them.
+Served serve_player(const ProgramRun& run, const std::string& time) {
+  static int attempts = 0;
+  for (int i = 0; i < 50; ++i) {
+    const int first = 20'000 + (getpid() * 101 + attempts++ * 1009) % 30'000;
+    Served served{run.server(time, {"--player-port", std::to_string(first)}),
+                  "player://127.0.0.1:" + std::to_string(first)};
+    if (served.server->read_until("listening on ") && served.server->read_until("\n")) {
+      return served;
+    }
+  }
+  return {};
+}
+
+/// Ends a server. A program may end before its run does.
+void end_server(Process& server) {
+  server.send_signal(SIGTERM);
+  const ProcessResult end = server.finish();
+  EXPECT_EQ(end.status, 0) << end.err;
+}
+
+class CompatPrograms : public testing::TestWithParam<Case> {
+ protected:
+  using Serve = Served (*)(const ProgramRun&, const std::string&);
+
+  /// The report of the run, as far as a run across a network repeats it: the server ends after its
+  /// client.
+  [[nodiscard]] static json repeatable(const json& report) {
+    json part = without_wall_time(report);
+    part.erase("ended");
+    return part;
+  }
+
+  /// Runs the program with a server in lockstep and compares with the run in its own process.
+  void expect_across_a_network(Serve serve, Network network) const {
+    if (network == Network::kNone || network == Network::kRealTime) return;
+    const ProgramRun run(GetParam());
+    const Served served = serve(run, "lockstep");
+    ASSERT_NE(served.server, nullptr);
+    ProcessResult there = run.client(served.address)->finish();
+    end_server(*served.server);
+    ASSERT_FALSE(there.timed_out) << there.out << there.err;
+    const json report = repeatable(run.report());
+    // At the end of a run the server closes the connections. Player's clients cannot tell that from
+    // a lost connection: those that do not expect it end with an exception.
+    if (serve == serve_player && there.status != 0) {
+      EXPECT_THAT(there.err, HasSubstr("has closed the connection"));
+      EXPECT_EQ(report.at("run").at("sim_time"), report_.at("run").at("sim_time"));
+      there.status = 0;
+      there.out = here_.out;
+    }
+    expect_outcome(run.what(), there, run.report());
+    if (network == Network::kOutcome) return;
+    if (network == Network::kEqual) {
+      EXPECT_EQ(there.out, here_.out) << there.err;
+    }
+    EXPECT_EQ(report.dump(1), report_.dump(1)) << there.err;
+  }
+
+  ProcessResult here_;  ///< of the run in the program's own process
+  json report_;         ///< of that run
 };
 
-/// The same program with this process's simulation and over Player's protocol.
-TEST_P(CompatPrograms, DoTheSameOverPlayersProtocol) {
+TEST_P(CompatPrograms, DoWhatTheyWereWrittenForInAllWays) {
   const Case& c = GetParam();
-  if (const auto why = kNotOverPlayersProtocol.find(c.program);
-      why != kNotOverPlayersProtocol.end()) {
-    GTEST_SKIP() << why->second;
+  const ProgramRun run(c);
+  here_ = run.embedded();
+  ASSERT_FALSE(here_.timed_out) << here_.out << here_.err;
+  if (c.program == "two_clients_one_port") {
+    for (const char* host : {"\"192.0.2.17\"", "\"robot-lab\""}) {
+      EXPECT_THAT(here_.err, HasSubstr(host));
+    }
   }
-  const ProcessResult here = run({"--quiet"});
-  ASSERT_EQ(here.status, 0) << here.out << here.err;
-  const auto repeatable = [this] {
-    json report = without_wall_time(read_report(out()));
-    report.erase("ended");
-    return report;
-  };
-  const json expected = repeatable();
+  expect_outcome(c, here_, run.report());
+  if (HasFailure()) return;
+  report_ = repeatable(run.report());
+  {
+    SCOPED_TRACE("over Playpen's protocol");
+    expect_across_a_network(serve_own, network_of(c));
+  }
+  SCOPED_TRACE("over Player's protocol");
+  expect_across_a_network(serve_player, network_of(c, player_differences()));
+}
 
-  // The ports must follow one another, as programs for several robots expect. Others may have them.
-  ProcessResult there;
-  for (int attempt = 0; attempt < 50; ++attempt) {
-    const int first = 20'000 + (getpid() * 101 + attempt * 1009) % 30'000;
-    there = serve({"--player-port", std::to_string(first)}, [&](test_support::Process& server) {
-      return server.read_until("listening on ") && server.read_until("\n")
-                 ? "player://127.0.0.1:" + std::to_string(first)
-                 : std::string();
-    });
-    if (there.status || there.signal || there.timed_out) break;
+/// Programs whose sleeps, clocks and threads follow the wall clock, with servers whose simulations
+/// do, too. All run at the same time. Their bounds leave room for a busy machine: a sleep that ends
+/// late makes a way longer, a late command may make it shorter.
+TEST(SleepingPrograms, DoWhatTheyWereWrittenForInRealTime) {
+  const std::vector<Case> sleeping = {
+      {"background_thread", kCave, {"ended at"}, 1.5},
+      {"bumper_maze", kPioneer, {"10 bumpers"}, 2.0, kAny, 50},
+      {"posix_threads", kCave, {"nearest"}, 0.5},
+      {"square_sleeping", kPioneer, {}, 3.0, 6.0},
+      {"standard_threads", kCave, {}, 0.5, kAny, 0, 2},
+      {"wall_clock", kPioneer, {"took "}, 0.5, 2.0},
+  };
+  struct Running {
+    std::unique_ptr<ProgramRun> run;
+    Served served;
+    std::unique_ptr<Process> client;
+    const char* protocol;
+  };
+  std::vector<Running> all;
+  for (const Case& c : sleeping) {
+    EXPECT_EQ(network_of(c), Network::kRealTime) << c.program;
+    for (const bool own : {true, false}) {
+      Running one{std::make_unique<ProgramRun>(c), {}, nullptr, own ? "Playpen's" : "Player's"};
+      one.served = own ? serve_own(*one.run, "real") : serve_player(*one.run, "real");
+      ASSERT_NE(one.served.server, nullptr);
+      one.client = one.run->client(one.served.address);
+      all.push_back(std::move(one));
+    }
   }
-  ASSERT_FALSE(there.timed_out) << there.out << there.err;
-  // At the end of a run the server closes the connections. Player's clients cannot tell that from a
-  // lost connection: those that do not expect it end with an exception.
-  if (there.status != 0) {
-    EXPECT_THAT(there.err, HasSubstr("has closed the connection"));
-    EXPECT_EQ(repeatable().at("run").at("sim_time"), expected.at("run").at("sim_time"));
-    there.status = 0;
-    there.out = here.out;
+  EXPECT_EQ(sleeping.size(), differences().size());
+  for (Running& one : all) {
+    SCOPED_TRACE(one.run->what().program + " over " + one.protocol + " protocol");
+    const ProcessResult result = one.client->finish();
+    end_server(*one.served.server);
+    expect_outcome(one.run->what(), result, one.run->report());
   }
-  expect_outcome(c, there, read_report(out()));
-  if (kOtherDetails.contains(c.program)) return;
-  EXPECT_EQ(there.out, here.out) << there.err;
-  EXPECT_EQ(repeatable().dump(1), expected.dump(1)) << there.err;
 }
 
 // Runs a program in a world for which it was not written.

@@ -437,6 +437,30 @@ TEST_F(PlayerServer, ConnectionsOfAProcessCountAsOneThread) {
   }
 }
 
+TEST_F(PlayerServer, CommandsPrecedeTheTimeOfAnotherConnectionsRound) {
+  start();
+  PlayerWireClient one = reader({PLAYER_POSITION2D_CODE});
+  PlayerWireClient two = reader({PLAYER_POSITION2D_CODE}, 6666);
+  static_cast<void>(one.round());
+  double x_m = two.round().back().as<player::Position2dData>().pos.px;
+  // The position is the arena's localisation, without noise, every 0.1 s. The server handles 64
+  // messages of a connection before it serves others, so the last command is not in the first turn.
+  for (int i = 0; i < 20; ++i) {
+    const double v_mps = i % 2 == 0 ? 0.2 : -0.2;
+    std::string commands;
+    for (int k = 0; k <= 150; ++k) {
+      commands +=
+          PlayerWireClient::message(PLAYER_MSGTYPE_CMD, PLAYER_POSITION2D_CODE, 0,
+                                    PLAYER_POSITION2D_CMD_VEL, velocity(k < 150 ? 0.0 : v_mps));
+    }
+    two.socket.send(commands);
+    static_cast<void>(one.round());
+    const double now_m = two.round().back().as<player::Position2dData>().pos.px;
+    EXPECT_NEAR(now_m - x_m, v_mps * 0.1, 1e-9) << "round " << i;
+    x_m = now_m;
+  }
+}
+
 TEST_F(PlayerServer, TimeWaitsForOtherProcesses) {
   int to_parent[2];
   int to_child[2];
