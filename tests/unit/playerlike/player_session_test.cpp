@@ -630,6 +630,32 @@ TEST(PlayerSession, SendsDrawings) {
 
 // --- Errors
 
+TEST(PlayerSession, SetsPropertiesOfDrivers) {
+  Script script = with_laser();
+  script.replies[{PLAYER_LASER_CODE, 0, PLAYER_SET_STRPROP_REQ}] = {std::string()};
+  player::StrpropReq mode;
+  mode.key = player::text_bytes("mode");
+  mode.value = "slow";  // without a zero byte at the end
+  script.replies[{PLAYER_LASER_CODE, 0, PLAYER_GET_STRPROP_REQ}] = {player::encode(mode)};
+  ScriptedPlayerServer server(std::move(script));
+  PlayerClient client(server.host(), 6665);
+  PlayerCc::LaserProxy laser(&client, 0);
+  std::string key = "mode";
+  std::string value = "fast";
+  EXPECT_EQ(laser.SetStrProp(key.data(), value.data()), 0);
+  EXPECT_EQ(laser.SetIntProp(key.data(), 3), -1);  // the server refuses it
+  char* text = nullptr;
+  ASSERT_EQ(laser.GetStrProp(key.data(), &text), 0);
+  EXPECT_STREQ(text, "slow");
+  std::free(text);
+  const auto sent =
+      payloads(server.received(), PLAYER_LASER_CODE, PLAYER_MSGTYPE_REQ, PLAYER_SET_STRPROP_REQ);
+  ASSERT_EQ(sent.size(), 1U);
+  const auto request = player::decode<player::StrpropReq>(sent.front());
+  EXPECT_EQ(request.key, player::text_bytes("mode"));
+  EXPECT_EQ(request.value, player::text_bytes("fast"));
+}
+
 TEST(PlayerErrors, NameTheDevicesThatExist) {
   ScriptedPlayerServer server(with_laser());
   PlayerClient client(server.host(), 6665);
@@ -810,6 +836,29 @@ TEST(HostilePlayerServers, MaySendWhatNobodyAskedFor) {
   client.Read();
   EXPECT_EQ(laser.GetCount(), 3U);
   EXPECT_EQ(laser.GetDataTime(), 0.0);
+}
+
+TEST(HostilePlayerServers, CannotAnnounceWaypointsThatAreNotThere) {
+  Script script;
+  script.devices = {{0, 6665, PLAYER_PLANNER_CODE, 0}};
+  player::PlannerData data;
+  data.valid = 1;
+  data.waypoint_idx = -7;
+  data.waypoints_count = 0xffffffffU;
+  script.rounds = {
+      test::data_message(PLAYER_PLANNER_CODE, 0, PLAYER_PLANNER_DATA_STATE, 1.0, data)};
+  // A length, and two counts without an element.
+  const std::string path = std::string(8, '\0') + std::string(8, '\xff');
+  script.replies[{PLAYER_PLANNER_CODE, 0, PLAYER_PLANNER_REQ_GET_WAYPOINTS}] = {path};
+  ScriptedPlayerServer server(std::move(script));
+  PlayerClient client(server.host(), 6665);
+  PlayerCc::PlannerProxy planner(&client, 0);
+  client.Read();
+  EXPECT_EQ(planner.GetPathValid(), 1U);
+  EXPECT_EQ(planner.GetWaypointCount(), 0xffffffffU);  // what the planner says, nothing more
+  EXPECT_DOUBLE_EQ(planner.GetIx(5), 0.0);
+  EXPECT_THAT(error_of([&] { planner.RequestWaypoints(); }), HasSubstr("the payload ends in"));
+  EXPECT_FALSE(client.Connected());
 }
 
 TEST(HostilePlayerServers, CannotSendMapsOfAnySize) {
