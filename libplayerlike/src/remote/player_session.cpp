@@ -117,13 +117,17 @@ std::vector<ListedDevice> PlayerSession::list_devices(PlayerLink& link) {
                                     [&](const player::Devaddr& at) { return at.robot == port; });
   std::vector<ListedDevice> devices;
   std::set<std::pair<unsigned, unsigned>> seen;
+  bool answers = true;  // a server that does not answer one of these requests is not asked again
   for (const player::Devaddr& at : list.devices) {
     if (has_port && at.robot != port) continue;
     if (!seen.emplace(at.interf, at.index).second) continue;
     player::DeviceDriverinfo info;
     info.addr = at;
-    const auto reply =
-        link.request(player_itself(), PLAYER_PLAYER_REQ_DRIVERINFO, player::encode(info));
+    std::optional<PlayerLink::Reply> reply;
+    if (answers) {
+      reply = link.request(player_itself(), PLAYER_PLAYER_REQ_DRIVERINFO, player::encode(info));
+      answers = reply.has_value();
+    }
     std::string driver = "unknown";
     if (reply && reply->accepted) {
       driver =
@@ -338,7 +342,11 @@ void PlayerSession::unsubscribe(DeviceId device) {
     const Lock lock(mutex_);
     if (address.subscriptions == 0 || --address.subscriptions > 0) return;
     address.opened = false;
-    std::erase_if(waiting_, [&](const Waiting& w) { return w.address == &address; });
+    std::erase_if(waiting_, [&](const Waiting& w) {
+      if (w.address != &address) return false;
+      waiting_bytes_ -= w.bytes;
+      return true;
+    });
     if (waiting_.empty()) round_ = false;
   }
   require_open();
