@@ -75,15 +75,17 @@ class ClientProxy {
   int HasCapability(uint32_t aType, uint32_t aSubtype);
 
   // Properties are the device's numeric settings in the world, e.g. "frequency" or "range_max", in
-  // SI units and radians. Each function returns 0 on success. On failure it returns -1 and leaves
-  // the value unchanged. Settings cannot be changed during a run, and none is a string; the Set
-  // functions and GetStrProp() therefore always return -1.
+  // SI units and radians, and the strings "name", "type" and "robot". Each function returns 0 on
+  // success. On failure it returns -1 and leaves the value unchanged. In a world of Playpen,
+  // properties cannot be changed during a run, so the Set functions return -1. The properties of a
+  // Player server's devices are those of its drivers.
   int GetBoolProp(char* aProperty, bool* aValue);  ///< Property with value 0 or 1.
   int SetBoolProp(char* aProperty, bool aValue);
   int GetIntProp(char* aProperty, int32_t* aValue);  ///< Property with an integer value.
   int SetIntProp(char* aProperty, int32_t aValue);
   int GetDblProp(char* aProperty, double* aValue);  ///< Any property.
   int SetDblProp(char* aProperty, double aValue);
+  /// A string property. The text is allocated with malloc(); the caller frees it.
   int GetStrProp(char* aProperty, char** aValue);
   int SetStrProp(char* aProperty, char* aValue);
 

@@ -15,7 +15,7 @@ struct PlannerState;
 namespace PlayerCc {
 
 /// A path planner that also drives the robot to the goal: a driver "wavefront" of the world
-/// (docs/wavefront.md).
+/// (docs/wavefront.md), or the planner of a Player server.
 ///
 /// Frame: all poses are in the world's frame W.
 ///
@@ -23,13 +23,13 @@ namespace PlayerCc {
 /// last round before the current simulated time, so a run is repeatable. A goal is planned in the
 /// planner's first round after SetGoalPose(); until then there is no path.
 ///
-/// Threads: as ClientProxy. All proxies of a robot's planner in a process share one planner, which
-/// has a thread of its own and ends with the last of them.
+/// Threads: as ClientProxy. In a world of Playpen, all proxies of a robot's planner in a process
+/// share one planner, which has a thread of its own and ends with the last of them.
 class PlannerProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if the world has no such planner; the text names what there
-  ///         is. kNotAvailable if this client may not read the world's map, or if the planner is
-  ///         that of a Player server.
+  ///         is. kNotAvailable if this client may not read the world's map, or if a Player server
+  ///         does not open the planner.
   PlannerProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~PlannerProxy() override;
 
@@ -86,6 +86,7 @@ class PlannerProxy : public ClientProxy {
   // Guarded by the client's mutex.
   std::shared_ptr<const playerlike::PlannerState> mState;
   std::shared_ptr<const playerlike::PlannerState> mFetched;  ///< by RequestWaypoints()
+  uint32_t mWaypointCount = 0;
 };
 
 }  // namespace PlayerCc

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/server_planner.h"
 #include "proxies/link.h"
 #include "sim/canvas/layers.h"
 
@@ -275,8 +276,7 @@ PlannerState WavefrontThread::state() const {
 
 std::shared_ptr<Planner> share_planner(Session& session, const InterfaceBinding& binding) {
   if (binding.planner == nullptr) {
-    throw SessionError(SessionError::Code::kNotAvailable,
-                       "the planners of a Player server cannot be used through Playpen");
+    return make_server_planner(session, binding);
   }
   using Key = std::tuple<const void*, int, int>;  // simulation, robot, index
   static std::mutex mutex;

@@ -1,14 +1,18 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <ostream>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "devices/errors.h"
 #include "devices/warnings.h"
 #include "libplayerc++/clientproxy.h"
+#include "playerlike/session/device_properties.h"
 #include "proxies/link.h"
+#include "session/player_values.h"
 #include "virtual_time/virtual_time.h"
 
 namespace PlayerCc {
@@ -239,7 +243,8 @@ int ClientProxy::HasCapability(uint32_t aType, uint32_t aSubtype) {
   const bool is_property_query =
       aType == PLAYER_MSGTYPE_REQ &&
       (aSubtype == PLAYER_CAPABILITIES_REQ || aSubtype == PLAYER_GET_BOOLPROP_REQ ||
-       aSubtype == PLAYER_GET_INTPROP_REQ || aSubtype == PLAYER_GET_DBLPROP_REQ);
+       aSubtype == PLAYER_GET_INTPROP_REQ || aSubtype == PLAYER_GET_DBLPROP_REQ ||
+       aSubtype == PLAYER_GET_STRPROP_REQ);
   // A robot without motors still has position2d devices.
   const bool needs_motors =
       GetInterface() == PLAYER_POSITION2D_CODE &&
@@ -250,62 +255,106 @@ int ClientProxy::HasCapability(uint32_t aType, uint32_t aSubtype) {
   return is_property_query || is_known ? 1 : 0;
 }
 
-int ClientProxy::GetDblProp(char* aProperty, double* aValue) {
-  const scoped_lock_t lock(LockData("ClientProxy::GetDblProp"));
-  if (!mLink->attached || aProperty == nullptr || aValue == nullptr) return -1;
-  const auto& properties = mLink->info().properties;
-  const auto it = properties.find(aProperty);
-  if (it == properties.end()) return -1;
-  *aValue = it->second;
+// --- Properties
+
+namespace {
+
+using playerlike::DeviceProperties;
+
+/// The numeric setting as a value of the type; nothing if it is not one.
+template <typename T>
+std::optional<T> as_property(double value) {
+  if constexpr (std::is_same_v<T, bool>) {
+    if (value != 0.0 && value != 1.0) return std::nullopt;
+    return value != 0.0;
+  } else if constexpr (std::is_same_v<T, std::int32_t>) {
+    if (value != std::floor(value) || std::abs(value) > std::numeric_limits<T>::max()) {
+      return std::nullopt;
+    }
+    return static_cast<T>(value);
+  } else {
+    return value;
+  }
+}
+
+}  // namespace
+
+template <typename T>
+std::optional<T> ClientProxy::Link::named_property(const char* fun, const char* name) const {
+  const scoped_lock_t data(lock(fun));
+  if (!attached || name == nullptr) return std::nullopt;
+  return translated(fun, [&]() -> std::optional<T> {
+    if (auto* server = dynamic_cast<DeviceProperties*>(&core->session())) {
+      const auto found = server->property(device.addr.interf, device.addr.index, name, T{});
+      if (!found) return std::nullopt;
+      return std::get<T>(*found);
+    }
+    if (binding.is_world()) return std::nullopt;
+    if constexpr (std::is_same_v<T, std::string>) {
+      return playerlike::text_property(robot(), info(), name);
+    } else {
+      const auto& properties = info().properties;
+      const auto it = properties.find(name);
+      return it == properties.end() ? std::nullopt : as_property<T>(it->second);
+    }
+  });
+}
+
+template <typename T>
+int ClientProxy::Link::set_named_property(const char* fun, const char* name, const T& value) const {
+  const scoped_lock_t data(lock(fun));
+  auto* const server = dynamic_cast<DeviceProperties*>(&core->session());
+  if (!attached || name == nullptr || server == nullptr) return -1;
+  return translated(fun, [&] {
+    return server->set_property(device.addr.interf, device.addr.index, name, value) ? 0 : -1;
+  });
+}
+
+int ClientProxy::GetBoolProp(char* aProperty, bool* aValue) {
+  const auto value = mLink->named_property<bool>("ClientProxy::GetBoolProp", aProperty);
+  if (!value || aValue == nullptr) return -1;
+  *aValue = *value;
   return 0;
 }
 
 int ClientProxy::GetIntProp(char* aProperty, int32_t* aValue) {
-  double value = 0.0;
-  if (aValue == nullptr || GetDblProp(aProperty, &value) != 0) return -1;
-  if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int32_t>::max()) {
-    return -1;
-  }
-  *aValue = static_cast<int32_t>(value);
+  const auto value = mLink->named_property<int32_t>("ClientProxy::GetIntProp", aProperty);
+  if (!value || aValue == nullptr) return -1;
+  *aValue = *value;
   return 0;
 }
 
-int ClientProxy::GetBoolProp(char* aProperty, bool* aValue) {
-  double value = 0.0;
-  if (aValue == nullptr || GetDblProp(aProperty, &value) != 0) return -1;
-  if (value != 0.0 && value != 1.0) return -1;
-  *aValue = value != 0.0;
+int ClientProxy::GetDblProp(char* aProperty, double* aValue) {
+  const auto value = mLink->named_property<double>("ClientProxy::GetDblProp", aProperty);
+  if (!value || aValue == nullptr) return -1;
+  *aValue = *value;
   return 0;
 }
 
 int ClientProxy::GetStrProp(char* aProperty, char** aValue) {
-  static_cast<void>(aProperty);
-  static_cast<void>(aValue);
-  return -1;
+  const auto value = mLink->named_property<std::string>("ClientProxy::GetStrProp", aProperty);
+  if (!value || aValue == nullptr) return -1;
+  char* const copy = strdup(value->c_str());  // as in Player, the caller frees it
+  if (copy == nullptr) return -1;
+  *aValue = copy;
+  return 0;
 }
 
 int ClientProxy::SetBoolProp(char* aProperty, bool aValue) {
-  static_cast<void>(aProperty);
-  static_cast<void>(aValue);
-  return -1;
+  return mLink->set_named_property("ClientProxy::SetBoolProp", aProperty, aValue);
 }
 
 int ClientProxy::SetIntProp(char* aProperty, int32_t aValue) {
-  static_cast<void>(aProperty);
-  static_cast<void>(aValue);
-  return -1;
+  return mLink->set_named_property("ClientProxy::SetIntProp", aProperty, aValue);
 }
 
 int ClientProxy::SetDblProp(char* aProperty, double aValue) {
-  static_cast<void>(aProperty);
-  static_cast<void>(aValue);
-  return -1;
+  return mLink->set_named_property("ClientProxy::SetDblProp", aProperty, aValue);
 }
 
 int ClientProxy::SetStrProp(char* aProperty, char* aValue) {
-  static_cast<void>(aProperty);
-  static_cast<void>(aValue);
-  return -1;
+  if (aValue == nullptr) return -1;
+  return mLink->set_named_property("ClientProxy::SetStrProp", aProperty, std::string(aValue));
 }
 
 }  // namespace PlayerCc

@@ -61,6 +61,14 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   /// A property of the device that makes the readings.
   [[nodiscard]] double property(const std::string& name, double otherwise) const;
 
+  /// A property that programs ask for by its name and type: bool, int32_t, double or string.
+  /// @return nothing if the device has none.
+  template <typename T>
+  [[nodiscard]] std::optional<T> named_property(const char* fun, const char* name) const;
+  /// Sets such a property, which only devices of Player servers may have. @return 0, or -1.
+  template <typename T>
+  int set_named_property(const char* fun, const char* name, const T& value) const;
+
   /// Returns whether `index` is below `count`. All getters and setters of one element use this
   /// check.
   ///

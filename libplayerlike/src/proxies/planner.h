@@ -2,27 +2,15 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
+#include "playerlike/session/device_planners.h"
 #include "playerlike/session/session.h"
 #include "sim/core/pose.h"
 
 namespace playerlike {
 
-/// State of a planner. All poses are in the world's frame.
-struct PlannerState {
-  bool valid = false;  ///< there is a path to the goal
-  bool done = false;   ///< the goal is reached
-  sim::Pose pose;      ///< of the robot
-  sim::Pose goal;
-  sim::Pose waypoint;                ///< the current one
-  int waypoint_index = -1;           ///< of the current one in `waypoints`; negative: none
-  std::vector<sim::Pose> waypoints;  ///< from the start to the goal
-  double length_m = 0.0;             ///< of the path along the waypoints
-};
-
-/// Plans paths and drives a robot along them in its own thread; it implements PlannerProxy. Proxies
-/// use planners through this interface only.
+/// Plans paths and drives a robot along them, in its own thread or on a server; it implements
+/// PlannerProxy. Proxies use planners through this interface only.
 ///
 /// All members may be called from any thread. In lockstep, a call at simulated time t by a thread
 /// that takes part affects the planner's first round after t.
@@ -42,12 +30,17 @@ class Planner {
   virtual void enable(bool on) = 0;
   /// The state as of the planner's last round before now.
   [[nodiscard]] virtual PlannerState state() const = 0;
+  /// As state(), with the waypoints of the present path also if they must be requested.
+  [[nodiscard]] virtual PlannerState state_with_waypoints() { return state(); }
+  /// Takes a reading of the proxy's device, which may be the planner itself.
+  virtual void on_reading(const sim::Reading& /*reading*/) {}
 };
 
 /// The planner for a binding of find_interface(). All callers share one planner as long as one of
-/// them holds it.
+/// them holds it; planners of a Player server have an object for each caller.
 ///
-/// @param session  the caller's; a new planner opens a follower of it.
+/// @param session  the caller's. A new planner opens a follower of it; one of a Player server uses
+///                 it, so it must outlive that planner.
 /// @throws SessionError, PlayerCc::PlayerError if the session is closed, or may not read the map.
 [[nodiscard]] std::shared_ptr<Planner> share_planner(Session& session,
                                                      const InterfaceBinding& binding);

@@ -33,7 +33,9 @@ PlannerProxy::~PlannerProxy() { ClientProxy::Unsubscribe(); }
 
 void PlannerProxy::HandleReading() {
   if (mPlanner == nullptr) return;  // a reading during the constructor
+  mPlanner->on_reading(*mLink->newest.reading);
   mState = std::make_shared<PlannerState>(mPlanner->state());
+  mWaypointCount = static_cast<uint32_t>(mState->waypoint_count());
 }
 
 void PlannerProxy::SetGoalPose(double aGx, double aGy, double aGa) {
@@ -43,6 +45,7 @@ void PlannerProxy::SetGoalPose(double aGx, double aGy, double aGa) {
   translated(fun, [&] {
     mPlanner->set_goal({aGx, aGy, sim::normalize_angle(aGa)});
     mState = std::make_shared<PlannerState>(mPlanner->state());
+    mWaypointCount = static_cast<uint32_t>(mState->waypoint_count());
   });
 }
 
@@ -57,7 +60,10 @@ void PlannerProxy::SetStartPose(double aSx, double aSy, double aSa) {
 void PlannerProxy::RequestWaypoints() {
   const char* fun = "PlannerProxy::RequestWaypoints";
   const scoped_lock_t lock(LockData(fun));
-  translated(fun, [&] { mFetched = std::make_shared<PlannerState>(mPlanner->state()); });
+  translated(fun, [&] {
+    mFetched = std::make_shared<PlannerState>(mPlanner->state_with_waypoints());
+    mWaypointCount = static_cast<uint32_t>(mFetched->waypoints.size());
+  });
 }
 
 void PlannerProxy::SetEnable(bool aEnable) {
@@ -117,7 +123,8 @@ int PlannerProxy::GetCurrentWaypointId() const {
   return State("PlannerProxy::GetCurrentWaypointId")->waypoint_index;
 }
 uint32_t PlannerProxy::GetWaypointCount() const {
-  return static_cast<uint32_t>(State("PlannerProxy::GetWaypointCount")->waypoints.size());
+  const scoped_lock_t lock(LockData("PlannerProxy::GetWaypointCount"));
+  return mWaypointCount;
 }
 
 }  // namespace PlayerCc

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "playerlike/session/device_planners.h"
 #include "protocol/player_xdr.h"
 #include "session/range_settings.h"
 #include "sim/devices/actarray.h"
@@ -81,6 +82,21 @@ Made localization(std::uint8_t subtype, std::string_view payload) {
                    [](const sim::PoseHypothesis& a, const sim::PoseHypothesis& b) {
                      return a.weight > b.weight;
                    });
+  return reading;
+}
+
+Made planner(std::uint8_t subtype, std::string_view payload) {
+  if (subtype != PLAYER_PLANNER_DATA_STATE) return nullptr;
+  const auto data = decode<player::PlannerData>(payload);
+  const auto reading = std::make_shared<PlannerReading>();
+  PlannerState& state = reading->state;
+  state.valid = data.valid != 0;
+  state.done = data.done != 0;
+  state.pose = pose_of(data.pos);
+  state.goal = pose_of(data.goal);
+  state.waypoint = pose_of(data.waypoint);
+  state.waypoint_index = data.waypoint_idx;
+  state.reported_waypoints = data.waypoints_count;
   return reading;
 }
 
@@ -463,6 +479,8 @@ Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,
       return position(subtype, payload);
     case PLAYER_LOCALIZE_CODE:
       return localization(subtype, payload);
+    case PLAYER_PLANNER_CODE:
+      return planner(subtype, payload);
     case PLAYER_LASER_CODE:
       return scan(subtype, payload);
     case PLAYER_RANGER_CODE:

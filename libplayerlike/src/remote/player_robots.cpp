@@ -46,6 +46,7 @@ constexpr TypeRow kTypes[] = {
     {PLAYER_SPEECH_CODE, "speech"},
     {PLAYER_BLINKENLIGHT_CODE, "blinkenlight"},
     {PLAYER_GRAPHICS2D_CODE, "pen"},
+    {PLAYER_PLANNER_CODE, "planner"},
 };
 
 /// A finite number, else 0: servers may send anything, and drivers leave fields unset.

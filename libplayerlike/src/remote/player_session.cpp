@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "messages/player_interfaces.h"
 #include "protocol/player_xdr.h"
 #include "remote/player_commands.h"
 #include "remote/player_robots.h"
@@ -116,13 +117,17 @@ std::vector<ListedDevice> PlayerSession::list_devices(PlayerLink& link) {
                                     [&](const player::Devaddr& at) { return at.robot == port; });
   std::vector<ListedDevice> devices;
   std::set<std::pair<unsigned, unsigned>> seen;
+  bool answers = true;  // a server that does not answer one of these requests is not asked again
   for (const player::Devaddr& at : list.devices) {
     if (has_port && at.robot != port) continue;
     if (!seen.emplace(at.interf, at.index).second) continue;
     player::DeviceDriverinfo info;
     info.addr = at;
-    const auto reply =
-        link.request(player_itself(), PLAYER_PLAYER_REQ_DRIVERINFO, player::encode(info));
+    std::optional<PlayerLink::Reply> reply;
+    if (answers) {
+      reply = link.request(player_itself(), PLAYER_PLAYER_REQ_DRIVERINFO, player::encode(info));
+      answers = reply.has_value();
+    }
     std::string driver = "unknown";
     if (reply && reply->accepted) {
       driver =
@@ -243,6 +248,15 @@ PlayerSession::Address* PlayerSession::address_of(unsigned interface) {
   return it != by_interface_.end() && it->first.first == interface ? it->second : nullptr;
 }
 
+PlayerSession::Address& PlayerSession::address_of(unsigned interface, unsigned index) {
+  const auto found = by_interface_.find({interface, index});
+  if (found != by_interface_.end()) return *found->second;
+  throw SessionError(SessionError::Code::kNoSuchDevice,
+                     "the Player server at " + settings_.server.text() + " has no " +
+                         player_interface_name(static_cast<int>(interface)) + ':' +
+                         std::to_string(index));
+}
+
 void PlayerSession::send_open(PlayerLink& link, const Address& address, std::uint8_t mode) {
   player::DeviceReq request;
   request.addr.interf = address.at.interf;
@@ -328,7 +342,11 @@ void PlayerSession::unsubscribe(DeviceId device) {
     const Lock lock(mutex_);
     if (address.subscriptions == 0 || --address.subscriptions > 0) return;
     address.opened = false;
-    std::erase_if(waiting_, [&](const Waiting& w) { return w.address == &address; });
+    std::erase_if(waiting_, [&](const Waiting& w) {
+      if (w.address != &address) return false;
+      waiting_bytes_ -= w.bytes;
+      return true;
+    });
     if (waiting_.empty()) round_ = false;
   }
   require_open();
@@ -399,31 +417,17 @@ void PlayerSession::send(DeviceId device, const sim::Command& command) {
   if (!message) {
     throw not_available("Player's " + address.name + " has no such command");
   }
-  with_link([&](PlayerLink& link) {
-    open(link, address);
-    if (message->is_request) {
-      static_cast<void>(ask(link, address, message->subtype, message->payload));
-    } else {
-      link.command(address.at, message->subtype, message->payload);
-    }
-  });
+  tell(address, *message);
 }
 
-// --- Drawings
-
-void PlayerSession::draw(unsigned index, const DeviceDrawing& drawing) {
-  require_open();
-  const auto found = by_interface_.find({PLAYER_GRAPHICS2D_CODE, index});
-  if (found == by_interface_.end()) {
-    throw SessionError(SessionError::Code::kNoSuchDevice,
-                       "the Player server at " + settings_.server.text() +
-                           " has no graphics2d:" + std::to_string(index));
-  }
-  Address& address = *found->second;
-  const PlayerCommand message = to_player(drawing);
+void PlayerSession::tell(Address& address, const PlayerCommand& message) {
   with_link([&](PlayerLink& link) {
     open(link, address);
-    link.command(address.at, message.subtype, message.payload);
+    if (message.is_request) {
+      static_cast<void>(ask(link, address, message.subtype, message.payload));
+    } else {
+      link.command(address.at, message.subtype, message.payload);
+    }
   });
 }
 
@@ -607,25 +611,6 @@ std::unique_ptr<Session> PlayerSession::open_follower() {
 }
 
 // --- Requests
-
-std::vector<LocalizationParticle> PlayerSession::particles(DeviceId device) {
-  Address& address = address_of(device);
-  if (address.at.interf != PLAYER_LOCALIZE_CODE) {
-    throw SessionError(SessionError::Code::kBadArgument, address.name + " has no particles");
-  }
-  const std::string bytes = ask(address, PLAYER_LOCALIZE_REQ_GET_PARTICLES, {});
-  std::vector<LocalizationParticle> particles;
-  try {
-    for (const auto& particle : player::decode<player::LocalizeGetParticles>(bytes).particles) {
-      const auto& [px, py, pa] = particle.pose;
-      if (!std::isfinite(px + py + pa + particle.alpha)) continue;
-      particles.push_back({{px, py, sim::normalize_angle(pa)}, particle.alpha});
-    }
-  } catch (const protocol::ProtocolError& e) {
-    refuse_bytes(*link(), e.what());
-  }
-  return particles;
-}
 
 struct PlayerSession::RequestHandler {
   PlayerSession& session;

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "playerlike/session/device_graphics.h"
+#include "playerlike/session/device_planners.h"
+#include "playerlike/session/device_properties.h"
 #include "playerlike/session/session.h"
 #include "remote/player_link.h"
 #include "remote/player_readings.h"
@@ -32,6 +34,7 @@ struct PlayerSettings {
 
 class PlayerWorld;
 struct ListedDevice;
+struct PlayerCommand;
 
 /// A session whose other end is a Player server: a real robot, Player with Stage, or a simulation
 /// of `playpen serve --player-port`. docs/from_simulation_to_robot.md describes what is different.
@@ -44,12 +47,17 @@ struct ListedDevice;
 /// The time of readings is the server's. The server never waits for its clients in this class's
 /// view: JoinRequest and NoteLooksRequest do nothing, and SleepRequest takes wall time. There is no
 /// canvas: CanvasInfoRequest returns an empty one, and requests to draw throw kNotAvailable.
-/// Devices of the server's interface graphics2d draw (DeviceGraphics).
+/// Devices of the server's interface graphics2d draw (DeviceGraphics), those of planner plan
+/// (DevicePlanners).
 ///
 /// It has no thread: a thread that waits reads the socket, see PlayerLink. A request that the
 /// server refuses or does not answer in time throws SessionError kNotAvailable; the connection goes
 /// on.
-class PlayerSession final : public Session, public DeviceGraphics, private PlayerLink::Receiver {
+class PlayerSession final : public Session,
+                            public DeviceGraphics,
+                            public DevicePlanners,
+                            public DeviceProperties,
+                            private PlayerLink::Receiver {
  public:
   /// Connects. @throws SessionError as PlayerLink::open(), and if the server refuses.
   explicit PlayerSession(PlayerSettings settings);
@@ -70,6 +78,14 @@ class PlayerSession final : public Session, public DeviceGraphics, private Playe
   const void* simulation() const noexcept override { return simulation_; }
   void close() noexcept override;
   void draw(unsigned index, const DeviceDrawing& drawing) override;
+  void set_planner_goal(unsigned index, const sim::Pose& goal) override;
+  void set_planner_start(unsigned index, const sim::Pose& start) override;
+  void enable_planner(unsigned index, bool on) override;
+  [[nodiscard]] Path planner_path(unsigned index) override;
+  [[nodiscard]] std::optional<Value> property(unsigned interface, unsigned index,
+                                              const std::string& name, const Value& kind) override;
+  [[nodiscard]] bool set_property(unsigned interface, unsigned index, const std::string& name,
+                                  const Value& value) override;
 
  private:
   friend class PlayerWorld;
@@ -123,6 +139,8 @@ class PlayerSession final : public Session, public DeviceGraphics, private Playe
   [[nodiscard]] Address& address_of(DeviceId device);
   /// The first address of an interface; null if the server has none.
   [[nodiscard]] Address* address_of(unsigned interface);
+  /// The address of a device of an interface. @throws SessionError kNoSuchDevice.
+  [[nodiscard]] Address& address_of(unsigned interface, unsigned index);
   /// Opens a device unless it is open, and requests its geometry. @throws SessionError.
   void open(PlayerLink& link, Address& address);
   void complete(PlayerLink& link, Address& address);
@@ -134,6 +152,11 @@ class PlayerSession final : public Session, public DeviceGraphics, private Playe
 
   /// As above, to an address that is opened before, and again after a reconnection.
   std::string ask(Address& address, std::uint8_t subtype, std::string_view payload);
+  /// Sends a command, or a request whose answer does not matter, as ask() does.
+  void tell(Address& address, const PlayerCommand& message);
+  /// As ask(), but without an answer if the device refuses or does not answer.
+  std::optional<std::string> try_to_ask(Address& address, std::uint8_t subtype,
+                                        std::string_view payload);
   /// Requests the particles of a localisation.
   std::vector<LocalizationParticle> particles(DeviceId device);
   /// Ends the connection, since an answer cannot be understood. @throws SessionError kDisconnected.

@@ -21,7 +21,8 @@ namespace {
 constexpr std::uint32_t kMaxPlayerMap = 8192;  // as in Playpen's own maps
 constexpr std::uint32_t kMapTile = 640;    // side of a tile [cells], as Player's client requests
 constexpr std::size_t kMaxEntries = 4096;  // of the blackboard
-constexpr float kUnknown = 0.5F;           // occupancy of unknown cells
+constexpr std::size_t kMaxEntryBytes = std::size_t{64} << 20U;  // of all of them
+constexpr float kUnknown = 0.5F;                                // occupancy of unknown cells
 
 /// The bytes of properties are those of the machine, which is little-endian on all that Player
 /// supports.
@@ -252,6 +253,10 @@ const BlackboardEntry* PlayerWorld::note(const player::BlackboardEntry& entry) {
   if (name.second.empty()) return nullptr;  // what servers answer for a missing entry
   const auto known = entries_.find(name);
   if (known == entries_.end() && entries_.size() >= kMaxEntries) return nullptr;
+  const std::size_t names = name.first.size() + name.second.size();
+  const std::size_t before_bytes = known == entries_.end() ? 0 : names + known->second.data.size();
+  const std::size_t now_bytes = names + entry.data.size();
+  if (entry_bytes_ - before_bytes + now_bytes > kMaxEntryBytes) return nullptr;
   BlackboardEntry now;
   now.group = name.first;
   now.key = name.second;
@@ -268,6 +273,7 @@ const BlackboardEntry* PlayerWorld::note(const player::BlackboardEntry& entry) {
     }
   }
   now.change = ++changes_;
+  entry_bytes_ += now_bytes - before_bytes;
   return &(entries_[name] = std::move(now));
 }
 

@@ -66,6 +66,7 @@ class PlayerWorld {
   PlayerSession& session_;
   // Guarded by the session's mutex.
   std::map<Name, BlackboardEntry> entries_;
+  std::size_t entry_bytes_ = 0;   ///< of the entries' names and data
   std::set<std::string> groups_;  ///< that were subscribed to
   std::int64_t changes_ = 0;
 };

@@ -8,6 +8,14 @@
 
 namespace playerlike {
 
+std::optional<std::string> text_property(const RobotInfo& robot, const DeviceInfo& device,
+                                         std::string_view name) {
+  if (name == "name") return device.name;
+  if (name == "type") return device.type;
+  if (name == "robot") return robot.name;
+  return std::nullopt;
+}
+
 std::uint8_t gripper_state_code(sim::GripperState state) {
   switch (state) {
     case sim::GripperState::kOpen:

@@ -29,6 +29,12 @@
 /// the same fields.
 namespace playerlike {
 
+/// A text property of a device by its name: "name" and "type" of the device, and "robot", the name
+/// of its robot. @return nothing for other names.
+[[nodiscard]] std::optional<std::string> text_property(const RobotInfo& robot,
+                                                       const DeviceInfo& device,
+                                                       std::string_view name);
+
 /// @name Gripper
 /// @{
 /// Bits of broken beams, as Player's drivers for Pioneers set them.

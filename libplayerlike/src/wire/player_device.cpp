@@ -37,7 +37,8 @@ bool CommonDevice::has_capability(std::string_view payload) const {
   const auto asked = player::decode<player::CapabilitiesReq>(payload);
   if (asked.type == PLAYER_MSGTYPE_REQ &&
       (asked.subtype == PLAYER_CAPABILITIES_REQ || asked.subtype == PLAYER_GET_BOOLPROP_REQ ||
-       asked.subtype == PLAYER_GET_INTPROP_REQ || asked.subtype == PLAYER_GET_DBLPROP_REQ)) {
+       asked.subtype == PLAYER_GET_INTPROP_REQ || asked.subtype == PLAYER_GET_DBLPROP_REQ ||
+       asked.subtype == PLAYER_GET_STRPROP_REQ)) {
     return true;
   }
   // A robot without motors still has position2d devices.
@@ -64,7 +65,27 @@ std::optional<std::string> property_answer(const DeviceSettings* settings, std::
   return player::encode(asked);
 }
 
+// The server's log gets the reason.
+template <typename Property>
+[[noreturn]] void refuse_to_set(std::string_view payload) {
+  constexpr std::size_t kShown = 64;
+  std::string key = player::text_of(player::decode<Property>(payload).key).substr(0, kShown);
+  if (!is_printable(key)) key = "?";
+  throw SessionError(SessionError::Code::kNotAvailable,
+                     "the property \"" + key +
+                         "\" cannot be set: properties are settings of the world file, which do "
+                         "not change during a run");
+}
+
 }  // namespace
+
+std::optional<std::string> CommonDevice::text_answer(std::string_view payload) const {
+  auto asked = player::decode<player::StrpropReq>(payload);
+  const std::optional<std::string> text = text_setting(player::text_of(asked.key));
+  if (!text) return std::nullopt;
+  asked.value = player::text_bytes(*text);
+  return player::encode(asked);
+}
 
 std::optional<std::string> CommonDevice::request(std::uint8_t subtype, std::string_view payload) {
   switch (subtype) {
@@ -80,6 +101,16 @@ std::optional<std::string> CommonDevice::request(std::uint8_t subtype, std::stri
     case PLAYER_GET_BOOLPROP_REQ:
       return property_answer<player::BoolpropReq>(
           settings(), payload, [](double value) { return value == 0.0 || value == 1.0; });
+    case PLAYER_GET_STRPROP_REQ:
+      return text_answer(payload);
+    case PLAYER_SET_BOOLPROP_REQ:
+      refuse_to_set<player::BoolpropReq>(payload);
+    case PLAYER_SET_INTPROP_REQ:
+      refuse_to_set<player::IntpropReq>(payload);
+    case PLAYER_SET_DBLPROP_REQ:
+      refuse_to_set<player::DblpropReq>(payload);
+    case PLAYER_SET_STRPROP_REQ:
+      refuse_to_set<player::StrpropReq>(payload);
     default:
       return answer(subtype, payload);
   }

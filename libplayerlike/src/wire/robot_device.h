@@ -14,6 +14,7 @@
 #include "playerlike/session/session.h"
 #include "protocol/player_structs.h"
 #include "protocol/player_xdr.h"
+#include "session/player_values.h"
 #include "session/range_settings.h"
 #include "wire/player_device.h"
 
@@ -43,6 +44,10 @@ class CommonDevice : public PlayerDevice {
                                                           std::string_view payload);
   /// The device's numeric settings; null without a device.
   [[nodiscard]] virtual const DeviceSettings* settings() const { return nullptr; }
+  /// A text property by its name; none without a device.
+  [[nodiscard]] virtual std::optional<std::string> text_setting(const std::string& /*name*/) const {
+    return std::nullopt;
+  }
 
   [[nodiscard]] Session& session() const { return context_.session; }
   [[nodiscard]] const InterfaceBinding& binding() const { return context_.binding; }
@@ -51,6 +56,7 @@ class CommonDevice : public PlayerDevice {
 
  private:
   [[nodiscard]] bool has_capability(std::string_view payload) const;
+  [[nodiscard]] std::optional<std::string> text_answer(std::string_view payload) const;
 
   const DeviceContext context_;
 };
@@ -66,6 +72,9 @@ class RobotDevice : public CommonDevice {
 
  protected:
   [[nodiscard]] const DeviceSettings* settings() const override { return &info_.properties; }
+  [[nodiscard]] std::optional<std::string> text_setting(const std::string& name) const override {
+    return text_property(robot_, info_, name);
+  }
   [[nodiscard]] const RobotInfo& robot() const { return robot_; }
   [[nodiscard]] const DeviceInfo& info() const { return info_; }
   [[nodiscard]] double setting(const std::string& name) const {

@@ -630,6 +630,32 @@ TEST(PlayerSession, SendsDrawings) {
 
 // --- Errors
 
+TEST(PlayerSession, SetsPropertiesOfDrivers) {
+  Script script = with_laser();
+  script.replies[{PLAYER_LASER_CODE, 0, PLAYER_SET_STRPROP_REQ}] = {std::string()};
+  player::StrpropReq mode;
+  mode.key = player::text_bytes("mode");
+  mode.value = "slow";  // without a zero byte at the end
+  script.replies[{PLAYER_LASER_CODE, 0, PLAYER_GET_STRPROP_REQ}] = {player::encode(mode)};
+  ScriptedPlayerServer server(std::move(script));
+  PlayerClient client(server.host(), 6665);
+  PlayerCc::LaserProxy laser(&client, 0);
+  std::string key = "mode";
+  std::string value = "fast";
+  EXPECT_EQ(laser.SetStrProp(key.data(), value.data()), 0);
+  EXPECT_EQ(laser.SetIntProp(key.data(), 3), -1);  // the server refuses it
+  char* text = nullptr;
+  ASSERT_EQ(laser.GetStrProp(key.data(), &text), 0);
+  EXPECT_STREQ(text, "slow");
+  std::free(text);
+  const auto sent =
+      payloads(server.received(), PLAYER_LASER_CODE, PLAYER_MSGTYPE_REQ, PLAYER_SET_STRPROP_REQ);
+  ASSERT_EQ(sent.size(), 1U);
+  const auto request = player::decode<player::StrpropReq>(sent.front());
+  EXPECT_EQ(request.key, player::text_bytes("mode"));
+  EXPECT_EQ(request.value, player::text_bytes("fast"));
+}
+
 TEST(PlayerErrors, NameTheDevicesThatExist) {
   ScriptedPlayerServer server(with_laser());
   PlayerClient client(server.host(), 6665);
@@ -810,6 +836,106 @@ TEST(HostilePlayerServers, MaySendWhatNobodyAskedFor) {
   client.Read();
   EXPECT_EQ(laser.GetCount(), 3U);
   EXPECT_EQ(laser.GetDataTime(), 0.0);
+}
+
+TEST(HostilePlayerServers, AreAskedForDriversUntilTheyDoNotAnswer) {
+  Script script;
+  constexpr std::uint16_t kDevices = 100;
+  for (std::uint16_t index = 0; index < kDevices; ++index) {
+    script.devices.push_back({0, 6665, PLAYER_LASER_CODE, index});
+  }
+  script.silent = {{PLAYER_PLAYER_CODE, 0, PLAYER_PLAYER_REQ_DRIVERINFO}};
+  ScriptedPlayerServer server(std::move(script));
+  PlayerSettings settings;
+  settings.server = {"127.0.0.1", server.port()};
+  settings.request_timeout_s = 0.5;
+  const PlayerSession session(settings);
+  EXPECT_EQ(session.robots().front().addresses->size(), std::size_t{kDevices});
+  EXPECT_EQ(session.robots().front().addresses->front().driver, "unknown");
+  EXPECT_EQ(payloads(server.received(), PLAYER_PLAYER_CODE, PLAYER_MSGTYPE_REQ,
+                     PLAYER_PLAYER_REQ_DRIVERINFO)
+                .size(),
+            1U);
+}
+
+TEST(HostilePlayerServers, CannotFillTheMemoryWithABlackboard) {
+  Script script;
+  script.devices = {{0, 6665, PLAYER_BLACKBOARD_CODE, 0}};
+  script.replies[{PLAYER_BLACKBOARD_CODE, 0, PLAYER_BLACKBOARD_REQ_SUBSCRIBE_TO_GROUP}] = {""};
+  constexpr std::size_t kData = std::size_t{4} << 20U;
+  constexpr std::size_t kEntries = 20;  // 80 MiB; 64 MiB are kept at most
+  for (std::size_t i = 0; i < kEntries; ++i) {
+    player::BlackboardEntry entry;
+    entry.group = player::text_bytes("grp");
+    entry.key = player::text_bytes("key" + std::to_string(i));
+    entry.data.assign(kData, 1);
+    script.rounds.push_back(
+        test::data_message(PLAYER_BLACKBOARD_CODE, 0, PLAYER_BLACKBOARD_DATA_UPDATE, 1.0, entry));
+  }
+  ScriptedPlayerServer server(std::move(script));
+  PlayerSettings settings;
+  settings.server = {"127.0.0.1", server.port()};
+  PlayerSession session(settings);
+  const BlackboardRequest all{0, "grp"};
+  EXPECT_THAT(session.request(all), IsEmpty());
+  // When a round is requested, all earlier ones have arrived.
+  const auto requested_rounds = [&] {
+    return payloads(server.received(), PLAYER_PLAYER_CODE, PLAYER_MSGTYPE_REQ,
+                    PLAYER_PLAYER_REQ_DATA)
+        .size();
+  };
+  while (requested_rounds() <= kEntries) session.wait();
+  EXPECT_EQ(session.request(all).size(), 15U);  // of 4 MiB and some bytes of names
+}
+
+TEST(PlayerSession, ForgetsTheBytesOfReadingsOfClosedDevices) {
+  Script script;
+  script.devices = {{0, 6665, PLAYER_CAMERA_CODE, 0}};
+  player::CameraData image;
+  image.width = 2000;
+  image.height = 2000;
+  image.format = PLAYER_CAMERA_FORMAT_MONO8;
+  image.compression = PLAYER_CAMERA_COMPRESS_RAW;
+  image.image.assign(std::size_t{2000} * 2000, 7);
+  const std::string one =
+      test::data_message(PLAYER_CAMERA_CODE, 0, PLAYER_CAMERA_DATA_STATE, 1.0, image);
+  std::string round;
+  for (int i = 0; i < 20; ++i) round += one;  // 80 MB, more than the client queues
+  script.rounds = {round, one};
+  ScriptedPlayerServer server(std::move(script));
+  PlayerClient client(server.host(), 6665);
+  client.SetReplaceRule(false);
+  {
+    const PlayerCc::CameraProxy camera(&client, 0);
+    ASSERT_TRUE(client.Peek(60'000));
+  }
+  const PlayerCc::CameraProxy camera(&client, 0);
+  ASSERT_TRUE(client.Peek(10'000));
+  client.Read();
+  EXPECT_EQ(camera.GetWidth(), 2000U);
+}
+
+TEST(HostilePlayerServers, CannotAnnounceWaypointsThatAreNotThere) {
+  Script script;
+  script.devices = {{0, 6665, PLAYER_PLANNER_CODE, 0}};
+  player::PlannerData data;
+  data.valid = 1;
+  data.waypoint_idx = -7;
+  data.waypoints_count = 0xffffffffU;
+  script.rounds = {
+      test::data_message(PLAYER_PLANNER_CODE, 0, PLAYER_PLANNER_DATA_STATE, 1.0, data)};
+  // A length, and two counts without an element.
+  const std::string path = std::string(8, '\0') + std::string(8, '\xff');
+  script.replies[{PLAYER_PLANNER_CODE, 0, PLAYER_PLANNER_REQ_GET_WAYPOINTS}] = {path};
+  ScriptedPlayerServer server(std::move(script));
+  PlayerClient client(server.host(), 6665);
+  PlayerCc::PlannerProxy planner(&client, 0);
+  client.Read();
+  EXPECT_EQ(planner.GetPathValid(), 1U);
+  EXPECT_EQ(planner.GetWaypointCount(), 0xffffffffU);  // what the planner says, nothing more
+  EXPECT_DOUBLE_EQ(planner.GetIx(5), 0.0);
+  EXPECT_THAT(error_of([&] { planner.RequestWaypoints(); }), HasSubstr("the payload ends in"));
+  EXPECT_FALSE(client.Connected());
 }
 
 TEST(HostilePlayerServers, CannotSendMapsOfAnySize) {

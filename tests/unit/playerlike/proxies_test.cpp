@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <future>
 #include <sstream>
 #include <thread>
@@ -315,6 +316,11 @@ TEST_F(Proxies, PropertiesAreTheSettingsOfTheDevice) {
   EXPECT_EQ(laser.GetIntProp(resolution, &i), -1);  // 0.5 is no whole number
   EXPECT_EQ(laser.GetBoolProp(beams, &b), -1);
   EXPECT_EQ(laser.GetStrProp(beams, &text), -1);
+  char type[] = "type";
+  ASSERT_EQ(laser.GetStrProp(type, &text), 0);
+  EXPECT_STREQ(text, "laser");
+  std::free(text);
+  text = nullptr;
   EXPECT_EQ(laser.SetDblProp(range_max, 1.0), -1);
   EXPECT_EQ(laser.SetIntProp(beams, 1), -1);
   EXPECT_EQ(laser.SetBoolProp(noise, true), -1);

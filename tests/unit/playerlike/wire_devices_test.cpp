@@ -1215,7 +1215,29 @@ TEST(WireDevices, PropertiesAndCapabilitiesAreThoseOfTheProxies) {
       count);
   EXPECT_FALSE(device.accepts(PLAYER_GET_BOOLPROP_REQ, player::BoolpropReq{beams, 0}));
   EXPECT_FALSE(device.accepts(PLAYER_GET_STRPROP_REQ, player::StrpropReq{beams, ""}));
-  EXPECT_FALSE(device.accepts(PLAYER_SET_INTPROP_REQ, player::IntpropReq{beams, 5}));
+  // Texts.
+  const auto text = [&](const char* name) {
+    return player::text_of(
+        device
+            .request<player::StrpropReq>(
+                PLAYER_GET_STRPROP_REQ, player::StrpropReq{player::text_bytes(name), std::string()})
+            .value);
+  };
+  EXPECT_EQ(text("type"), "laser");
+  EXPECT_EQ(text("name"), "laser");
+  EXPECT_EQ(text("robot"), "pioneer1");
+  // None can be set; the server's log says why.
+  const auto why = [&](int subtype, const auto& payload) {
+    try {
+      return std::string(device.accepts(subtype, payload) ? "accepted" : "refused");
+    } catch (const SessionError& e) {
+      return std::string(e.what());
+    }
+  };
+  EXPECT_THAT(why(PLAYER_SET_INTPROP_REQ, player::IntpropReq{beams, 5}),
+              HasSubstr("\"beams\" cannot be set"));
+  EXPECT_THAT(why(PLAYER_SET_STRPROP_REQ, player::StrpropReq{std::string(10'000'000, '\n'), "x"}),
+              HasSubstr("\"?\" cannot be set"));
   EXPECT_FALSE(device.accepts(PLAYER_GET_INTPROP_REQ,
                               player::IntpropReq{player::text_bytes("resolution"), 0}));
   EXPECT_FALSE(device.accepts(PLAYER_GET_DBLPROP_REQ,
