@@ -88,9 +88,9 @@ void add_new(CommandLine& line) {
       command.add_option("dir", request->folder, "Folder to make; it may be there if it is empty");
   line.takes(folder->required()->type_name(""), ValueKind::Kind::kFolder);
   command.footer(
-      "intro, planning, exploration, traps, exploration_changing and chase are the\n"
-      "course's tasks (docs/course_guide.md), client is the smallest client program,\n"
-      "with CMakeLists.txt and Makefile.\n"
+      "intro, planning, exploration, traps, exploration_changing, chase and\n"
+      "localization are the course's tasks (docs/course_guide.md), client is the\n"
+      "smallest client program, with CMakeLists.txt and Makefile.\n"
       "For example:\n"
       "  playpen new intro my_robot");
   command.callback([request, &line] {
