@@ -15,6 +15,7 @@
 #include "playerlike/messages/messages.h"
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"
+#include "sim/io/player_options.h"
 
 /// @file
 /// Reads the entries of a robot's `drivers` table and collects their errors.
@@ -97,10 +98,12 @@ class DriverReader {
       if (std::ranges::find(known_, key) != known_.end()) continue;
       std::string list;
       for (const std::string& name : known_) list += (list.empty() ? "" : ", ") + name;
-      const std::string near = sim::nearest_word(key, known_);
+      std::string hint = sim::hint_for_player_option(driver_.type, key);
+      if (const std::string near = sim::nearest_word(key, known_); hint.empty() && !near.empty()) {
+        hint = "did you mean \"" + near + "\"?";
+      }
       complain("world/unknown-key", key, "one of the settings of \"" + driver_.type + "\": " + list,
-               "the unknown key \"" + key + '"',
-               near.empty() ? "" : "did you mean \"" + near + "\"?");
+               "the unknown key \"" + key + '"', hint);
     }
   }
 

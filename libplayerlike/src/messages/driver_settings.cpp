@@ -367,12 +367,20 @@ Drivers read_all(const RobotParts& robot, const std::string& file, const std::st
     } else if (std::ranges::find(kConverters, driver.type) != std::end(kConverters)) {
       read_converter(reader, driver.type, robot);
     } else {
-      std::string list;
+      std::string list = "\"amcl\"";  // a device of libsim
+      std::vector<std::string> known = {"amcl"};
       for (const DriverType& type : driver_types()) {
-        list += (list.empty() ? "\"" : ", \"") + type.name + '"';
+        list += ", \"" + type.name + '"';
+        known.push_back(type.name);
+      }
+      std::string hint;
+      if (driver.type == "mapfile" || driver.type == "mapscale") {
+        hint = "not needed: map:0 is the map of the world's floor";
+      } else if (const std::string near = sim::nearest_word(driver.type, known); !near.empty()) {
+        hint = "did you mean \"" + near + "\"?";
       }
       reader.complain("world/unknown-driver", "type", "a driver that there is: " + list,
-                      '"' + driver.type + '"');
+                      '"' + driver.type + '"', hint);
     }
   }
   positions.fill(drivers.goal_drivers);

@@ -6,13 +6,14 @@
 #include "server/morse_services.h"
 #include "server/morse_state.h"
 #include "server/python_json.h"
+#include "sim/core/utf8.h"
 
 namespace playerlike::server {
 namespace {
 
 using nlohmann::json;
 
-/// Maximum length of an id, as in MORSE.
+/// Maximum length of an id in bytes.
 constexpr std::size_t kMaxId = 80;
 
 constexpr std::string_view kBlanks = " \t\r\v\f";
@@ -32,8 +33,9 @@ std::string_view without_blanks_behind(std::string_view text) {
 
 /// Whether an id can be echoed unchanged.
 bool is_valid_id(std::string_view id) {
-  return id.size() <= kMaxId &&
-         std::all_of(id.begin(), id.end(), [](char c) { return c > 0x20 && c < 0x7f; });
+  const auto is_control = [](char c) { return (c >= 0 && c <= 0x20) || c == 0x7f; };
+  return id.size() <= kMaxId && std::none_of(id.begin(), id.end(), is_control) &&
+         sim::find_invalid_utf8(id) == std::string_view::npos;
 }
 
 constexpr const char* kTooManyWrong = "too many wrong tokens came through this connection";
@@ -51,7 +53,15 @@ std::vector<std::string> tokens_in(const json& hello) {
 /// Parses the arguments of a request.
 json arguments_of(std::string_view text) {
   if (text.empty()) return json::array();
-  json list = protocol::decode_json_value(text);
+  json list;
+  try {
+    list = protocol::decode_json_value(text);
+  } catch (const protocol::ProtocolError& error) {
+    if (error.id() != "protocol/syntax") throw;
+    // The text of MORSE's _parse_request(), followed by the parser's own.
+    throw MorseRefusal("Invalid request syntax: error while parsing the parameters: <" +
+                       std::string(text) + ">. " + error.what());
+  }
   if (list.is_null()) return json::array();
   if (!list.is_array()) {
     throw MorseRefusal(std::string("arguments are a JSON list, found ") + list.type_name());
@@ -95,11 +105,13 @@ void MorseConnection::on_message(std::string_view line) {
   const std::string_view word = take_word(rest);
   if (word.empty()) return;  // an empty line has no id for an answer
   if (!is_valid_id(word)) {
-    return answer("-", "FAILED", "Malformed request: an id is 1 to 80 printable ASCII characters");
+    return answer("-", "FAILED",
+                  "Malformed request: an id is 1 to 80 bytes of UTF-8 without control characters");
   }
   const std::string id(word);
   const std::string_view component = take_word(rest);
   const std::string_view service = take_word(rest);
+  if (component.empty()) return answer(id, "FAILED", "Malformed request! ");  // as MORSE's
   if (component == "cancel" && service.empty()) return state_->cancel(*this, id);
   if (service.empty()) {
     return answer(id, "FAILED",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <unordered_set>
@@ -105,6 +106,7 @@ struct Reader::State {
   std::string pointer;
   std::vector<std::string> known;
   bool finished = false;
+  std::function<std::string(std::string_view)> hint_of{};  // for an unknown key
 
   void add(std::string id, std::string place, std::string expected, std::string found,
            std::string hint, int line) const {
@@ -451,6 +453,10 @@ void Reader::issue(std::string id, std::string expected, std::string found, std:
               std::move(hint), line);
 }
 
+void Reader::explain_unknown_keys(std::function<std::string(std::string_view)> hint_of) {
+  state_->hint_of = std::move(hint_of);
+}
+
 void Reader::finish() {
   if (state_->finished || !is_object()) return;
   state_->finished = true;
@@ -461,13 +467,16 @@ void Reader::finish() {
       continue;
     }
     if (state_->document->full()) return;
-    const std::string near = nearest_word(member.key, state_->known);
+    std::string hint = state_->hint_of ? state_->hint_of(member.key) : "";
+    if (const std::string near = nearest_word(member.key, state_->known);
+        hint.empty() && !near.empty()) {
+      hint = "did you mean " + in_quotes(near) + "?";
+    }
     state_->add("world/unknown-key", state_->place_of(member.key),
                 state_->known.empty()       ? "no key here"
                 : state_->known.size() == 1 ? "no key but " + state_->known.front()
                                             : "one of the keys " + list_text(state_->known),
-                "the unknown key " + in_quotes(member.key),
-                near.empty() ? "" : "did you mean " + in_quotes(near) + "?", member.key_line);
+                "the unknown key " + in_quotes(member.key), std::move(hint), member.key_line);
   }
 }
 

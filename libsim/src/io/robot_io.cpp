@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/solid_limits.h"
+#include "sim/io/player_options.h"
 #include "sim/world/limits.h"
 #include "sim/world/outline.h"
 
@@ -246,6 +247,8 @@ void read_driver_device(Reader& driver, std::vector<DeviceDescription>& devices,
                  "another device " + in_quotes(name),
                  "further ones are \"devices\" with names of their own", "type");
   } else {
+    driver.explain_unknown_keys(
+        [](std::string_view key) { return hint_for_player_option(kDriverDevice, key); });
     read_device(driver, name, {}, types, all);
   }
   devices.clear();

@@ -22,6 +22,7 @@
 #include "io/robot_io.h"
 #include "io/stage/stage_world.h"
 #include "io/world_document.h"
+#include "sim/io/player_options.h"
 #include "sim/world/limits.h"
 #include "sim/world/realism.h"
 #include "sim/world/view_mode.h"
@@ -549,7 +550,7 @@ class WorldReader {
         driver.settings[key] = *text;
       } else {
         setting.issue("world/wrong-type", "a number, a text, true or false",
-                      setting.description_for_message());
+                      setting.description_for_message(), hint_for_player_option(driver.type, key));
       }
     }
     return driver;

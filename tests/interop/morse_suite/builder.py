@@ -519,9 +519,10 @@ class Waypoint(Actuator):
     kind = "waypoint"
 
     def settings(self):
-        # MORSE's keeps its speed up to its goal, turns at half of it, and rolls out after a stop.
+        # MORSE's keeps its speed up to its goal, turns at half of it, and rolls out after a stop:
+        # the deceleration fits MORSE's waypoint_testing.
         return {"approach_gain": 50.0, "turn_gain": 4.0, "max_turn_rate_deg": degrees(0.5),
-                "stop_deceleration": 4.0}
+                "stop_deceleration": 3.0}
 
 
 class Destination(Actuator):

@@ -165,12 +165,13 @@ TEST_F(MorseProtocol, BadRequestsAreToldWhatIsWrongAndTheConnectionStays) {
   MorseClient client = start();
   for (const auto& [line, id, part] :
        std::vector<std::tuple<std::string, std::string, std::string>>{
-           {"x", "x", "Malformed request"},
+           {"x", "x", "Malformed request! "},
            {"x simulation", "x", "Malformed request"},
            {"x nothing at_all", "x", "there is no component \"nothing\""},
            {"x simulation nothing", "x", "nothing has not been registered for simulation; it has"},
            {"x r1.pose goto [1, 2, 3]", "x", "goto has not been registered for r1.pose"},
-           {"x simulation details [", "x", "protocol/syntax"},
+           {"x simulation details [", "x",
+            "Invalid request syntax: error while parsing the parameters: <[>. "},
            {"x simulation details {\"a\": 1}", "x", "arguments are a JSON list, found object"},
            {"x simulation details 3", "x", "found number"},
            {"x simulation details [1e999]", "x", "protocol/"},
@@ -184,7 +185,8 @@ TEST_F(MorseProtocol, BadRequestsAreToldWhatIsWrongAndTheConnectionStays) {
            {"x playpen nothing", "x", "only hello and token"},
            {"x playpen hello [1, 2]", "x", "wrong # of parameters"},
            {"x playpen token [1]", "x", "expected the token"},
-           {"\xff\x01 simulation details", "-", "an id is"},
+           {"\xff simulation details", "-", "an id is"},
+           {"\x01 simulation details", "-", "an id is"},
            {std::string(81, 'i') + " simulation details", "-", "an id is"},
        }) {
     client.send(line);
@@ -194,6 +196,12 @@ TEST_F(MorseProtocol, BadRequestsAreToldWhatIsWrongAndTheConnectionStays) {
     EXPECT_THAT(answer.result.get<std::string>(), HasSubstr(part)) << line;
   }
   EXPECT_EQ(client.get("time now"), 0.0);
+}
+
+TEST_F(MorseProtocol, IdsMayBeUtf8AsInMorse) {
+  MorseClient client = start();
+  client.send("\u00e41 time now");
+  EXPECT_EQ(client.receive().id, "\u00e41");
 }
 
 TEST_F(MorseProtocol, TextsThatAreNoUtf8AreRefusedOrShownReplaced) {

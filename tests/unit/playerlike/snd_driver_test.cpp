@@ -488,6 +488,31 @@ TEST(SndDriversTable, SettingsAreCheckedWhenTheWorldIsOpened) {
                     HasSubstr("world/unknown-driver")));
 }
 
+TEST(DriversTable, OptionsOfPlayerHintAtTheSettingThatTakesTheirPlace) {
+  EXPECT_THAT(fault(R"([{"type": "snd", "goal_position_tol": 0.1}])"),
+              AllOf(HasSubstr("world/unknown-key"),
+                    HasSubstr("Player's \"goal_position_tol\" is \"goal_distance\" here")));
+  EXPECT_THAT(fault(R"([{"type": "vfh", "max_turnrate_0ms": 90}])"),
+              HasSubstr("Player's \"max_turnrate_0ms\" is \"max_turnrate_0ms_deg\" here"));
+  EXPECT_THAT(fault(R"([{"type": "vfh", "escape_time": 1}])"),
+              HasSubstr("does not exist here: the driver stops after \"patience\""));
+  EXPECT_THAT(fault(R"([{"type": "goto", "debug": 1}])"),
+              HasSubstr("\"debug\" does not exist here)"));
+  EXPECT_THAT(fault(R"([{"type": "lasercspace", "provides": "laser:1"}])"),
+              HasSubstr("the indexes of devices are \"index\""));
+  // The reader of worlds finds these two.
+  EXPECT_THAT(
+      fault(R"([{"type": "nd", "max_speed": [0.3, 45]}])"),
+      AllOf(HasSubstr("world/wrong-type"),
+            HasSubstr("the numbers of Player's \"max_speed\" are the settings max_speed and "
+                      "max_turnrate_deg here")));
+  EXPECT_THAT(
+      fault(R"([{"type": "amcl", "odom_drift": 1}])"),
+      AllOf(HasSubstr("world/unknown-key"), HasSubstr("\"odom_alpha1\" to \"odom_alpha4\"")));
+  EXPECT_THAT(fault(R"([{"type": "mapfile"}])"),
+              AllOf(HasSubstr("\"amcl\""), HasSubstr("not needed: map:0 is the map")));
+}
+
 TEST(SndDriversTable, IndicesMustBeFreeAndDevicesMustBeThere) {
   EXPECT_THAT(fault(R"([{"type": "snd", "index": 1}])"), HasSubstr("world/driver-index"));
   EXPECT_THAT(fault(R"([{"type": "snd", "index": 3}, {"type": "snd", "index": 3}])"),

@@ -108,6 +108,19 @@ TEST(StageDrivers, WavefrontFollowsAmclAndDrivesByVfh) {
   EXPECT_THAT(world.notes, Each(Not(HasSubstr("is left out"))));
 }
 
+// As in the documentation of Player's vfh and wavefront.
+TEST(StageDrivers, WavefrontWhoseInputIsVfhUsesTheRobotsPosition) {
+  const WorldDescription world = read(
+      "driver ( name \"vfh\" provides [\"position2d:1\"] requires [\"position2d:0\" \"ranger:0\"] "
+      ")\n"
+      "driver ( name \"wavefront\" provides [\"planner:0\"]\n"
+      "  requires [\"output:::position2d:1\" \"input:::position2d:1\" \"map:0\"] )");
+  ASSERT_THAT(world.robots[0].drivers, SizeIs(2));
+  const auto& settings = world.robots[0].drivers[1].settings;
+  EXPECT_EQ(settings.at("output"), "1");
+  EXPECT_FALSE(settings.contains("position")) << "by default it is the robot's first one";
+}
+
 TEST(StageDrivers, ThatNeedALaserAreLeftOutWithoutOne) {
   for (const char* name : {"nd", "vfh", "snd", "amcl"}) {
     const WorldDescription world = read(std::string("driver ( name \"") + name +
@@ -131,6 +144,39 @@ TEST(StageDrivers, AmclUsesTheLaserInPlaceOfSonars) {
   EXPECT_THAT(world.notes,
               Contains(HasSubstr("options of the driver \"amcl\" are left out: odom_drift[0]")));
   EXPECT_THAT(world.notes, Each(Not(HasSubstr("mapscale"))));
+}
+
+TEST(StageDrivers, ThatMakeScansAreFurtherLasers) {
+  const WorldDescription world = read(
+      "driver ( name \"rangertolaser\" provides [\"laser:0\"] requires [\"ranger:0\"] )\n"
+      "driver ( name \"lasercspace\" provides [\"laser:2\"] requires [\"laser:0\"]\n"
+      "  radius 0.3 step 2 )\n"
+      "driver ( name \"laserposeinterpolator\" provides [\"laser:1\"]\n"
+      "  requires [\"laser:0\" \"position2d:0\"] interpolate 0 max_scans 10 )\n"
+      "driver ( name \"localbb\" provides [\"blackboard:0\"] )");
+  ASSERT_THAT(world.robots[0].drivers, SizeIs(2));
+  const DriverDescription& cspace = world.robots[0].drivers[0];
+  EXPECT_EQ(cspace.type, "lasercspace");
+  EXPECT_EQ(cspace.settings.at("index"), "2");
+  EXPECT_EQ(cspace.settings.at("laser"), "0");
+  EXPECT_EQ(cspace.settings.at("radius"), "0.3");
+  EXPECT_EQ(cspace.settings.at("step"), "2");
+  const DriverDescription& stamped = world.robots[0].drivers[1];
+  EXPECT_EQ(stamped.type, "laserposeinterpolator");
+  EXPECT_EQ(stamped.settings.at("index"), "1");
+  EXPECT_EQ(stamped.settings.at("position"), "0");
+  EXPECT_EQ(stamped.settings.at("interpolate"), "false");
+  EXPECT_THAT(world.notes, Contains(HasSubstr("are left out: max_scans")));
+  EXPECT_THAT(world.notes, Each(Not(HasSubstr("localbb"))));
+}
+
+TEST(StageDrivers, ThatReadTheScansOfADriverAreLeftOut) {
+  const WorldDescription world = read(
+      "driver ( name \"laserposeinterpolator\" provides [\"laser:1\"]\n"
+      "  requires [\"ranger:0\" \"position2d:0\"] )\n"
+      "driver ( name \"lasercspace\" provides [\"laser:2\"] requires [\"laser:1\"] )");
+  EXPECT_THAT(world.robots[0].drivers, SizeIs(1));
+  EXPECT_THAT(world.notes, Contains(HasSubstr("\"lasercspace\" is left out: it can use only")));
 }
 
 TEST(StageDrivers, OthersAreLeftOutWithAMessage) {

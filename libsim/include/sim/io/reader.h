@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -106,6 +107,9 @@ class Reader {
   /// Records an issue at this value (or at its member `key`).
   void issue(std::string id, std::string expected, std::string found, std::string hint = "",
              std::string_view key = "");
+
+  /// Sets the hint of finish() for an unknown key; if it is "", finish() suggests the nearest key.
+  void explain_unknown_keys(std::function<std::string(std::string_view)> hint_of);
 
   /// Records every key of this object that was not requested. A second call does nothing.
   void finish();

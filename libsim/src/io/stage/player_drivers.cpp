@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/document.h"
+#include "sim/io/player_options.h"
 
 namespace sim::io::stage {
 namespace {
@@ -17,6 +18,7 @@ enum class Unit : char {
   kAngle = 'a',   ///< degrees in worlds
   kNumber = 'f',  ///< also an angle that Player reads as a plain number of degrees
   kWhole = 'i',
+  kFlag = 'b',  ///< 0 or 1 in Player
 };
 
 /// An option of Player's driver and the setting of Playpen's that means the same.
@@ -28,7 +30,7 @@ struct Option {
   Unit unit;
 };
 
-// From the documentation of Player 3's drivers snd, vfh, nd, goto, wavefront and amcl.
+// From the documentation of Player 3's drivers.
 constexpr Option kOptions[] = {
     {"snd", "robot_radius", 0, "robot_radius", Unit::kLength},
     {"snd", "obstacle_avoid_dist", 0, "safety_distance", Unit::kLength},
@@ -93,6 +95,65 @@ constexpr Option kOptions[] = {
     {"amcl", "laser_range_var", 0, "laser_range_var", Unit::kLength},
     {"amcl", "laser_range_bad", 0, "laser_range_bad", Unit::kNumber},
     {"amcl", "init_pose_var", 2, "init_pose_var_yaw_deg", Unit::kAngle},
+    {"lasercspace", "radius", 0, "radius", Unit::kLength},
+    {"lasercspace", "step", 0, "step", Unit::kWhole},
+    {"laserposeinterpolator", "interpolate", 0, "interpolate", Unit::kFlag},
+};
+
+/// An option of Player's driver, or of all drivers, that does not exist here.
+struct Absent {
+  std::string_view driver;  ///< "": all
+  std::string_view name;
+  const char* instead;
+};
+
+constexpr const char* kIndices =
+    "the indexes of devices are \"index\", \"position\", \"laser\" and \"output\"";
+constexpr const char* kPatience = "the driver stops after \"patience\"";
+constexpr const char* kLaserOnly = "the driver uses a laser only";
+constexpr const char* kLocalDriver = "the driver of \"output\" drives and avoids obstacles";
+constexpr const char* kAllScans = "all scans are sent";
+constexpr const char* kNothing = "";
+
+constexpr Absent kAbsent[] = {
+    {"", "provides", kIndices},
+    {"", "requires", kIndices},
+    {"", "alwayson", "drivers start when a program uses them"},
+    {"snd", "min_gap_width", "the driver fits \"robot_radius\" through gaps"},
+    {"vfh", "escape_speed", kPatience},
+    {"vfh", "escape_time", kPatience},
+    {"vfh", "escape_max_turnrate", kPatience},
+    {"vfh", "synchronous", "the driver uses each scan"},
+    {"nd", "wait_on_stall", kNothing},
+    {"nd", "laser_buffer", "points of earlier scans are kept for 60 s"},
+    {"nd", "sonar_buffer", kLaserOnly},
+    {"nd", "sonar_bad_transducers", kLaserOnly},
+    {"goto", "reactive", kPatience},
+    {"goto", "reaction_turn_vel", kPatience},
+    {"goto", "reaction_time", kPatience},
+    {"goto", "forward_enabled", "commands are always forwarded"},
+    {"goto", "max_dist", kNothing},
+    {"goto", "early_check", kNothing},
+    {"goto", "send_everything", kNothing},
+    {"goto", "debug", kNothing},
+    {"wavefront", "cspace_file", "planning takes milliseconds"},
+    {"wavefront", "add_rotational_waypoints", "drivers turn on the spot by themselves"},
+    {"wavefront", "force_map_refresh", "the map is read once"},
+    {"wavefront", "request_map", "the map is read once"},
+    {"wavefront", "update_rate", "the planner uses each pose"},
+    {"wavefront", "velocity_control", kLocalDriver},
+    {"wavefront", "control_tv", kLocalDriver},
+    {"wavefront", "control_av", kLocalDriver},
+    {"wavefront", "control_a", kLocalDriver},
+    {"amcl", "odom_drift", "the odometry model is \"odom_alpha1\" to \"odom_alpha4\""},
+    {"amcl", "odom_init", "\"odometry\" names the device"},
+    {"amcl", "laser_pose", "it is the mount of the laser"},
+    {"amcl", "laser_range_max", "it is the range of the laser"},
+    {"amcl", "enable_gui", "pictures show the particles"},
+    {"laserposeinterpolator", "max_scans", "at most 100 scans wait"},
+    {"laserposeinterpolator", "update_thresh", kAllScans},
+    {"laserposeinterpolator", "update_interval", kAllScans},
+    {"laserposeinterpolator", "send_all_scans", kAllScans},
 };
 
 constexpr std::string_view kGoalDrivers[] = {"snd", "vfh", "nd", "goto"};
@@ -107,6 +168,7 @@ bool is_ignored(std::string_view name) {
 }
 
 Json value_of(double given, Unit unit) {
+  if (unit == Unit::kFlag) return given != 0.0;
   if (unit == Unit::kWhole) return std::lround(std::clamp(given, -1e9, 1e9));
   return neat(given);  // lengths in m, angles in degrees, both here and in worlds
 }
@@ -133,8 +195,8 @@ bool is_goal_driver(std::string_view name) {
          std::end(kGoalDrivers);
 }
 
-bool is_driver(std::string_view name) {
-  return is_goal_driver(name) || name == "wavefront" || name == "amcl";
+bool is_scan_driver(std::string_view name) {
+  return name == "lasercspace" || name == "laserposeinterpolator";
 }
 
 Json driver_settings(std::string_view name, const Properties& driver, Report& report) {
@@ -163,3 +225,33 @@ Json driver_settings(std::string_view name, const Properties& driver, Report& re
 }
 
 }  // namespace sim::io::stage
+
+namespace sim {
+
+std::string hint_for_player_option(std::string_view driver, std::string_view option) {
+  using namespace io::stage;
+  const std::string of_player = "Player's " + io::in_quotes(std::string(option));
+  std::vector<std::string> settings;
+  for (const Option& known : kOptions) {
+    if (known.driver != driver || known.name != option) continue;
+    if (known.element > 0 && settings.empty()) settings.emplace_back(option);
+    settings.emplace_back(known.setting);
+  }
+  if (settings.size() > 1) {
+    return "the numbers of " + of_player + " are the settings " + io::list_text(settings, " and ") +
+           " here";
+  }
+  if (!settings.empty()) {
+    return settings.front() == option
+               ? ""
+               : of_player + " is " + io::in_quotes(settings.front()) + " here";
+  }
+  for (const Absent& known : kAbsent) {
+    if ((known.driver != driver && !known.driver.empty()) || known.name != option) continue;
+    const std::string instead = known.instead;
+    return of_player + " does not exist here" + (instead.empty() ? "" : ": " + instead);
+  }
+  return "";
+}
+
+}  // namespace sim

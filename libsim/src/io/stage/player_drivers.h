@@ -9,13 +9,14 @@ namespace sim::io::stage {
 
 /// Whether a driver of Player is also one of Playpen that drives to goals: snd, vfh, nd, goto.
 [[nodiscard]] bool is_goal_driver(std::string_view name);
-/// Whether a driver of Player is also one of Playpen: a goal driver, wavefront or amcl.
-[[nodiscard]] bool is_driver(std::string_view name);
+/// Whether a driver of Player is also one of Playpen that makes scans: lasercspace,
+/// laserposeinterpolator.
+[[nodiscard]] bool is_scan_driver(std::string_view name);
 
 /// The settings of a driver's entry in a world, from the options in a configuration file. Options
 /// that Playpen's driver lacks are notes. Units are those of Player: lengths in m, angles in
 /// degrees.
-/// @param name  for which is_driver() is true.
+/// @param name  a goal driver, a scan driver, wavefront or amcl.
 [[nodiscard]] Json driver_settings(std::string_view name, const Properties& driver, Report& report);
 
 }  // namespace sim::io::stage

@@ -331,7 +331,8 @@ class PlayerFile {
   /// @return whether it is done; otherwise no robot is known yet whose devices it needs.
   bool add_driver(const OtherDriver& driver) {
     const std::string& name = driver.name;
-    if (name == "mapfile" || name == "mapscale") return true;  // a robot has the world's map
+    // A robot has the world's map and blackboard.
+    if (name == "mapfile" || name == "mapscale" || name == "localbb") return true;
     RobotDraft* robot = nullptr;
     for (const Address& address : driver.required) {
       if (robot == nullptr) robot = owner_of(address);
@@ -353,6 +354,8 @@ class PlayerFile {
       add_wavefront(driver, *robot);
     } else if (is_goal_driver(name)) {
       add_goal_driver(driver, *robot);
+    } else if (is_scan_driver(name)) {
+      add_scan_driver(driver, *robot);
     } else {
       leave_out(driver, "");
     }
@@ -441,6 +444,29 @@ class PlayerFile {
     robot.robot["drivers"].push_back(std::move(settings));
   }
 
+  void add_scan_driver(const OtherDriver& driver, RobotDraft& robot) {
+    const bool needs_scan_driver =
+        std::any_of(driver.required.begin(), driver.required.end(), [&](const Address& address) {
+          return address.interface == "laser" && is_scan_driver(driver_of(address));
+        });
+    if (needs_scan_driver) return leave_out(driver, "it can use only lasers that measure");
+    const std::optional<std::string> laser = laser_of(robot, driver.required);
+    if (!laser) return leave_out(driver, "the robot has no laser");
+    Json settings = settings_of(driver);
+    settings["laser"] = index_of_laser(robot, *laser);
+    if (driver.name == "laserposeinterpolator") {
+      settings["position"] =
+          local_index(robot, "position2d", index_of(driver.required, "position2d", "", 0));
+    }
+    // Below this number are the indexes of the robot's own lasers.
+    const auto lasers =
+        std::count_if(robot.list.begin(), robot.list.end(),
+                      [](const DraftDevice& device) { return device.type == "laser"; });
+    const int index = local_index(robot, "laser", index_of(driver.provided, "laser", "", 0));
+    if (index >= lasers) settings["index"] = index;
+    robot.robot["drivers"].push_back(std::move(settings));
+  }
+
   void add_amcl(const OtherDriver& driver, RobotDraft& robot) {
     const std::optional<std::string> laser = laser_of(robot, driver.required);
     if (!laser) return leave_out(driver, "the robot has no laser");
@@ -471,8 +497,9 @@ class PlayerFile {
         settings["output"] = index;
       } else if (driver_of(address) == "amcl") {
         settings["localize"] = 0;
-      } else if (address.interface == "position2d") {
-        settings["position"] = index;
+      } else if (address.interface == "position2d" &&
+                 taken_[&robot]["position2d"].contains(address.index)) {
+        settings["position"] = index;  // not the position of another driver, as of vfh
       }
     }
     robot.robot["drivers"].push_back(std::move(settings));
