@@ -18,7 +18,7 @@ struct GreyImage {
 /// Maximum side of an image for load_grey_image [pixels].
 inline constexpr int kMaxGreyImageSide = 16384;
 /// Maximum number of pixels, since a small file may claim a huge image.
-inline constexpr std::size_t kMaxGreyImagePixels = std::size_t{8192} * 8192;
+inline constexpr std::size_t kMaxGreyImagePixels = std::size_t{8192} * 16384;
 /// Maximum size of a file [bytes].
 inline constexpr std::size_t kMaxGreyImageBytes = std::size_t{256} << 20;
 
