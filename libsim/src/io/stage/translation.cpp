@@ -23,6 +23,37 @@ bool is_model(const std::string& type) {
          type == "puck" || type == "charger";
 }
 
+/// A name that a world's file may have.
+std::string world_name(const std::string& stage_name) {
+  std::string name;
+  for (const char c : stage_name) {
+    const bool ok = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                    c == '_' || c == '-';
+    name += ok ? c : '_';
+  }
+  if (name.empty()) name = "model";
+  name.resize(std::min<std::size_t>(name.size(), 56));
+  return name;
+}
+
+/// Names of the things of one kind.
+class Names {
+ public:
+  /// A name that no other thing has.
+  std::string unique(const std::string& stage_name) {
+    const std::string name = world_name(stage_name);
+    std::string made = name;
+    for (int& number = next_.try_emplace(name, 2).first->second; !taken_.insert(made).second;) {
+      made = name + "_" + std::to_string(number++);
+    }
+    return made;
+  }
+
+ private:
+  std::set<std::string> taken_;
+  std::map<std::string, int> next_;  ///< number to try next, by name
+};
+
 /// A solid or a map that is not part of a robot.
 struct Piece {
   Json json;
@@ -179,23 +210,6 @@ class Translator {
     most_ = most_.cwiseMax(p);
   }
 
-  /// A name for the world's file, unique among those of its kind.
-  static std::string world_name(const std::string& stage_name, std::set<std::string>& taken) {
-    std::string name;
-    for (const char c : stage_name) {
-      const bool ok = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                      c == '_' || c == '-';
-      name += ok ? c : '_';
-    }
-    if (name.empty()) name = "model";
-    name.resize(std::min<std::size_t>(name.size(), 56));
-    std::string unique = name;
-    for (int number = 2; !taken.insert(unique).second; ++number) {
-      unique = name + "_" + std::to_string(number);
-    }
-    return unique;
-  }
-
   /// How a model meets robots and their sensors.
   struct Returns {
     bool obstacle = true;
@@ -247,7 +261,7 @@ class Translator {
                    "models that are neither solid nor seen by rangers are left out");
       return;
     }
-    const std::string name = world_name(stage_name, obstacle_names_);
+    const std::string name = obstacle_names_.unique(stage_name);
     if (!returns.obstacle) {
       report_.note("obstacle_return", model.place_of("obstacle_return"),
                    "models with obstacle_return 0 are solid: robots do not drive through them");
@@ -285,7 +299,7 @@ class Translator {
     }
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       Json json;
-      json["name"] = i == largest ? name : world_name(stage_name, obstacle_names_);
+      json["name"] = i == largest ? name : obstacle_names_.unique(stage_name);
       if (!shape(blocks[i], body, frame.X, origin.pose, json, place)) continue;
       finish(json, foot_m + blocks[i].z_max_m);
       if (returns.blob) json["colour"] = to_string(colour);
@@ -396,7 +410,7 @@ class Translator {
                                                          {{-off.x(), 0.0}, {t, size.y()}}}};
     for (const auto& [center, extent] : sides) {
       Json json;
-      json["name"] = world_name(name + "_side", obstacle_names_);
+      json["name"] = obstacle_names_.unique(name + "_side");
       json["center"] = point_json(X_WM * center);
       json["yaw_deg"] = neat_deg(X_WM.yaw_rad);
       json["size"] = point_json(extent);
@@ -415,9 +429,7 @@ class Translator {
              const std::string& stage_name) {
     RobotDraft draft;
     draft.stage_name = stage_name;
-    std::set<std::string> none;
-    draft.kind =
-        model.entity().kinds.empty() ? "robot" : world_name(model.entity().kinds.front(), none);
+    draft.kind = model.entity().kinds.empty() ? "robot" : world_name(model.entity().kinds.front());
     draft.place = model.entity().place;
     draft.X_WB = frame.X;
     draft.foot_m = frame.foot_m;
@@ -443,7 +455,7 @@ class Translator {
     order_rangers(draft);
     set_body(report_, draft);
     extend_by(draft);
-    draft.robot["name"] = world_name(stage_name, robot_names_);
+    draft.robot["name"] = robot_names_.unique(stage_name);
     out_.robots.push_back(std::move(draft));
   }
 
@@ -524,7 +536,7 @@ class Translator {
                    "a solid around a robot becomes its walls: solids are hollow in Stage");
       const std::string name = piece.json["name"].get<std::string>() + "_side";
       for (Json& wall : walls_of(piece.outline_W, piece.json)) {
-        wall["name"] = world_name(name, obstacle_names_);
+        wall["name"] = obstacle_names_.unique(name);
         all.push_back({std::move(wall), piece.z_min_m, piece.z_max_m, piece.place, {}});
       }
     }
@@ -612,8 +624,8 @@ class Translator {
   std::vector<Piece> obstacles_;
   std::vector<Piece> maps_;
   std::map<std::string, int> counts_;
-  std::set<std::string> obstacle_names_;
-  std::set<std::string> robot_names_;
+  Names obstacle_names_;
+  Names robot_names_;
   std::set<const Entity*> window_;
   Vec2 least_ = Vec2::Constant(kInfinity);
   Vec2 most_ = Vec2::Constant(-kInfinity);
