@@ -168,6 +168,43 @@ TEST_F(StageFiles, PixelsThatAreTooSmallBecomeCoarser) {
   EXPECT_THAT(world.arena.walls, Not(IsEmpty()));
 }
 
+TEST_F(StageFiles, BitmapsMayBeBmp) {
+  // 2 x 2 pixels from the lower left: dark and light, then light and light.
+  const auto bmp = [](int bits, const std::string& palette, const std::string& rows) {
+    const auto number = [](std::size_t value, int bytes) {
+      std::string text;
+      for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xff);
+      return text;
+    };
+    const std::size_t offset = 54 + palette.size();
+    return "BM" + number(offset + rows.size(), 4) + number(0, 4) + number(offset, 4) +
+           number(40, 4) + number(2, 4) + number(2, 4) + number(1, 2) +
+           number(static_cast<std::size_t>(bits), 2) + number(0, 24) + palette + rows;
+  };
+  const std::string light = "\xff\xff\xff";
+  const std::string dark(3, '\0');
+  const std::string end(2, '\0');
+  const std::string colours = dark + '\0' + light + '\0';
+  const std::string files[] = {
+      bmp(24, "", dark + light + end + light + light + end),
+      bmp(1, colours, std::string("\x40\0\0\0\xc0\0\0\0", 8)),
+      bmp(8, colours, std::string("\0\1\0\0\1\1\0\0", 8)),
+  };
+  for (const std::string& file : files) {
+    folder_.write("plan.bmp", file);
+    const WorldDescription world = read(
+        "model ( bitmap \"plan.bmp\" size [4 4 1] )\nposition ( size [0.4 0.4 0.2] pose [5 0 0 0] "
+        ")\n");
+    // The only dark pixel is stretched to the size, as in Stage.
+    ASSERT_THAT(world.arena.walls, SizeIs(1));
+    EXPECT_NEAR(std::abs(area_m2(world.arena.walls[0].vertices)), 16.0, 1e-6);
+  }
+  folder_.write("plan.bmp", files[0].substr(0, 60));
+  EXPECT_EQ(issue_of("model ( bitmap \"plan.bmp\" )").id, "stage/bitmap");
+  folder_.write("plan.bmp", "BM");
+  EXPECT_EQ(issue_of("model ( bitmap \"plan.bmp\" )").id, "stage/bitmap");
+}
+
 TEST_F(StageFiles, PicturesMayHaveMoreThan8192PixelsASide) {
   write_dark_picture("wide.pgm", 9000, 2);
   const WorldDescription world = read(

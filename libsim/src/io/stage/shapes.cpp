@@ -127,7 +127,7 @@ std::optional<DarkArea> read_bitmap(const Properties& model, Report& report) {
     image = load_first_samples(file);
   } catch (const std::runtime_error& error) {
     report.error(place, "stage/bitmap",
-                 "a picture (PNG, JPEG, PBM, PGM, PPM) beside the world file", error.what(),
+                 "a picture (PNG, JPEG, BMP, PBM, PGM, PPM) beside the world file", error.what(),
                  "other formats: convert NAME NAME.png");
     return std::nullopt;
   }

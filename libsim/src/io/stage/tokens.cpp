@@ -114,7 +114,7 @@ class Lexer {
     double value = 0.0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     const bool whole = end == digits.data() + digits.size();
-    // libstage/worldfile.cc reads such a notation with atof().
+    // libstage/worldfile.cc reads what a notation begins with.
     const bool like_stage = text.find_first_not_of("0123456789.+-") == std::string_view::npos;
     if (error != std::errc() || !std::isfinite(value) || (!whole && !like_stage)) {
       throw ConfigError(issue_at(place, "stage/syntax", "a number", in_quotes(text)));
