@@ -160,6 +160,17 @@ position ( name "r0" size [0.4 0.4 0.2] pose [1 0 0 0] )
   EXPECT_NEAR(most_y_m, 3.0, 1e-6);
 }
 
+TEST_F(StageFiles, PathsOfAnotherComputerAreLookedForBesideTheWorld) {
+  folder_.write("bot.inc", "define bot position ( size [0.4 0.4 0.2] )\n");
+  write_dark_picture("plan.pgm", 4, 4);
+  const WorldDescription world = read(
+      "include \"/nowhere/at/all/bot.inc\"\n"
+      "model ( bitmap \"/nowhere/at/all/plan.pgm\" size [4 4 1] pose [5 0 0 0] )\n"
+      "bot ( )\n");
+  EXPECT_THAT(world.robots, SizeIs(1));
+  EXPECT_THAT(world.arena.walls, SizeIs(1));
+}
+
 TEST_F(StageFiles, PixelsThatAreTooSmallBecomeCoarser) {
   write_dark_picture("fine.pgm", 400, 1);
   const WorldDescription world = read(

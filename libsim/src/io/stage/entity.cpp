@@ -107,6 +107,9 @@ class WorldParser {
     std::vector<fs::path> places;
     if (wanted.is_absolute()) {
       places.push_back(wanted);
+      // A path of another computer: the file may lie beside the world.
+      places.push_back(folder_of(from) / wanted.filename());
+      places.push_back(root_folder_ / wanted.filename());
     } else {
       places.push_back(folder_of(from) / wanted);
       places.push_back(root_folder_ / wanted);

@@ -108,8 +108,14 @@ std::string bitmap_file(const std::string& name, const Place& place, const Repor
   for (const std::string& further : include_folders().before) folders.emplace_back(further);
   folders.push_back(folder / "..");
   std::error_code ignored;
+  const std::filesystem::path wanted(name);
   for (const std::filesystem::path& one : folders) {
-    if (std::filesystem::exists(one / name, ignored)) return (one / name).string();
+    if (std::filesystem::exists(one / wanted, ignored)) return (one / wanted).string();
+  }
+  // An absolute path of another computer: the picture may lie beside the world.
+  for (const std::filesystem::path& one : folders) {
+    const std::filesystem::path beside = one / wanted.filename();
+    if (wanted.is_absolute() && std::filesystem::exists(beside, ignored)) return beside.string();
   }
   return (folder / name).string();
 }
