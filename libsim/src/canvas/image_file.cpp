@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "canvas/bmp_codec.h"
 #include "canvas/jpeg_codec.h"
 #include "canvas/png_codec.h"
 #include "sim/core/file.h"
@@ -101,10 +102,11 @@ GreyImage load_png(const std::string& path, const Bytes& bytes, Keep keep) {
   return image;
 }
 
-GreyImage load_jpeg(const std::string& path, const Bytes& bytes) {
+GreyImage load_visited(const std::string& path, const Bytes& bytes,
+                       std::string (*decode)(const Bytes&, const PictureVisitor&)) {
   GreyImage image;
   std::string too_large;
-  JpegVisitor visitor;
+  PictureVisitor visitor;
   visitor.begin = [&](std::uint32_t width, std::uint32_t height) {
     try {
       check_size(path, width, height);
@@ -123,7 +125,7 @@ GreyImage load_jpeg(const std::string& path, const Bytes& bytes) {
   visitor.row = [&](const std::uint8_t* samples, int channels) {
     for (int x = 0; x < image.width; ++x) image.pixels.push_back(samples[x * channels]);
   };
-  const std::string reason = decode_jpeg(bytes, visitor);
+  const std::string reason = decode(bytes, visitor);
   if (!too_large.empty()) throw std::runtime_error(too_large);
   if (!reason.empty()) fail(path, reason);
   return image;
@@ -295,8 +297,9 @@ GreyImage load_first_samples(const std::string& path) {
   if (is_pgm(bytes)) return load_pgm(path, bytes);
   if (starts_with(bytes, "P1") || starts_with(bytes, "P4")) return load_pbm(path, bytes);
   if (starts_with(bytes, "P3") || starts_with(bytes, "P6")) return load_ppm(path, bytes);
-  if (starts_with(bytes, "\xff\xd8\xff")) return load_jpeg(path, bytes);
-  fail(path, "not a PNG, JPEG, PBM, PGM or PPM picture");
+  if (starts_with(bytes, "\xff\xd8\xff")) return load_visited(path, bytes, decode_jpeg);
+  if (starts_with(bytes, "BM")) return load_visited(path, bytes, decode_bmp);
+  fail(path, "not a PNG, JPEG, BMP, PBM, PGM or PPM picture");
 }
 
 }  // namespace sim

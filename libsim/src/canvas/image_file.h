@@ -18,7 +18,7 @@ struct GreyImage {
 /// Maximum side of an image for load_grey_image [pixels].
 inline constexpr int kMaxGreyImageSide = 16384;
 /// Maximum number of pixels, since a small file may claim a huge image.
-inline constexpr std::size_t kMaxGreyImagePixels = std::size_t{8192} * 8192;
+inline constexpr std::size_t kMaxGreyImagePixels = std::size_t{8192} * 16384;
 /// Maximum size of a file [bytes].
 inline constexpr std::size_t kMaxGreyImageBytes = std::size_t{256} << 20;
 
@@ -37,7 +37,7 @@ inline constexpr std::size_t kMaxGreyImageBytes = std::size_t{256} << 20;
 [[nodiscard]] GreyImage decode_grey_image(const std::vector<std::uint8_t>& bytes,
                                           const std::string& name);
 
-/// Reads the first sample of each pixel of a PNG, JPEG, PBM, PGM or PPM (plain or raw): red, or the
+/// Reads the first sample of each pixel of a PNG, JPEG, BMP, PBM, PGM or PPM (plain or raw): red, or the
 /// shade of grey. Transparency has no influence. Otherwise like load_grey_image.
 [[nodiscard]] GreyImage load_first_samples(const std::string& path);
 

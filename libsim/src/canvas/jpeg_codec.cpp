@@ -59,7 +59,7 @@ struct JpegDecoder {
 constexpr const char* kDamagedJpeg = "the JPEG is damaged or cut short";
 
 const char* decode_rows(JpegDecoder& decoder, const std::vector<std::uint8_t>& bytes,
-                        const JpegVisitor& visitor) {
+                        const PictureVisitor& visitor) {
   jpeg_decompress_struct& jpeg = decoder.jpeg;
   if (setjmp(decoder.back) != 0) return kDamagedJpeg;
   jpeg_create_decompress(&jpeg);
@@ -92,7 +92,7 @@ const char* decode_rows(JpegDecoder& decoder, const std::vector<std::uint8_t>& b
 
 }  // namespace
 
-std::string decode_jpeg(const std::vector<std::uint8_t>& bytes, const JpegVisitor& visitor) {
+std::string decode_jpeg(const std::vector<std::uint8_t>& bytes, const PictureVisitor& visitor) {
   JpegDecoder decoder;
   return decode_rows(decoder, bytes, visitor);
 }

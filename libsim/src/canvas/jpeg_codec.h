@@ -8,8 +8,8 @@
 
 namespace sim {
 
-/// What a program does with a JPEG that is decoded.
-struct JpegVisitor {
+/// What a program does with a picture that is decoded.
+struct PictureVisitor {
   /// Called with the size before any memory for pixels is allocated. @return whether to go on.
   std::function<bool(std::uint32_t width, std::uint32_t height)> begin;
   /// Called for each row from the top: `channels` samples for each pixel, 1 (grey) or 3 (RGB).
@@ -20,6 +20,6 @@ struct JpegVisitor {
 /// supported. Neither function of the visitor may throw.
 /// @return why it cannot be decoded; empty if all rows were visited, or begin() returned false.
 [[nodiscard]] std::string decode_jpeg(const std::vector<std::uint8_t>& bytes,
-                                      const JpegVisitor& visitor);
+                                      const PictureVisitor& visitor);
 
 }  // namespace sim

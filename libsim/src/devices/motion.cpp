@@ -212,7 +212,19 @@ void Motion::command_turn(double v_mps, double lateral_mps, double turn_rate_rad
 
 void Motion::command_twist(const Twist& twist) {
   mode_ = Mode::kTwist;
+  if (steers_by_commands()) return command_front_wheels(twist.v_mps, twist.omega_radps);
   command_turn(twist.v_mps, twist.lateral_mps, twist.omega_radps);
+}
+
+bool Motion::steers_by_commands() const {
+  return drive_.kind == DriveKind::kCar && drive_.steering_commands;
+}
+
+// DRIVE_CAR of libstage/model_position.cc of Stage 4.
+void Motion::command_front_wheels(double v_mps, double steering_rad) {
+  const double steering =
+      std::clamp(steering_rad, -drive_.max_steering_rad, drive_.max_steering_rad);
+  command_turn(v_mps * std::cos(steering), 0.0, v_mps * std::sin(steering) / drive_.wheelbase_m);
 }
 
 void Motion::command_car(double v_mps, double steering_rad) {
@@ -262,7 +274,11 @@ std::optional<std::string> Motion::apply(const Command& command) {
   if (const auto* car = std::get_if<CarCommand>(&command)) {
     if (!enabled_) return std::nullopt;
     mode_ = Mode::kCar;
-    command_car(car->v_mps, car->steering_rad);
+    if (steers_by_commands()) {
+      command_front_wheels(car->v_mps, car->steering_rad);
+    } else {
+      command_car(car->v_mps, car->steering_rad);
+    }
     return std::nullopt;
   }
   return Device::apply(command);
@@ -379,7 +395,10 @@ Twist Motion::ramped(double dt_s) {
 Command Motion::present_command() const {
   if (mode_ == Mode::kHeading) return heading_;
   if (mode_ == Mode::kPosition) return position_.command();
-  if (drive_.kind == DriveKind::kCar) return CarCommand{commanded_.v_mps, commanded_steering_rad_};
+  if (drive_.kind == DriveKind::kCar) {
+    const double share = steers_by_commands() ? std::cos(commanded_steering_rad_) : 1.0;
+    return CarCommand{commanded_.v_mps / share, commanded_steering_rad_};
+  }
   return TwistCommand{commanded_};
 }
 

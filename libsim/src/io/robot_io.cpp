@@ -130,6 +130,8 @@ DriveDescription read_drive(Reader& model) {
         reader->angle_deg("max_steering_deg", drive.max_steering_rad, {0.0, 80.0, true, "degrees"});
     drive.max_steering_rate_radps = reader->angle_deg(
         "max_steering_rate_deg", drive.max_steering_rate_radps, {0.0, 3600.0, false, "degrees/s"});
+    drive.steering_commands =
+        reader->choice("commands", "turn_rate", {"turn_rate", "steering"}) == "steering";
   }
   reader->finish();
   return drive;

@@ -96,6 +96,7 @@ void add(StateHash& hash, const RobotModel& model) {
         drive.max_steering_rate_radps}) {
     hash.add(value);
   }
+  if (drive.steering_commands) hash.add(1);
   for (const Superstructure& part : model.superstructures) {
     hash.add(part.height_m);
     hash.add(part.outline.size());

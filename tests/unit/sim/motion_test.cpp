@@ -168,6 +168,25 @@ TEST(CarDrive, SteersNoFurtherAndNoFasterThanItCan) {
   EXPECT_NEAR(motion.steering_rad(), 0.5, 1e-12);
 }
 
+TEST(CarDrive, WithSteeringCommandsTakesAnglesAndTheSpeedOfItsFrontWheels) {
+  DriveDescription drive = car();
+  drive.steering_commands = true;
+  Simulation simulation(room(drive, {10.0, 10.0, 0.0}));
+  const std::vector<Command> commands = {TwistCommand{{0.8, 0.4, 0.0}}, CarCommand{0.8, 0.4}};
+  for (const Command& one : commands) {
+    command(simulation, one);
+    run(simulation, 0.5);
+    // Stage: v cos(s) forward, turning at v sin(s) / wheelbase.
+    EXPECT_NEAR(simulation.body(0).twist.v_mps, 0.8 * std::cos(0.4), 1e-9);
+    EXPECT_NEAR(simulation.body(0).twist.omega_radps, 0.8 * std::sin(0.4) / 0.5, 1e-9);
+    const auto& motion = dynamic_cast<const Motion&>(simulation.device(0, kMotionDevice));
+    EXPECT_NEAR(motion.steering_rad(), 0.4, 1e-12);
+    const auto present = std::get<CarCommand>(motion.present_command());
+    EXPECT_NEAR(present.v_mps, 0.8, 1e-12);
+    EXPECT_NEAR(present.steering_rad, 0.4, 1e-12);
+  }
+}
+
 TEST(CarDrive, GetsTheTurnRateThatItIsToldByItsSteering) {
   Simulation simulation(room(car(), {10.0, 10.0, 0.0}));
   command(simulation, TwistCommand{{1.0, 0.8, 0.7}});  // it cannot move sideways

@@ -204,7 +204,7 @@ TEST(S1rModels, DifferFromTheS1rInWhatTheyCarryOnly) {
 constexpr const char* kModel = R"({
   "name": "box",
   "footprint": [[-0.1, 0.2], [0.3, 0.2], [0.3, -0.2], [-0.1, -0.2]],
-  "drive": {"kind": "car", "wheelbase": 0.25, "max_steering_deg": 45},
+  "drive": {"kind": "car", "wheelbase": 0.25, "max_steering_deg": 45, "commands": "steering"},
   "max_speed": 1.5,
   "devices": {"motion": {"max_speed": 1.5}, "eye": {"type": "laser", "beams": 9}}
 })";
@@ -222,6 +222,7 @@ TEST(ModelFiles, AreFoundBesideTheWorldsFile) {
   EXPECT_EQ(model.drive.kind, DriveKind::kCar);
   EXPECT_DOUBLE_EQ(model.drive.wheelbase_m, 0.25);
   EXPECT_NEAR(model.drive.max_steering_rad, M_PI / 4.0, 1e-12);
+  EXPECT_TRUE(model.drive.steering_commands);
   EXPECT_DOUBLE_EQ(model.max_speed_mps, 1.5);
   EXPECT_EQ(model.footprint.size(), 4U);  // given clockwise, kept counter-clockwise
   EXPECT_LT(model.footprint[0].y(), 0.0);

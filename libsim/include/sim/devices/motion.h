@@ -113,8 +113,9 @@ class PositionControl {
 ///
 /// Each command replaces the one before. What a drive cannot do is ignored: differential drives and
 /// cars ignore speeds to the left; a car stands still when commanded to turn on the spot. The front
-/// wheels of a car turn at the rate of its model. Any other drive that gets a CarCommand turns at v
-/// tan(steering) / wheelbase, with the length of the robot as its wheelbase.
+/// wheels of a car turn at the rate of its model. For a car with `steering_commands`, a twist's
+/// turn rate is the angle of the front wheels, and a speed is theirs. Any other drive that gets a
+/// CarCommand turns at v tan(steering) / wheelbase, with the length of the robot as its wheelbase.
 ///
 /// With a latency, execute() accepts a command at once, and the command takes effect that much
 /// later, in the order of commands. Placing the robot, and another device that takes the motors,
@@ -186,6 +187,8 @@ class Motion final : public Actuator {
   void stop();
   void command_twist(const Twist& twist);
   void command_car(double v_mps, double steering_rad);
+  [[nodiscard]] bool steers_by_commands() const;
+  void command_front_wheels(double v_mps, double steering_rad);
   void command_turn(double v_mps, double lateral_mps, double turn_rate_radps);
 
   // What each step needs comes first, so that it shares cache lines.

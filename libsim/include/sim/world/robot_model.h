@@ -19,6 +19,9 @@ enum class DriveKind {
 /// The drive of a robot.
 struct DriveDescription {
   DriveKind kind = DriveKind::kDifferential;
+  /// Of a car: commands give the speed of its front wheels, and TwistCommand's turn rate is their
+  /// angle [rad], as in Stage. Otherwise the speed is that of B, and a turn rate is a turn rate.
+  bool steering_commands = false;
   double wheel_radius_m = 0.04;          ///< [m], > 0
   double wheel_separation_m = 0.14;      ///< between the wheels' planes [m], > 0
   double wheelbase_m = 0.3;              ///< of a car: distance of the axles [m], > 0

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/document.h"
+#include "io/stage/report.h"
 #include "sim/core/file.h"
 
 namespace sim::io::stage {
@@ -36,8 +37,8 @@ struct Definition {
 
 class WorldParser {
  public:
-  WorldParser(const IncludeFolders* folders, const std::string& path)
-      : folders_(folders), root_folder_(folder_of(path)) {}
+  WorldParser(const IncludeFolders* folders, const std::string& path, Report* report)
+      : folders_(folders), root_folder_(folder_of(path)), report_(report) {}
 
   Entity run(std::string_view text, const std::string& path) {
     file(text, path, 0);
@@ -106,6 +107,9 @@ class WorldParser {
     std::vector<fs::path> places;
     if (wanted.is_absolute()) {
       places.push_back(wanted);
+      // A path of another computer: the file may lie beside the world.
+      places.push_back(folder_of(from) / wanted.filename());
+      places.push_back(root_folder_ / wanted.filename());
     } else {
       places.push_back(folder_of(from) / wanted);
       places.push_back(root_folder_ / wanted);
@@ -154,7 +158,14 @@ class WorldParser {
       fail(parent, "the model that " + in_quotes(name.text) + " is made from");
     }
     if (cursor.peek().kind != TokenKind::kOpenEntity) fail(cursor.peek(), "\"(\"");
-    definitions_[name.text] = {parent, items(cursor, 1)};
+    Definition definition{parent, items(cursor, 1)};
+    const auto [first, is_new] = definitions_.emplace(name.text, std::move(definition));
+    const Place& place = first->second.parent.place;
+    if (is_new || (*place.file == *name.place.file && place.line == name.place.line)) return;
+    report_->note("definition " + name.text, name.place,
+                  "this definition of " + in_quotes(name.text) +
+                      " has no effect: as in Stage, the first one counts, " + *place.file + ":" +
+                      std::to_string(place.line));
   }
 
   /// `( items )`; the cursor is at the bracket.
@@ -219,7 +230,12 @@ class WorldParser {
     return made;
   }
 
-  static Value value(const Token& token) {
+  Value value(const Token& token) {
+    if (token.cut && report_ != nullptr) {
+      report_->note("number " + token.text, token.place,
+                    "the number " + token.text + " is read as " + number_text(token.number) +
+                        ", as in Stage");
+    }
     return {token.kind != TokenKind::kNumber, token.number, token.text, token.place};
   }
 
@@ -257,6 +273,7 @@ class WorldParser {
 
   const IncludeFolders* folders_;  ///< null: a file without includes and definitions
   fs::path root_folder_;
+  Report* report_;  ///< null: nothing is reported
   std::map<std::string, Definition> definitions_;
   std::size_t items_ = 0;
   Entity root_;
@@ -299,12 +316,12 @@ IncludeFolders include_folders() {
 }
 
 Entity read_world_file(std::string_view text, const std::string& path,
-                       const IncludeFolders& folders) {
-  return WorldParser(&folders, path).run(text, path);
+                       const IncludeFolders& folders, Report& report) {
+  return WorldParser(&folders, path, &report).run(text, path);
 }
 
 Entity read_player_file(std::string_view text, const std::string& path) {
-  return WorldParser(nullptr, path).run(text, path);
+  return WorldParser(nullptr, path, nullptr).run(text, path);
 }
 
 }  // namespace sim::io::stage

@@ -10,6 +10,8 @@
 
 namespace sim::io::stage {
 
+class Report;
+
 /// A number or a text of a property.
 struct Value {
   bool is_text = false;
@@ -66,12 +68,14 @@ inline constexpr const char* kShippedFolder = "playpen:stage/";
 ///
 /// A file that is included is looked for beside the file that names it, beside the world file, in
 /// folders.before, among the shipped ones (by its name without folders), and in folders.after.
+/// As in Stage, the first definition of a name counts.
 /// @param path  of the world file; the text is what it contains.
+/// @param report  gets notes about definitions without effect and odd numbers.
 /// @return the entity of the whole file, of type "": its properties and models.
 /// @throws ConfigError for the first syntax error, an include that is not found, and definitions
 ///     that contain themselves.
 [[nodiscard]] Entity read_world_file(std::string_view text, const std::string& path,
-                                     const IncludeFolders& folders);
+                                     const IncludeFolders& folders, Report& report);
 
 /// Reads a configuration file of Player: the same syntax, without models. Entities of type "driver"
 /// are what matters.

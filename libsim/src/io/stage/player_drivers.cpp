@@ -19,6 +19,7 @@ enum class Unit : char {
   kNumber = 'f',  ///< also an angle that Player reads as a plain number of degrees
   kWhole = 'i',
   kFlag = 'b',  ///< 0 or 1 in Player
+  kHeading = 'h',  ///< a difference of headings, in degrees: 180 is any
 };
 
 /// An option of Player's driver and the setting of Playpen's that means the same.
@@ -37,7 +38,7 @@ constexpr Option kOptions[] = {
     {"snd", "max_speed", 0, "max_speed", Unit::kLength},
     {"snd", "max_turn_rate", 0, "max_turn_rate_deg", Unit::kAngle},
     {"snd", "goal_position_tol", 0, "goal_distance", Unit::kLength},
-    {"snd", "goal_angle_tol", 0, "goal_angle_deg", Unit::kAngle},
+    {"snd", "goal_angle_tol", 0, "goal_angle_deg", Unit::kHeading},
     {"vfh", "robot_radius", 0, "robot_radius", Unit::kLength},
     {"vfh", "cell_size", 0, "cell_size", Unit::kLength},
     {"vfh", "window_diameter", 0, "window_diameter", Unit::kWhole},
@@ -59,9 +60,9 @@ constexpr Option kOptions[] = {
     {"vfh", "weight_desired_dir", 0, "weight_desired_dir", Unit::kNumber},
     {"vfh", "weight_current_dir", 0, "weight_current_dir", Unit::kNumber},
     {"vfh", "distance_epsilon", 0, "distance_epsilon", Unit::kLength},
-    {"vfh", "angle_epsilon", 0, "angle_epsilon_deg", Unit::kAngle},
+    {"vfh", "angle_epsilon", 0, "angle_epsilon_deg", Unit::kHeading},
     {"nd", "goal_tol", 0, "goal_tol", Unit::kLength},
-    {"nd", "goal_tol", 1, "goal_tol_angle_deg", Unit::kAngle},
+    {"nd", "goal_tol", 1, "goal_tol_angle_deg", Unit::kHeading},
     {"nd", "max_speed", 0, "max_speed", Unit::kLength},
     {"nd", "max_speed", 1, "max_turnrate_deg", Unit::kAngle},
     {"nd", "min_speed", 0, "min_speed", Unit::kLength},
@@ -73,7 +74,7 @@ constexpr Option kOptions[] = {
     {"nd", "translate_stuck_dist", 0, "translate_stuck_dist", Unit::kLength},
     {"nd", "translate_stuck_angle", 0, "translate_stuck_angle_deg", Unit::kAngle},
     {"goto", "dist_tol", 0, "dist_tol", Unit::kNumber},
-    {"goto", "angle_tol", 0, "angle_tol_deg", Unit::kNumber},
+    {"goto", "angle_tol", 0, "angle_tol_deg", Unit::kHeading},
     {"goto", "max_vel", 0, "max_vel", Unit::kNumber},
     {"goto", "min_vel", 0, "min_vel", Unit::kNumber},
     {"goto", "max_angular_vel", 0, "max_angular_vel_deg", Unit::kNumber},
@@ -82,7 +83,7 @@ constexpr Option kOptions[] = {
     {"wavefront", "max_radius", 0, "max_radius", Unit::kLength},
     {"wavefront", "dist_penalty", 0, "dist_penalty", Unit::kNumber},
     {"wavefront", "distance_epsilon", 0, "distance_epsilon", Unit::kLength},
-    {"wavefront", "angle_epsilon", 0, "angle_epsilon_deg", Unit::kAngle},
+    {"wavefront", "angle_epsilon", 0, "angle_epsilon_deg", Unit::kHeading},
     {"wavefront", "replan_dist_thresh", 0, "replan_dist_thresh", Unit::kLength},
     {"wavefront", "replan_min_time", 0, "replan_min_time", Unit::kNumber},
     {"amcl", "update_thresh", 0, "update_thresh", Unit::kLength},
@@ -169,6 +170,7 @@ bool is_ignored(std::string_view name) {
 
 Json value_of(double given, Unit unit) {
   if (unit == Unit::kFlag) return given != 0.0;
+  if (unit == Unit::kHeading) return neat(std::clamp(given, -180.0, 180.0));
   if (unit == Unit::kWhole) return std::lround(std::clamp(given, -1e9, 1e9));
   return neat(given);  // lengths in m, angles in degrees, both here and in worlds
 }

@@ -89,6 +89,25 @@ const std::vector<InterfaceRow>& interface_rows() {
   return kRows;
 }
 
+/// The row of an interface; nullptr if models do not offer it.
+const InterfaceRow* row_of(std::string_view interface) {
+  for (const InterfaceRow& row : interface_rows()) {
+    if (row.interface == interface) return &row;
+  }
+  return nullptr;
+}
+
+/// Whether a device may have an address of an interface.
+bool fits(const InterfaceRow& row, const DraftDevice& device) {
+  return std::find(row.stage_types.begin(), row.stage_types.end(), device.stage_type) !=
+             row.stage_types.end() &&
+         (row.device.empty() || row.device == device.type);
+}
+
+bool is_offered(std::string_view interface) {
+  return interface == "position2d" || row_of(interface) != nullptr;
+}
+
 /// Interfaces that every robot or world has.
 bool is_everywhere(std::string_view interface) {
   constexpr std::string_view kNames[] = {"simulation", "speech", "graphics2d", "graphics3d", "map"};
@@ -168,13 +187,7 @@ class PlayerFile {
     const bool only_world =
         std::all_of(provided.begin(), provided.end(),
                     [](const Address& address) { return is_everywhere(address.interface); });
-    if (!driver.has("model")) {
-      if (!only_world) {
-        report_.error(driver.entity().place, "stage/no-model",
-                      "\"model\", the name of a model of the world", "a driver without it");
-      }
-      return;
-    }
+    if (!driver.has("model")) return without_model(driver, provided);
     const std::string name = driver.text("model", "");
     RobotDraft* robot = find_robot(name);
     if (robot == nullptr && !only_world) robot = missing_robot(driver.place_of("model"), name);
@@ -186,6 +199,19 @@ class PlayerFile {
     }
     for (const Address* address : unbound) {
       missing_device(*robot, *address, must_match_ && unbound.size() == provided.size());
+    }
+  }
+
+  /// A driver that names no model offers the interfaces of the world.
+  void without_model(const Properties& driver, const std::vector<Address>& provided) {
+    for (const Address& address : provided) {
+      if (is_everywhere(address.interface)) continue;
+      if (must_match_ && is_offered(address.interface)) {
+        report_.error(driver.entity().place, "stage/no-model",
+                      "\"model\", the name of a model of the world", "a driver without it");
+      } else {
+        note_interface(address);
+      }
     }
   }
 
@@ -240,28 +266,28 @@ class PlayerFile {
       return true;
     }
     if (address.interface == "position2d") {
+      if (!bound_.emplace(&robot, "position2d").second) return false;
       note_port(robot, address);
       take(robot, address, robot.robot["interfaces"]["position2d"][0].get<std::string>());
       return true;
     }
-    const auto row =
-        std::find_if(interface_rows().begin(), interface_rows().end(),
-                     [&](const InterfaceRow& r) { return r.interface == address.interface; });
-    if (row == interface_rows().end()) {
-      report_.note("interface " + address.interface, address.place,
-                   "the interface " + in_quotes(address.interface) + " is left out");
+    const InterfaceRow* const row = row_of(address.interface);
+    if (row == nullptr) {
+      note_interface(address);
       return true;
     }
     for (const DraftDevice& device : robot.list) {
-      const bool fits = std::find(row->stage_types.begin(), row->stage_types.end(),
-                                  device.stage_type) != row->stage_types.end() &&
-                        (row->device.empty() || row->device == device.type);
-      if (!fits || !bound_.emplace(&robot, device.name).second) continue;
+      if (!fits(*row, device) || !bound_.emplace(&robot, device.name).second) continue;
       note_port(robot, address);
       take(robot, address, device.name);
       return true;
     }
     return false;
+  }
+
+  void note_interface(const Address& address) {
+    report_.note("interface " + address.interface, address.place,
+                 "the interface " + in_quotes(address.interface) + " is left out");
   }
 
   void missing_device(const RobotDraft& robot, const Address& address, bool is_error) {
@@ -514,6 +540,37 @@ class PlayerFile {
     }
   }
 
+  /// Gives a robot that shares its port its indexes. Devices that the file does not name would have
+  /// the indexes of other robots' devices, so they are left out.
+  void share_port(RobotDraft& robot) {
+    std::set<std::string> named;
+    for (const auto& [interface, devices] : taken_[&robot]) {
+      for (const auto& [index, device] : devices) named.insert(device);
+    }
+    const auto drop = [&](const std::string& device) {
+      if (named.contains(device)) return;
+      robot.devices.erase(device);
+      std::erase_if(robot.list, [&](const DraftDevice& one) { return one.name == device; });
+      for (auto& [interface, list] : robot.robot["interfaces"].items()) {
+        Json kept = Json::array();
+        for (const Json& name : list) {
+          if (name != device) kept.push_back(name);
+        }
+        list = std::move(kept);
+      }
+    };
+    for (const auto& [interface, index] : first_[&robot]) {
+      robot.robot["proxies"][interface] = index;
+      std::vector<std::string> offered;
+      if (interface == "position2d") offered = {"pose", "odometry"};
+      const InterfaceRow* const row = row_of(interface);
+      for (const DraftDevice& device : robot.list) {
+        if (row != nullptr && fits(*row, device)) offered.push_back(device.name);
+      }
+      for (const std::string& device : offered) drop(device);
+    }
+  }
+
   /// One port for each robot, or one for all of them.
   void set_ports() {
     std::map<int, std::vector<RobotDraft*>> robots_of;
@@ -540,11 +597,7 @@ class PlayerFile {
       }
       shared = port;
       translation_.world["robots_on_port"] = port;
-      for (RobotDraft* robot : robots) {
-        for (const auto& [interface, index] : first_[robot]) {
-          robot->robot["proxies"][interface] = index;
-        }
-      }
+      for (RobotDraft* robot : robots) share_port(*robot);
     }
     if (shared == 0) return;
     // Robots without an address must not end on the shared port.

@@ -64,8 +64,7 @@ Json odometry_of(const Properties& model, const Context& context, const RobotDra
   return odometry;
 }
 
-void add_drive(const Properties& model, const Body& body, const Context& context,
-               RobotDraft& robot) {
+void add_drive(const Properties& model, const Body& body, RobotDraft& robot) {
   const std::size_t drive = model.choice("drive", 0, {"diff", "omni", "car"});
   Json json;
   constexpr const char* kKinds[] = {"differential", "omnidirectional", "car"};
@@ -77,9 +76,7 @@ void add_drive(const Properties& model, const Body& body, const Context& context
   if (drive == 2) {
     json["wheelbase"] = neat(wheelbase_m);
     json["max_steering_deg"] = 79;
-    context.report.note("car", model.place_of("drive"),
-                        "a car is steered with SetCarlike(speed, angle); the second number of "
-                        "SetSpeed is a turn rate, not the angle as in Stage");
+    json["commands"] = "steering";
   }
   robot.model["drive"] = std::move(json);
 }
@@ -135,7 +132,7 @@ void add_position(const Properties& model, const Body& body, const Context& cont
   constexpr double kDefaultMass_kg = 10.0;  // Stage has none, and does not use it for collisions
   const double mass_kg = model.number("mass", kDefaultMass_kg);
   robot.model["mass"] = neat(std::clamp(mass_kg > 0.0 ? mass_kg : kDefaultMass_kg, 0.001, 10000.0));
-  add_drive(model, body, context, robot);
+  add_drive(model, body, robot);
   add_limits(model, context, robot);
   // libstage/model_position.cc: "gps" reports the pose in the world, whatever the origin is.
   const bool odometric = model.choice("localization", 0, {"gps", "odom"}) == 1;

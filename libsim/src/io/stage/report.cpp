@@ -2,6 +2,7 @@
 #include "io/stage/report.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -48,6 +49,19 @@ std::vector<std::string> Report::notes() const {
 
 namespace {
 
+/// The number that a value is: one without quotes, or as in Stage a text of digits.
+std::optional<double> number_of(const Value& value) {
+  if (!value.is_text) return value.number;
+  std::string_view text = value.text;
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
 std::string described(const Property& property) {
   if (property.is_tuple) return "a tuple of " + std::to_string(property.values.size());
   const Value& value = property.values.front();
@@ -66,37 +80,38 @@ double Properties::unit(char kind) const {
   return kind == 'a' ? units_.angle_rad : 1.0;
 }
 
-const Value* Properties::single(std::string_view name, bool text, const char* expected) const {
+void Properties::wrong_type(const Property& property, const char* expected) const {
+  report_.error(property.place, "stage/wrong-type",
+                std::string(expected) + " for " + in_quotes(property.name), described(property));
+}
+
+std::optional<double> Properties::single(std::string_view name, const char* expected) const {
   const Property* property = entity_.find(name);
-  if (property == nullptr) return nullptr;
+  if (property == nullptr) return std::nullopt;
   // Stage takes the first number of a tuple for a number.
-  if (property->values.empty() || property->values.front().is_text != text) {
-    report_.error(property->place, "stage/wrong-type",
-                  std::string(expected) + " for " + in_quotes(name), described(*property));
-    return nullptr;
-  }
-  return &property->values.front();
+  std::optional<double> number;
+  if (!property->values.empty()) number = number_of(property->values.front());
+  if (!number) wrong_type(*property, expected);
+  return number;
 }
 
 double Properties::number(std::string_view name, double fallback) const {
-  const Value* value = single(name, false, "a number");
-  return value == nullptr ? fallback : value->number;
+  return single(name, "a number").value_or(fallback);
 }
 
 double Properties::length_m(std::string_view name, double fallback_m) const {
-  const Value* value = single(name, false, "a length");
-  return value == nullptr ? fallback_m : value->number * units_.length_m;
+  const std::optional<double> value = single(name, "a length");
+  return value ? *value * units_.length_m : fallback_m;
 }
 
 double Properties::angle_rad(std::string_view name, double fallback_rad) const {
-  const Value* value = single(name, false, "an angle");
-  return value == nullptr ? fallback_rad : value->number * units_.angle_rad;
+  const std::optional<double> value = single(name, "an angle");
+  return value ? *value * units_.angle_rad : fallback_rad;
 }
 
 int Properties::integer(std::string_view name, int fallback) const {
-  const Value* value = single(name, false, "a whole number");
-  if (value == nullptr) return fallback;
-  return static_cast<int>(std::clamp(std::trunc(value->number), -2e9, 2e9));
+  const std::optional<double> value = single(name, "a whole number");
+  return value ? static_cast<int>(std::clamp(std::trunc(*value), -2e9, 2e9)) : fallback;
 }
 
 bool Properties::flag(std::string_view name, bool fallback) const {
@@ -107,26 +122,23 @@ bool Properties::flag(std::string_view name, bool fallback) const {
     if (text == "true" || text == "visible") return true;
     if (text == "false" || text == "invisible") return false;
   }
-  const Value* value = single(name, false, "0 or 1");
-  return value == nullptr ? fallback : value->number != 0.0;
+  const std::optional<double> value = single(name, "0 or 1");
+  return value ? *value != 0.0 : fallback;
 }
 
 std::string Properties::text(std::string_view name, const std::string& fallback) const {
-  const Value* value = single(name, true, "a text in double quotes");
-  return value == nullptr ? fallback : value->text;
+  const Property* property = entity_.find(name);
+  if (property == nullptr) return fallback;
+  if (!property->values.empty()) return property->values.front().text;  // of a number its digits
+  wrong_type(*property, "a text in double quotes");
+  return fallback;
 }
 
 std::vector<std::string> Properties::texts(std::string_view name) const {
   std::vector<std::string> all;
   const Property* property = entity_.find(name);
   if (property == nullptr) return all;
-  for (const Value& value : property->values) {
-    if (value.is_text) {
-      all.push_back(value.text);
-    } else {
-      report_.error(value.place, "stage/wrong-type", "a text in double quotes", value.text);
-    }
-  }
+  for (const Value& value : property->values) all.push_back(value.text);
   return all;
 }
 
@@ -136,12 +148,13 @@ std::vector<double> Properties::numbers(std::string_view name, std::size_t most)
   if (property == nullptr) return all;
   for (const Value& value : property->values) {
     if (all.size() >= most) break;
-    if (value.is_text) {
+    const std::optional<double> number = number_of(value);
+    if (!number) {
       report_.error(value.place, "stage/wrong-type", "a number in the tuple " + in_quotes(name),
                     in_quotes(value.text));
       return {};
     }
-    all.push_back(value.number);
+    all.push_back(*number);
   }
   return all;
 }
@@ -162,13 +175,14 @@ Pose3 Properties::pose(std::string_view name, const Pose3& fallback) const {
 
 std::size_t Properties::choice(std::string_view name, std::size_t fallback,
                                const std::vector<std::string>& words) const {
-  const Value* value = single(name, true, "a text in double quotes");
-  if (value == nullptr) return fallback;
+  if (!has(name)) return fallback;
+  const std::string given = text(name, "");
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == value->text) return i;
+    if (words[i] == given) return i;
   }
-  report_.error(value->place, "stage/wrong-type", list_text(words) + " for " + in_quotes(name),
-                in_quotes(value->text));
+  report_.note(std::string(name) + " " + given, place_of(name),
+               std::string(name) + " " + in_quotes(given) + " is not one of " + list_text(words) +
+                   "; " + in_quotes(words[fallback]) + " is used, as in Stage");
   return fallback;
 }
 

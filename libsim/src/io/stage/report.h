@@ -66,7 +66,8 @@ struct Pose3 {
 };
 
 /// Typed access to the properties of an entity. Each getter marks its property as used, gives the
-/// fallback if there is none, and records an error if it has another type.
+/// fallback if there is none, and records an error if it has another type. As in Stage, a text of
+/// digits is a number, and a number in place of a text is its digits.
 class Properties {
  public:
   Properties(const Entity& entity, const Units& units, Report& report)
@@ -98,13 +99,14 @@ class Properties {
   /// `[x y z heading]`; `[x y heading]` in files of Stage 2.
   [[nodiscard]] Pose3 pose(std::string_view name, const Pose3& fallback = {}) const;
 
-  /// A property must be one of these words. @return its index; 0 and an error for others.
+  /// A property that is one of these words. @return its index; the fallback and a note for others.
   [[nodiscard]] std::size_t choice(std::string_view name, std::size_t fallback,
                                    const std::vector<std::string>& words) const;
 
  private:
   [[nodiscard]] double unit(char kind) const;
-  [[nodiscard]] const Value* single(std::string_view name, bool text, const char* expected) const;
+  [[nodiscard]] std::optional<double> single(std::string_view name, const char* expected) const;
+  void wrong_type(const Property& property, const char* expected) const;
 
   const Entity& entity_;
   const Units& units_;

@@ -20,18 +20,19 @@ namespace {
 constexpr int kMostPoints = 1000;  ///< of a block
 constexpr std::uint8_t kDarkest = 127;
 
-/// Reads a block's points [0] to [count - 1].
-Block read_block(const Properties& block, Report& report) {
+/// Reads the corners [0] to [points - 1] of a block.
+/// @param prefix  of the names of its properties.
+Block read_corners(const Properties& block, const std::string& prefix, Report& report) {
   Block made;
-  const int count = block.integer("points", 0);
+  const int count = block.integer(prefix + "points", 0);
   if (count < 3 || count > kMostPoints) {
-    report.error(block.place_of("points"), "stage/bad-block",
+    report.error(block.place_of(prefix + "points"), "stage/bad-block",
                  "3 to " + std::to_string(kMostPoints) + " points of a block",
-                 block.has("points") ? std::to_string(count) : "no \"points\"");
+                 block.has(prefix + "points") ? std::to_string(count) : "no \"points\"");
     return made;
   }
   for (int i = 0; i < count; ++i) {
-    const std::string name = "point[" + std::to_string(i) + "]";
+    const std::string name = prefix + "point[" + std::to_string(i) + "]";
     if (!block.has(name)) {
       report.error(block.entity().place, "stage/bad-block",
                    "the points point[0] to point[" + std::to_string(count - 1) + "] of a block",
@@ -41,10 +42,30 @@ Block read_block(const Properties& block, Report& report) {
     const auto xy = block.tuple<2>(name, "ll", {0.0, 0.0});
     made.points.emplace_back(xy[0], xy[1]);
   }
+  return made;
+}
+
+Block read_block(const Properties& block, Report& report) {
+  Block made = read_corners(block, "", report);
   const auto z = block.tuple<2>("z", "ll", {0.0, 0.0});
   made.z_min_m = z[0];
   made.z_max_m = z[1];
   return made;
+}
+
+/// Reads the polygons of Stage 2: `polygons 1`, `polygon[0].points 3`, `polygon[0].point[0] [x y]`.
+std::vector<Block> read_polygons(const Properties& model, Report& report) {
+  constexpr int kMostPolygons = 1000;
+  std::vector<Block> all;
+  const int count = std::min(model.integer("polygons", 0), kMostPolygons);
+  for (int i = 0; i < count; ++i) {
+    const std::string prefix = "polygon[" + std::to_string(i) + "].";
+    Block made = read_corners(model, prefix, report);
+    made.z_max_m = 1.0;  // stretched to the size
+    static_cast<void>(model.has(prefix + "filled"));
+    if (!made.points.empty()) all.push_back(std::move(made));
+  }
+  return all;
 }
 
 /// The dark pixels of a picture.
@@ -87,8 +108,14 @@ std::string bitmap_file(const std::string& name, const Place& place, const Repor
   for (const std::string& further : include_folders().before) folders.emplace_back(further);
   folders.push_back(folder / "..");
   std::error_code ignored;
+  const std::filesystem::path wanted(name);
   for (const std::filesystem::path& one : folders) {
-    if (std::filesystem::exists(one / name, ignored)) return (one / name).string();
+    if (std::filesystem::exists(one / wanted, ignored)) return (one / wanted).string();
+  }
+  // An absolute path of another computer: the picture may lie beside the world.
+  for (const std::filesystem::path& one : folders) {
+    const std::filesystem::path beside = one / wanted.filename();
+    if (wanted.is_absolute() && std::filesystem::exists(beside, ignored)) return beside.string();
   }
   return (folder / name).string();
 }
@@ -106,14 +133,8 @@ std::optional<DarkArea> read_bitmap(const Properties& model, Report& report) {
     image = load_first_samples(file);
   } catch (const std::runtime_error& error) {
     report.error(place, "stage/bitmap",
-                 "a picture (PNG, JPEG, PBM, PGM, PPM) beside the world file", error.what(),
+                 "a picture (PNG, JPEG, BMP, PBM, PGM, PPM) beside the world file", error.what(),
                  "other formats: convert NAME NAME.png");
-    return std::nullopt;
-  }
-  if (image.width > kMaxMapSide || image.height > kMaxMapSide) {
-    report.error(place, "stage/bitmap",
-                 "a picture of at most " + std::to_string(kMaxMapSide) + " pixels a side",
-                 std::to_string(image.width) + " x " + std::to_string(image.height));
     return std::nullopt;
   }
   DarkArea area = dark_area_of(image);
@@ -123,6 +144,21 @@ std::optional<DarkArea> read_bitmap(const Properties& model, Report& report) {
     return std::nullopt;
   }
   return area;
+}
+
+/// An area with pixels that are several times as large along x and y: dark if one of theirs is.
+DarkArea coarser(const DarkArea& area, int times_x, int times_y) {
+  DarkArea coarse;
+  coarse.width = (area.width + times_x - 1) / times_x;
+  coarse.height = (area.height + times_y - 1) / times_y;
+  const auto width = static_cast<std::size_t>(coarse.width);
+  coarse.solid.assign(width * static_cast<std::size_t>(coarse.height), 0);
+  auto solid = area.solid.begin();
+  for (int y = 0; y < area.height; ++y) {
+    std::uint8_t* const row = coarse.solid.data() + static_cast<std::size_t>(y / times_y) * width;
+    for (int x = 0; x < area.width; ++x) row[x / times_x] |= *solid++;
+  }
+  return coarse;
 }
 
 /// Stretches blocks to a size.
@@ -167,6 +203,7 @@ Body read_body(const Properties& model, const Units& units, Report& report,
     Block block = read_block(Properties(child, units, report), report);
     if (!block.points.empty()) body.blocks.push_back(std::move(block));
   }
+  if (body.blocks.empty()) body.blocks = read_polygons(model, report);
   if (model.has("bitmap")) body.bitmap = read_bitmap(model, report);
   const bool own = has_block && !model.flag("noblocks", false);
   if (body.blocks.empty() && !model.has("bitmap") && own) {
@@ -257,6 +294,17 @@ std::vector<Vec2> extreme_points(const DarkArea& area, const Vec2& size_m) {
     }
   }
   return points;
+}
+
+DarkArea map_area(const DarkArea& area, const Vec2& size_m) {
+  const auto times = [](int pixels, double side_m) {
+    constexpr double kLeastPixel_m = 0.002;  // the physics cannot build anything much thinner
+    const double most = std::clamp(side_m / kLeastPixel_m, 1.0, double{kMaxMapSide});
+    return static_cast<int>(std::ceil(pixels / most));
+  };
+  const int times_x = times(area.width, size_m.x());
+  const int times_y = times(area.height, size_m.y());
+  return times_x == 1 && times_y == 1 ? area : coarser(area, times_x, times_y);
 }
 
 std::optional<std::vector<Polygon>> outlines_of(const DarkArea& area, const Vec2& size_m) {

@@ -38,8 +38,8 @@ struct Body {
 /// Thickness of the walls of a boundary [m], as in libstage/model.cc.
 inline constexpr double kBoundaryThickness_m = 0.01;
 
-/// Reads the body of a model: `size`, `block` entities (of Stage 2 also `polygon[0].point[0]`),
-/// `bitmap`, `boundary`, `noblocks`.
+/// Reads the body of a model: `size`, `block` entities or the polygons of Stage 2, `bitmap`,
+/// `boundary`, `noblocks`.
 ///
 /// As in Stage (BlockGroup::CalcSize of libstage/blockgroup.cc), all blocks together are stretched
 /// so that the box around them is the model's size, and so are the dark pixels of a bitmap. A pixel
@@ -67,6 +67,10 @@ void reduce_corners(Polygon& outline, std::size_t most);
 /// holes, or large: then it is a floor plan.
 [[nodiscard]] std::optional<std::vector<Polygon>> outlines_of(const DarkArea& area,
                                                               const Vec2& size_m);
+
+/// A dark area for a map of that size: with coarser pixels if its own are less than 2 mm wide, or
+/// if there are more than 8192 along a side. A coarse pixel is dark if one of those within is.
+[[nodiscard]] DarkArea map_area(const DarkArea& area, const Vec2& size_m);
 
 /// A dark area as a PNG, black on white.
 [[nodiscard]] std::string png_of(const DarkArea& area);

@@ -43,7 +43,7 @@ std::optional<Entity> find_config(const fs::path& world, Report& report, const P
   constexpr std::size_t kMostFiles = 200;
   std::vector<fs::path> files;
   std::error_code error;
-  const fs::path folder = folder_of(world.string());
+  const fs::path folder = world.has_parent_path() ? folder_of(world.string()) : ".";
   for (fs::directory_iterator file(folder, error), end; !error && file != end;
        file.increment(error)) {
     if (file->path().extension() == ".cfg" && files.size() < kMostFiles) {
@@ -75,6 +75,22 @@ std::optional<Entity> find_config(const fs::path& world, Report& report, const P
                     "; name one instead of the world to use its ports");
   }
   return std::nullopt;
+}
+
+/// Whether a text is XML, as worlds of Gazebo are.
+bool is_xml(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && text[first] == '<';
+}
+
+void refuse_gazebo(const std::string& path, std::string_view text) {
+  if (!is_xml(text)) return;
+  throw ConfigError({"stage/gazebo", path, "", "a world file of Stage",
+                     "XML, as in worlds of Gazebo (SDF)",
+                     "Playpen reads worlds of Stage and its own; describe the walls of this world "
+                     "in one of these"});
 }
 
 std::string content_of(const std::string& path, const Place* named_at, const char* what) {
@@ -195,8 +211,9 @@ Result import(const std::string& path, const std::string& text, const std::strin
     config = read_player_file(content_of(config_path, nullptr, "a configuration file of Player"),
                               config_path);
   }
+  refuse_gazebo(world_path, world_text);
   Report report(world_path);
-  const Entity root = read_world_file(world_text, world_path, include_folders());
+  const Entity root = read_world_file(world_text, world_path, include_folders(), report);
   const bool must_match = config.has_value();
   const Place first_line{std::make_shared<const std::string>(world_path), 1, 1};
   if (!config) config = find_config(world_path, report, first_line);

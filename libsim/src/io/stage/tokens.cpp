@@ -62,7 +62,7 @@ class Lexer {
   }
 
   void add(TokenKind kind, std::string text, Place place, double number = 0.0) {
-    tokens_.push_back({kind, std::move(text), number, std::move(place)});
+    tokens_.push_back({kind, std::move(text), number, false, std::move(place)});
   }
 
   void next() {
@@ -113,10 +113,14 @@ class Lexer {
     const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
     double value = 0.0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
+    const bool whole = end == digits.data() + digits.size();
+    // libstage/worldfile.cc reads what a notation begins with.
+    const bool like_stage = text.find_first_not_of("0123456789.+-") == std::string_view::npos;
+    if (error != std::errc() || !std::isfinite(value) || (!whole && !like_stage)) {
       throw ConfigError(issue_at(place, "stage/syntax", "a number", in_quotes(text)));
     }
     add(TokenKind::kNumber, std::string(text), place, value);
+    tokens_.back().cut = !whole;
   }
 
   void string() {

@@ -43,6 +43,7 @@ struct Token {
   TokenKind kind = TokenKind::kEnd;
   std::string text;
   double number = 0.0;  ///< of a number
+  bool cut = false;     ///< of a number: only its beginning is one, as in 0.5.2
   Place place;
 };
 
@@ -53,7 +54,8 @@ struct Token {
 ///
 /// Words begin with a letter or `_`, and continue with letters, digits, `.`, `-`, `_`, `:` and
 /// indexes in square brackets, as in `point[3]`. Numbers are read whatever the locale; an exponent
-/// is allowed.
+/// is allowed. As in Stage, a notation like 0.5.2 is the number that it begins with, see
+/// Token::cut.
 /// @throws ConfigError for a character that begins no token, a number that is none, and a string
 ///     without an end.
 [[nodiscard]] std::vector<Token> tokens_of(std::string_view text,

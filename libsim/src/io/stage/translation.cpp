@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "io/document.h"
+#include "io/stage/left_out.h"
 #include "sim/world/outline.h"
 
 namespace sim::io::stage {
@@ -18,78 +18,41 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Properties that only change the look of Stage's window.
-bool is_look(std::string_view name) {
-  constexpr std::string_view kNames[] = {"show_clock",
-                                         "show_clock_interval",
-                                         "trail_length",
-                                         "trail_interval",
-                                         "paused",
-                                         "speedup",
-                                         "interval_real",
-                                         "interval",
-                                         "gui_disable",
-                                         "gui_interval",
-                                         "line_style",
-                                         "texture",
-                                         "say"};
-  return name.starts_with("gui_") || name == "window" ||
-         std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
-}
-
-/// Properties without an effect on what programs see.
-bool is_without_effect(std::string_view name) {
-  constexpr std::string_view kNames[] = {"alwayson",
-                                         "map_resolution",
-                                         "event_queue",
-                                         "threads",
-                                         "resolution",
-                                         "friction",
-                                         "debug",
-                                         "stack_children",
-                                         "update_interval",
-                                         "watts",
-                                         "power_on",
-                                         "color",
-                                         "color_rgba",
-                                         "ssize",
-                                         "joules",
-                                         "kjoules",
-                                         "joules_capacity",
-                                         "kjoules_capacity",
-                                         "colors_count",
-                                         "range_min",
-                                         "blobfinder_return",
-                                         "audio_return",
-                                         "puck_return",
-                                         "bitmap_resolution",
-                                         "z",
-                                         "points",
-                                         "noblocks",
-                                         "boundary",
-                                         "size",
-                                         "name",
-                                         "mass",
-                                         "laser_return",
-                                         "ranger_return",
-                                         "blob_return",
-                                         "gripper_return",
-                                         "obstacle_return",
-                                         "fiducial_return",
-                                         "pose",
-                                         "origin",
-                                         "test",
-                                         "quit_time",
-                                         "interval_sim",
-                                         "unit_length",
-                                         "unit_angle"};
-  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
-}
-
 bool is_model(const std::string& type) {
   return type == "model" || type == "position" || type == "map" || type == "box" ||
          type == "puck" || type == "charger";
 }
+
+/// A name that a world's file may have.
+std::string world_name(const std::string& stage_name) {
+  std::string name;
+  for (const char c : stage_name) {
+    const bool ok = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                    c == '_' || c == '-';
+    name += ok ? c : '_';
+  }
+  if (name.empty()) name = "model";
+  name.resize(std::min<std::size_t>(name.size(), 56));
+  return name;
+}
+
+/// Names of the things of one kind.
+class Names {
+ public:
+  /// A name that no other thing has.
+  std::string unique(const std::string& stage_name) {
+    const std::string name = world_name(stage_name);
+    std::string made = name;
+    for (int& number = next_.try_emplace(name, 2).first->second; !taken_.insert(made).second;) {
+      made = name + "_" + std::to_string(number++);
+    }
+    return made;
+  }
+
+ private:
+  std::set<std::string> taken_;
+  std::map<std::string, int> next_;  ///< number to try next, by name
+};
 
 /// A solid or a map that is not part of a robot.
 struct Piece {
@@ -97,6 +60,7 @@ struct Piece {
   double z_min_m;
   double z_max_m;
   Place place;
+  Polygon outline_W;  ///< of a block that may be hollow [m]; otherwise empty
 };
 
 class Translator {
@@ -186,6 +150,14 @@ class Translator {
   }
 
   void refuse_type(const Entity& entity) {
+    if (is_of_stage_1(entity.type)) {
+      report_.error(entity.place, "stage/unknown-model",
+                    "a model of Stage 2 to 4, or one that is defined before",
+                    in_quotes(entity.type),
+                    "this was a model of Stage 1; Playpen does not read "
+                    "worlds of Stage 1");
+      return;
+    }
     std::vector<std::string> known{"model", "position", "block", "sensor"};
     for (const char* device : {"ranger", "laser", "fiducial", "blobfinder", "bumper", "gripper",
                                "camera", "blinkenlight", "actuator", "ptz", "wifi"}) {
@@ -210,7 +182,7 @@ class Translator {
       return;
     }
     const Properties properties(entity, units_, report_);
-    if (is_device(entity.type)) {
+    if (is_device(entity.type) || is_old_device(entity.type)) {
       report_.note("device " + entity.type, entity.place,
                    "a " + entity.type + " that is not on a position model is left out");
       return;
@@ -236,23 +208,6 @@ class Translator {
   void extend(const Vec2& p) {
     least_ = least_.cwiseMin(p);
     most_ = most_.cwiseMax(p);
-  }
-
-  /// A name for the world's file, unique among those of its kind.
-  static std::string world_name(const std::string& stage_name, std::set<std::string>& taken) {
-    std::string name;
-    for (const char c : stage_name) {
-      const bool ok = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                      c == '_' || c == '-';
-      name += ok ? c : '_';
-    }
-    if (name.empty()) name = "model";
-    name.resize(std::min<std::size_t>(name.size(), 56));
-    std::string unique = name;
-    for (int number = 2; !taken.insert(unique).second; ++number) {
-      unique = name + "_" + std::to_string(number);
-    }
-    return unique;
   }
 
   /// How a model meets robots and their sensors.
@@ -306,7 +261,7 @@ class Translator {
                    "models that are neither solid nor seen by rangers are left out");
       return;
     }
-    const std::string name = world_name(stage_name, obstacle_names_);
+    const std::string name = obstacle_names_.unique(stage_name);
     if (!returns.obstacle) {
       report_.note("obstacle_return", model.place_of("obstacle_return"),
                    "models with obstacle_return 0 are solid: robots do not drive through them");
@@ -344,15 +299,20 @@ class Translator {
     }
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       Json json;
-      json["name"] = i == largest ? name : world_name(stage_name, obstacle_names_);
+      json["name"] = i == largest ? name : obstacle_names_.unique(stage_name);
       if (!shape(blocks[i], body, frame.X, origin.pose, json, place)) continue;
       finish(json, foot_m + blocks[i].z_max_m);
       if (returns.blob) json["colour"] = to_string(colour);
       if (returns.fiducial > 0 && i == largest) json["fiducial"] = returns.fiducial;
       if (returns.gripper) json["portable"] = true;
-      for (const Vec2& point : blocks[i].points) extend(X_WM * point);
-      obstacles_.push_back(
-          {std::move(json), foot_m + blocks[i].z_min_m, foot_m + blocks[i].z_max_m, place});
+      Polygon outline_W;
+      for (const Vec2& point : blocks[i].points) {
+        outline_W.push_back(X_WM * point);
+        extend(outline_W.back());
+      }
+      if (returns.gripper) outline_W.clear();
+      obstacles_.push_back({std::move(json), foot_m + blocks[i].z_min_m, foot_m + blocks[i].z_max_m,
+                            place, std::move(outline_W)});
     }
     if (returns.fiducial > 0 && blocks.empty()) {
       report_.note("fiducial of a bitmap", place,
@@ -428,13 +388,13 @@ class Translator {
   void add_map(const DarkArea& area, const Body& body, const Pose& X_WM, double foot_m,
                const std::string& name, const Place& place, const Finish& finish) {
     const std::string file = name + ".png";
-    out_.files[file] = png_of(area);
+    out_.files[file] = png_of(map_area(area, {body.size_m[0], body.size_m[1]}));
     Json json;
     json["image"] = file;
     json["size"] = Json::array({neat(body.size_m[0]), neat(body.size_m[1])});
     json["pose"] = pose_json(X_WM);
     finish(json, foot_m + body.size_m[2]);
-    maps_.push_back({std::move(json), foot_m, foot_m + body.size_m[2], place});
+    maps_.push_back({std::move(json), foot_m, foot_m + body.size_m[2], place, {}});
     for (const Vec2& corner : box_corners(X_WM, {body.size_m[0], body.size_m[1]})) extend(corner);
   }
 
@@ -450,13 +410,13 @@ class Translator {
                                                          {{-off.x(), 0.0}, {t, size.y()}}}};
     for (const auto& [center, extent] : sides) {
       Json json;
-      json["name"] = world_name(name + "_side", obstacle_names_);
+      json["name"] = obstacle_names_.unique(name + "_side");
       json["center"] = point_json(X_WM * center);
       json["yaw_deg"] = neat_deg(X_WM.yaw_rad);
       json["size"] = point_json(extent);
       finish(json, foot_m + body.size_m[2]);
       json["colour"] = to_string(colour);
-      obstacles_.push_back({std::move(json), foot_m, foot_m + body.size_m[2], place});
+      obstacles_.push_back({std::move(json), foot_m, foot_m + body.size_m[2], place, {}});
     }
     for (const Vec2& corner : box_corners(X_WM, size)) extend(corner);
     if (std::abs(std::remainder(X_WM.yaw_rad, 1.5707963267948966)) < 1e-9) {
@@ -469,9 +429,7 @@ class Translator {
              const std::string& stage_name) {
     RobotDraft draft;
     draft.stage_name = stage_name;
-    std::set<std::string> none;
-    draft.kind =
-        model.entity().kinds.empty() ? "robot" : world_name(model.entity().kinds.front(), none);
+    draft.kind = model.entity().kinds.empty() ? "robot" : world_name(model.entity().kinds.front());
     draft.place = model.entity().place;
     draft.X_WB = frame.X;
     draft.foot_m = frame.foot_m;
@@ -497,7 +455,7 @@ class Translator {
     order_rangers(draft);
     set_body(report_, draft);
     extend_by(draft);
-    draft.robot["name"] = world_name(stage_name, robot_names_);
+    draft.robot["name"] = robot_names_.unique(stage_name);
     out_.robots.push_back(std::move(draft));
   }
 
@@ -516,6 +474,11 @@ class Translator {
     if (entity.type == "block") return;
     if (entity.type == "sensor") {
       report_.error(entity.place, "stage/misplaced", "a sensor inside a ranger", "it elsewhere");
+      return;
+    }
+    if (is_old_device(entity.type)) {
+      report_.note("device " + entity.type, entity.place,
+                   "a " + entity.type + " of Stage 2 is left out");
       return;
     }
     if (!is_device(entity.type) && !is_model(entity.type)) return refuse_type(entity);
@@ -557,8 +520,32 @@ class Translator {
     for (const Vec2& point : draft.footprint) extend(draft.X_WB * point);
   }
 
+  /// Replaces solids that contain a robot by their walls: Stage's solids are hollow.
+  void hollow_pieces() {
+    std::vector<Piece> all;
+    for (Piece& piece : obstacles_) {
+      const bool hollow =
+          std::any_of(out_.robots.begin(), out_.robots.end(), [&](const RobotDraft& robot) {
+            return piece.z_min_m < robot.top_m && stands_inside(robot, piece.outline_W);
+          });
+      if (!hollow) {
+        all.push_back(std::move(piece));
+        continue;
+      }
+      report_.note("hollow", piece.place,
+                   "a solid around a robot becomes its walls: solids are hollow in Stage");
+      const std::string name = piece.json["name"].get<std::string>() + "_side";
+      for (Json& wall : walls_of(piece.outline_W, piece.json)) {
+        wall["name"] = obstacle_names_.unique(name);
+        all.push_back({std::move(wall), piece.z_min_m, piece.z_max_m, piece.place, {}});
+      }
+    }
+    obstacles_ = std::move(all);
+  }
+
   /// Adds obstacles and maps that robots or their sensors can meet.
   void add_pieces() {
+    hollow_pieces();
     double reach_m = 0.0;
     for (const RobotDraft& robot : out_.robots) {
       reach_m = std::max(reach_m, robot.top_m);
@@ -637,8 +624,8 @@ class Translator {
   std::vector<Piece> obstacles_;
   std::vector<Piece> maps_;
   std::map<std::string, int> counts_;
-  std::set<std::string> obstacle_names_;
-  std::set<std::string> robot_names_;
+  Names obstacle_names_;
+  Names robot_names_;
   std::set<const Entity*> window_;
   Vec2 least_ = Vec2::Constant(kInfinity);
   Vec2 most_ = Vec2::Constant(-kInfinity);

@@ -1,0 +1,298 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// World files of Stage and configuration files of Player as people write them: what Stage reads in
+// its own way, what older versions had, and what is left out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+
+#include "sim/core/error.h"
+#include "sim/devices/builtin.h"
+#include "sim/simulation/simulation.h"
+#include "sim/world/outline.h"
+#include "sim/world/robot_model.h"
+#include "temporary_folder.h"
+
+namespace sim {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+
+class StageFiles : public testing::Test {
+ protected:
+  WorldDescription read(const std::string& text) {
+    return load_world(folder_.write("w.world", text));
+  }
+
+  ConfigIssue issue_of(const std::string& text) {
+    try {
+      static_cast<void>(read(text));
+    } catch (const ConfigError& error) {
+      return error.issues().front();
+    }
+    ADD_FAILURE() << "accepted: " << text;
+    return {};
+  }
+
+  /// A PGM of one shade.
+  void write_dark_picture(const std::string& name, int width, int height) {
+    std::string text = "P5 " + std::to_string(width) + " " + std::to_string(height) + " 255\n";
+    text.append(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), '\0');
+    folder_.write(name, text);
+  }
+
+  static const RobotModel& model(const WorldDescription& world, std::size_t robot) {
+    return *find_robot_model(world, world.robots.at(robot).model);
+  }
+
+  test_support::TemporaryFolder folder_;
+};
+
+TEST_F(StageFiles, TheFirstDefinitionCounts) {
+  const WorldDescription world = read(
+      "define bot position ( size [0.4 0.4 0.2] mass 3 )\n"
+      "define bot position ( size [0.8 0.8 0.2] mass 9 )\n"
+      "bot ( )\n");
+  EXPECT_EQ(model(world, 0).mass_kg, 3.0);
+  EXPECT_THAT(world.notes, Contains(AllOf(HasSubstr("w.world:2: this definition of \"bot\""),
+                                          HasSubstr("w.world:1"))));
+}
+
+TEST_F(StageFiles, AnIncludeMayBeNamedTwice) {
+  folder_.write("bot.inc", "define bot position ( size [0.4 0.4 0.2] )\n");
+  const WorldDescription world = read("include \"bot.inc\"\ninclude \"bot.inc\"\nbot ( )\n");
+  EXPECT_THAT(world.notes, IsEmpty());
+}
+
+TEST_F(StageFiles, NumbersAreReadAsInStage) {
+  const WorldDescription world = read(
+      "position ( size [0.4.1 \"0.4\" 0.2] mass \"12.5\" name 7 pose [1 +2 0 0] drive \"tank\" "
+      ")\n");
+  const Polygon& footprint = model(world, 0).footprint;
+  ASSERT_THAT(footprint, SizeIs(4));
+  EXPECT_NEAR(area_m2(footprint), 0.16, 1e-9);
+  EXPECT_EQ(model(world, 0).mass_kg, 12.5);
+  EXPECT_EQ(world.robots[0].name, "7");
+  EXPECT_EQ(world.robots[0].pose.y_m, 2.0);
+  EXPECT_THAT(world.notes, Contains(HasSubstr("0.4.1 is read as 0.4, as in Stage")));
+  EXPECT_EQ(model(world, 0).drive.kind, DriveKind::kDifferential);
+  EXPECT_THAT(world.notes, Contains(HasSubstr("\"diff\" is used, as in Stage")));
+}
+
+TEST_F(StageFiles, LineEndsBlanksAndCommentsDoNotMatter) {
+  const std::string lines =
+      "\xef\xbb\xbf# a comment (with a bracket\r\nposition#here\r\n(\t#\"\r\n\tsize [0.4 "
+      "0.4\t0.2]#]\r\n"
+      "name \"r\xe9\" # Latin-1\r\n)# no end of line";
+  const WorldDescription world = read(lines);
+  ASSERT_THAT(world.robots, SizeIs(1));
+  EXPECT_THAT(world.notes, IsEmpty());
+}
+
+TEST_F(StageFiles, OfGazeboAreRefusedByName) {
+  for (const char* text :
+       {"<?xml version=\"1.0\"?>\n<sdf/>", "\xef\xbb\xbf\n  <sdf version='1.6'>"}) {
+    const ConfigIssue issue = issue_of(text);
+    EXPECT_EQ(issue.id, "stage/gazebo");
+    EXPECT_THAT(issue.found, HasSubstr("Gazebo"));
+  }
+}
+
+TEST_F(StageFiles, ModelsOfStage1AreRefusedByName) {
+  const ConfigIssue issue = issue_of("environment ( file \"cave.pnm\" )");
+  EXPECT_EQ(issue.id, "stage/unknown-model");
+  EXPECT_THAT(issue.hint, HasSubstr("Stage 1"));
+}
+
+TEST_F(StageFiles, DevicesOfStage2WithoutACounterpartAreLeftOut) {
+  const WorldDescription world = read("position ( size [0.4 0.4 0.2] speech ( ) audio ( ) )\n");
+  EXPECT_THAT(world.notes, ElementsAre(HasSubstr("speech of Stage 2"), HasSubstr("audio of")));
+}
+
+TEST_F(StageFiles, BodiesOfStage2ArePolygons) {
+  const WorldDescription world = read(R"(
+position (
+  size [0.4 0.4]
+  polygons 1
+  polygon[0].points 3
+  polygon[0].point[0] [0 0]
+  polygon[0].point[1] [10 0]
+  polygon[0].point[2] [0 10]
+  polygon[0].filled 1
+)
+)");
+  EXPECT_THAT(model(world, 0).footprint, SizeIs(3));
+  EXPECT_NEAR(area_m2(model(world, 0).footprint), 0.08, 1e-9);
+  EXPECT_THAT(world.notes, IsEmpty());
+}
+
+TEST_F(StageFiles, ASolidAroundARobotIsHollow) {
+  const WorldDescription world = read(R"(
+model ( name "room" size [6 4 1] pose [1 0 0 90] )
+model ( name "box" size [1 1 1] pose [1 2 0 0] )
+position ( name "r0" size [0.4 0.4 0.2] pose [1 0 0 0] )
+)");
+  EXPECT_EQ(world.robots[0].pose.x_m, 1.0);
+  EXPECT_THAT(world.notes, Contains(HasSubstr("solids are hollow in Stage")));
+  ASSERT_THAT(world.arena.obstacles, SizeIs(5));  // four walls and the box
+  EXPECT_EQ(world.arena.obstacles[0].name, "room_side");
+  EXPECT_EQ(world.arena.obstacles[4].name, "box");
+  // The room turns by 90 degrees: its walls end at x = 1 +- 2 and y = +-3.
+  double most_x_m = 0.0;
+  double most_y_m = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (const Vec2& corner : corners_of(world.arena.obstacles[i])) {
+      most_x_m = std::max(most_x_m, corner.x());
+      most_y_m = std::max(most_y_m, corner.y());
+    }
+  }
+  EXPECT_NEAR(most_x_m, 3.0, 1e-6);
+  EXPECT_NEAR(most_y_m, 3.0, 1e-6);
+}
+
+TEST_F(StageFiles, PathsOfAnotherComputerAreLookedForBesideTheWorld) {
+  folder_.write("bot.inc", "define bot position ( size [0.4 0.4 0.2] )\n");
+  write_dark_picture("plan.pgm", 4, 4);
+  const WorldDescription world = read(
+      "include \"/nowhere/at/all/bot.inc\"\n"
+      "model ( bitmap \"/nowhere/at/all/plan.pgm\" size [4 4 1] pose [5 0 0 0] )\n"
+      "bot ( )\n");
+  EXPECT_THAT(world.robots, SizeIs(1));
+  EXPECT_THAT(world.arena.walls, SizeIs(1));
+}
+
+TEST_F(StageFiles, PixelsThatAreTooSmallBecomeCoarser) {
+  write_dark_picture("fine.pgm", 400, 1);
+  const WorldDescription world = read(
+      "model ( bitmap \"fine.pgm\" size [0.2 5 1] pose [3 0 0 0] )\n"  // 0.5 mm a pixel
+      "position ( size [0.4 0.4 0.2] )\n");
+  EXPECT_THAT(world.arena.walls, Not(IsEmpty()));
+}
+
+TEST_F(StageFiles, BitmapsMayBeBmp) {
+  // 2 x 2 pixels from the lower left: dark and light, then light and light.
+  const auto bmp = [](int bits, const std::string& palette, const std::string& rows) {
+    const auto number = [](std::size_t value, int bytes) {
+      std::string text;
+      for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xff);
+      return text;
+    };
+    const std::size_t offset = 54 + palette.size();
+    return "BM" + number(offset + rows.size(), 4) + number(0, 4) + number(offset, 4) +
+           number(40, 4) + number(2, 4) + number(2, 4) + number(1, 2) +
+           number(static_cast<std::size_t>(bits), 2) + number(0, 24) + palette + rows;
+  };
+  const std::string light = "\xff\xff\xff";
+  const std::string dark(3, '\0');
+  const std::string end(2, '\0');
+  const std::string colours = dark + '\0' + light + '\0';
+  const std::string files[] = {
+      bmp(24, "", dark + light + end + light + light + end),
+      bmp(1, colours, std::string("\x40\0\0\0\xc0\0\0\0", 8)),
+      bmp(8, colours, std::string("\0\1\0\0\1\1\0\0", 8)),
+  };
+  for (const std::string& file : files) {
+    folder_.write("plan.bmp", file);
+    const WorldDescription world = read(
+        "model ( bitmap \"plan.bmp\" size [4 4 1] )\nposition ( size [0.4 0.4 0.2] pose [5 0 0 0] "
+        ")\n");
+    // The only dark pixel is stretched to the size, as in Stage.
+    ASSERT_THAT(world.arena.walls, SizeIs(1));
+    EXPECT_NEAR(std::abs(area_m2(world.arena.walls[0].vertices)), 16.0, 1e-6);
+  }
+  folder_.write("plan.bmp", files[0].substr(0, 60));
+  EXPECT_EQ(issue_of("model ( bitmap \"plan.bmp\" )").id, "stage/bitmap");
+  folder_.write("plan.bmp", "BM");
+  EXPECT_EQ(issue_of("model ( bitmap \"plan.bmp\" )").id, "stage/bitmap");
+}
+
+TEST_F(StageFiles, PicturesMayHaveMoreThan8192PixelsASide) {
+  write_dark_picture("wide.pgm", 9000, 2);
+  const WorldDescription world = read(
+      "model ( bitmap \"wide.pgm\" size [90 1 1] pose [0 3 0 0] )\n"
+      "position ( size [0.4 0.4 0.2] )\n");
+  EXPECT_THAT(world.arena.walls, Not(IsEmpty()));
+}
+
+TEST_F(StageFiles, RobotsOfOnePortHaveTheDevicesThatTheFileNames) {
+  folder_.write("w.cfg", R"(
+driver ( name "stage" provides ["simulation:0"] worldfile "w.world" )
+driver ( name "stage" provides ["6665:position2d:0" "6665:ranger:0"] model "a" )
+driver ( name "stage" provides ["6665:position2d:1" "6665:ranger:1"] model "b" )
+)");
+  const std::string text = R"(
+define bot position ( size [0.4 0.4 0.2]
+  ranger ( sensor ( samples 16 fov 90 ) ) ranger ( sensor ( samples 1 ) sensor ( samples 1 ) ) )
+bot ( name "a" ) bot ( name "b" pose [2 0 0 0] )
+)";
+  const WorldDescription world = read(text);
+  EXPECT_EQ(world.robots_on_port, 6665);
+  for (const RobotDescription& robot : world.robots) {
+    EXPECT_THAT(robot.interfaces.at("position2d"), ElementsAre("pose"));
+    EXPECT_THAT(robot.interfaces.at("ranger"), ElementsAre("laser"));
+    for (const DeviceDescription& one : model(world, 0).devices) {
+      EXPECT_NE(one.name, "odometry");
+      EXPECT_NE(one.name, "sonar");
+    }
+  }
+  EXPECT_EQ(world.robots[1].proxies.at("ranger"), 1);
+}
+
+TEST_F(StageFiles, AModelHasOnePosition) {
+  folder_.write("w.cfg", R"(
+driver ( name "stage" provides ["simulation:0"] worldfile "w.world" )
+driver ( name "stage" provides ["position2d:0" "position2d:1"] model "a" )
+)");
+  const WorldDescription world = read("position ( name \"a\" size [0.4 0.4 0.2] )\n");
+  EXPECT_EQ(world.robots[0].port, 6665);
+  EXPECT_THAT(world.notes, Contains(HasSubstr("that offers \"position2d\"")));
+}
+
+TEST_F(StageFiles, InterfacesOfNoModelAreLeftOut) {
+  folder_.write("w.cfg", R"(
+driver ( name "stage" provides ["opaque:0"] worldfile "w.world" )
+driver ( name "stage" provides ["position2d:0"] model "a" )
+)");
+  const WorldDescription world = read("position ( name \"a\" size [0.4 0.4 0.2] )\n");
+  EXPECT_THAT(world.notes, Contains(HasSubstr("the interface \"opaque\" is left out")));
+}
+
+TEST_F(StageFiles, TheConfigurationFileIsFoundInTheFolderOfTheProgram) {
+  folder_.write("w.cfg", R"(
+driver ( name "stage" provides ["simulation:0"] worldfile "w.world" )
+driver ( name "stage" provides ["6670:position2d:0"] model "a" )
+)");
+  folder_.write("w.world", "position ( name \"a\" size [0.4 0.4 0.2] )\n");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  const WorldDescription world = load_world("w.world");
+  std::filesystem::current_path(before);
+  EXPECT_EQ(world.robots[0].port, 6670);
+}
+
+TEST_F(StageFiles, CarsAreSteeredByTheSecondNumberOfTheSpeed) {
+  const WorldDescription world =
+      read("position ( size [0.4 0.4 0.2] drive \"car\" wheelbase 0.5 )\n");
+  EXPECT_THAT(world.notes, IsEmpty());
+  Simulation simulation(world);
+  const auto motion = simulation.find_device(0, "motion");
+  ASSERT_TRUE(motion);
+  ASSERT_FALSE(simulation.apply({0, *motion}, TwistCommand{{0.8, 0.4, 0.0}}));
+  for (int i = 0; i < 100; ++i) simulation.step();
+  // libstage/model_position.cc of Stage 4: v cos(angle), v sin(angle) / wheelbase.
+  EXPECT_NEAR(simulation.body(0).twist.v_mps, 0.8 * std::cos(0.4), 1e-9);
+  EXPECT_NEAR(simulation.body(0).twist.omega_radps, 0.8 * std::sin(0.4) / 0.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace sim
