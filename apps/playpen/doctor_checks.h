@@ -10,9 +10,9 @@ namespace playpen {
 /// The result of a check.
 enum class Health {
   kGood,
-  kNote,    ///< worth knowing
-  kWarning,   ///< something is missing, but a run does not need it
-  kBroken,  ///< something is missing that every run needs
+  kNote,     ///< worth knowing
+  kWarning,  ///< something is missing, but a run does not need it
+  kBroken,   ///< something is missing that every run needs
 };
 
 /// The result of one check.

@@ -193,8 +193,8 @@ TEST(PlaypenDoctor, FailsWhereRunsCannotWork) {
   EXPECT_THAT(result.out,
               AllOf(ContainsRegex("BROKEN +the folder of worlds"),
                     ContainsRegex("BROKEN +the library that makes sleeps"),
-                    ContainsRegex("WARN +--view lacks"),
-                    ContainsRegex("WARN +'playpen new' lacks"), HasSubstr("Runs do not work")));
+                    ContainsRegex("WARN +--view lacks"), ContainsRegex("WARN +'playpen new' lacks"),
+                    HasSubstr("Runs do not work")));
 }
 
 }  // namespace
