@@ -37,8 +37,8 @@ inline constexpr std::size_t kMaxGreyImageBytes = std::size_t{256} << 20;
 [[nodiscard]] GreyImage decode_grey_image(const std::vector<std::uint8_t>& bytes,
                                           const std::string& name);
 
-/// Reads the first sample of each pixel of a PNG, JPEG, BMP, PBM, PGM or PPM (plain or raw): red, or the
-/// shade of grey. Transparency has no influence. Otherwise like load_grey_image.
+/// Reads the first sample of each pixel of a PNG, JPEG, BMP, PBM, PGM or PPM (plain or raw): red,
+/// or the shade of grey. Transparency has no influence. Otherwise like load_grey_image.
 [[nodiscard]] GreyImage load_first_samples(const std::string& path);
 
 }  // namespace sim

@@ -18,7 +18,7 @@ enum class Unit : char {
   kAngle = 'a',   ///< degrees in worlds
   kNumber = 'f',  ///< also an angle that Player reads as a plain number of degrees
   kWhole = 'i',
-  kFlag = 'b',  ///< 0 or 1 in Player
+  kFlag = 'b',     ///< 0 or 1 in Player
   kHeading = 'h',  ///< a difference of headings, in degrees: 180 is any
 };
 
