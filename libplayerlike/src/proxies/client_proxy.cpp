@@ -151,13 +151,6 @@ void ClientProxy::Attach(uint32_t aInterface, uint32_t aIndex, const char* aFun,
     constexpr auto kMax = static_cast<uint32_t>(std::numeric_limits<std::uint16_t>::max());
     mLink->binding = playerlike::find_interface(core.robots(), core.session().port(), name,
                                                 static_cast<int>(std::min(aIndex, kMax)));
-    if (aHasReadings && mLink->binding.reading.device < 0) {
-      // A Player server's device of an interface whose messages Playpen does not read.
-      throw playerlike::SessionError(
-          playerlike::SessionError::Code::kNotAvailable,
-          std::string(name) + ':' + std::to_string(aIndex) + " of a server that speaks Player's " +
-              "protocol cannot be used; with Playpen's own protocol (tcp://HOST:PORT) it can");
-    }
     const scoped_lock_t lock(core.mutex());
     playerc_device_t& info = mLink->device;
     info.addr.robot = static_cast<uint32_t>(core.session().port());

@@ -11,7 +11,6 @@
 #include "fake_session.h"
 #include "libCCMorse/CCMorse.h"
 #include "patient_host.h"
-#include "playerlike/server/server.h"
 #include "reachable_host.h"
 
 namespace {
@@ -217,22 +216,6 @@ std::string planned_run(Transport transport) {
 TEST_P(PlannerTest, RunsAreRepeatable) {
   const std::string first = planned_run(Transport::kInProcess);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(planned_run(GetParam()), first) << "run " << i + 2;
-}
-
-TEST(PlannerProxy, OverPlayersProtocolThePlannerIsRefusedWithTheReason) {
-  playerlike::ServerSettings settings;
-  settings.port = 0;
-  settings.player_port = 0;
-  const playerlike::Server server(test::patient_host(sim::load_world_text(rooms(kDrivers))),
-                                  settings);
-  PlayerClient client("player://127.0.0.1:" + std::to_string(server.player_ports().at(6665)));
-  try {
-    const PlannerProxy planner(&client, 0);
-    FAIL() << "PlannerProxy does not work with the planner of a Player server";
-  } catch (const PlayerError& e) {
-    EXPECT_EQ(e.GetErrorCode(), PlayerError::kNotAvailable);
-    EXPECT_THAT(e.GetErrorStr(), HasSubstr("planner:0 of a server that speaks Player's protocol"));
-  }
 }
 
 }  // namespace
