@@ -98,12 +98,12 @@ void add_part(const Body& body, const Mount& mount, bool solid, bool seen, Robot
 /// Each part that is higher becomes a superstructure with its own outline and height.
 void set_body(Report& report, RobotDraft& robot);
 
-/// Whether a robot stands wholly inside an outline, without touching it.
-[[nodiscard]] bool stands_inside(const RobotDraft& robot, const Polygon& outline_W);
+/// Whether a robot stands wholly inside an outline in W, without touching it.
+[[nodiscard]] bool stands_inside(const RobotDraft& robot, const Polygon& outline);
 
-/// A wall along the inner side of each side of a counter-clockwise outline, as obstacles with the
-/// other keys of a solid.
-[[nodiscard]] std::vector<Json> walls_of(const Polygon& outline_W, const Json& solid);
+/// A wall along the inner side of each side of a counter-clockwise outline in W, as obstacles with
+/// the other keys of a solid.
+[[nodiscard]] std::vector<Json> walls_of(const Polygon& outline, const Json& solid);
 
 /// Reads what a position model is besides a model: drive, limits, localization.
 void add_position(const Properties& model, const Body& body, const Context& context,

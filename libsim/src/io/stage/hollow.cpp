@@ -7,24 +7,24 @@
 
 namespace sim::io::stage {
 
-bool stands_inside(const RobotDraft& robot, const Polygon& outline_W) {
-  if (outline_W.empty() || robot.footprint.empty()) return false;
+bool stands_inside(const RobotDraft& robot, const Polygon& outline) {
+  if (outline.empty() || robot.footprint.empty()) return false;
   Polygon footprint_W;
   for (const Vec2& corner : robot.footprint) footprint_W.push_back(robot.X_WB * corner);
   const bool corners_inside =
       std::all_of(footprint_W.begin(), footprint_W.end(),
-                  [&](const Vec2& corner) { return is_inside(outline_W, corner); });
+                  [&](const Vec2& corner) { return is_inside(outline, corner); });
   if (!corners_inside) return false;
   // No corner of the outline reaches into the body, so no side crosses it.
-  return std::none_of(outline_W.begin(), outline_W.end(),
+  return std::none_of(outline.begin(), outline.end(),
                       [&](const Vec2& corner) { return is_inside(footprint_W, corner); });
 }
 
-std::vector<Json> walls_of(const Polygon& outline_W, const Json& solid) {
+std::vector<Json> walls_of(const Polygon& outline, const Json& solid) {
   std::vector<Json> walls;
-  for (std::size_t i = 0; i < outline_W.size(); ++i) {
-    const Vec2& begin = outline_W[i];
-    const Vec2 side = outline_W[(i + 1) % outline_W.size()] - begin;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2& begin = outline[i];
+    const Vec2 side = outline[(i + 1) % outline.size()] - begin;
     const double length_m = side.norm();
     if (length_m < kBoundaryThickness_m) continue;
     const Vec2 left(-side.y() / length_m, side.x() / length_m);

@@ -231,10 +231,9 @@ Json driver_settings(std::string_view name, const Properties& driver, Report& re
 namespace sim {
 
 std::string hint_for_player_option(std::string_view driver, std::string_view option) {
-  using namespace io::stage;
   const std::string of_player = "Player's " + io::in_quotes(std::string(option));
   std::vector<std::string> settings;
-  for (const Option& known : kOptions) {
+  for (const io::stage::Option& known : io::stage::kOptions) {
     if (known.driver != driver || known.name != option) continue;
     if (known.element > 0 && settings.empty()) settings.emplace_back(option);
     settings.emplace_back(known.setting);
@@ -248,7 +247,7 @@ std::string hint_for_player_option(std::string_view driver, std::string_view opt
                ? ""
                : of_player + " is " + io::in_quotes(settings.front()) + " here";
   }
-  for (const Absent& known : kAbsent) {
+  for (const io::stage::Absent& known : io::stage::kAbsent) {
     if ((known.driver != driver && !known.driver.empty()) || known.name != option) continue;
     const std::string instead = known.instead;
     return of_player + " does not exist here" + (instead.empty() ? "" : ": " + instead);

@@ -60,7 +60,7 @@ struct Piece {
   double z_min_m;
   double z_max_m;
   Place place;
-  Polygon outline_W;  ///< of a block that may be hollow [m]; otherwise empty
+  Polygon outline;  ///< in W, of a block that may be hollow [m]; otherwise empty
 };
 
 class Translator {
@@ -305,14 +305,14 @@ class Translator {
       if (returns.blob) json["colour"] = to_string(colour);
       if (returns.fiducial > 0 && i == largest) json["fiducial"] = returns.fiducial;
       if (returns.gripper) json["portable"] = true;
-      Polygon outline_W;
+      Polygon outline;
       for (const Vec2& point : blocks[i].points) {
-        outline_W.push_back(X_WM * point);
-        extend(outline_W.back());
+        outline.push_back(X_WM * point);
+        extend(outline.back());
       }
-      if (returns.gripper) outline_W.clear();
+      if (returns.gripper) outline.clear();
       obstacles_.push_back({std::move(json), foot_m + blocks[i].z_min_m, foot_m + blocks[i].z_max_m,
-                            place, std::move(outline_W)});
+                            place, std::move(outline)});
     }
     if (returns.fiducial > 0 && blocks.empty()) {
       report_.note("fiducial of a bitmap", place,
@@ -526,7 +526,7 @@ class Translator {
     for (Piece& piece : obstacles_) {
       const bool hollow =
           std::any_of(out_.robots.begin(), out_.robots.end(), [&](const RobotDraft& robot) {
-            return piece.z_min_m < robot.top_m && stands_inside(robot, piece.outline_W);
+            return piece.z_min_m < robot.top_m && stands_inside(robot, piece.outline);
           });
       if (!hollow) {
         all.push_back(std::move(piece));
@@ -535,7 +535,7 @@ class Translator {
       report_.note("hollow", piece.place,
                    "a solid around a robot becomes its walls: solids are hollow in Stage");
       const std::string name = piece.json["name"].get<std::string>() + "_side";
-      for (Json& wall : walls_of(piece.outline_W, piece.json)) {
+      for (Json& wall : walls_of(piece.outline, piece.json)) {
         wall["name"] = obstacle_names_.unique(name);
         all.push_back({std::move(wall), piece.z_min_m, piece.z_max_m, piece.place, {}});
       }
