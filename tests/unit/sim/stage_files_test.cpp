@@ -184,7 +184,7 @@ TEST_F(StageFiles, BitmapsMayBeBmp) {
   const auto bmp = [](int bits, const std::string& palette, const std::string& rows) {
     const auto number = [](std::size_t value, int bytes) {
       std::string text;
-      for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xff);
+      for (int i = 0; i < bytes; ++i, value >>= 8U) text += static_cast<char>(value & 0xff);
       return text;
     };
     const std::size_t offset = 54 + palette.size();
