@@ -5,8 +5,9 @@ target_compile_options(playpen_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow
   -ffp-contract=off            # the same bits from every compiler, Debug and Release
   $<$<BOOL:${PLAYPEN_WERROR}>:-Werror>)
+option(PLAYPEN_ASSERTS "Check SIM_ASSERT at run time, in Release builds too" ON)
 target_compile_definitions(playpen_build_flags INTERFACE
-  $<$<CONFIG:Debug,RelWithDebInfo>:SIM_ENABLE_ASSERTS>)
+  $<$<BOOL:${PLAYPEN_ASSERTS}>:SIM_ENABLE_ASSERTS>)
 if(PLAYPEN_SANITIZE)
   target_compile_options(playpen_build_flags INTERFACE
     -fsanitize=${PLAYPEN_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
