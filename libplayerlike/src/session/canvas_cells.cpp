@@ -9,10 +9,10 @@ namespace playerlike {
 namespace {
 
 // Clamped as in sim::Canvas, so that far positions stay outside of the canvas.
-constexpr double kFar = 1 << 30;
+constexpr double kFarCell = 1 << 30;
 
 int cell_number(double cells) {
-  return static_cast<int>(std::clamp(std::floor(cells), -kFar, kFar));
+  return static_cast<int>(std::clamp(std::floor(cells), -kFarCell, kFarCell));
 }
 
 }  // namespace
