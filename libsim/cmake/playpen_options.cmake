@@ -4,6 +4,8 @@ add_library(playpen_build_flags INTERFACE)
 target_compile_options(playpen_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow
   -ffp-contract=off            # the same bits from every compiler, Debug and Release
+  # Memory for time: gcc does not look for garbage before its heap has reached half a gigabyte.
+  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
   $<$<BOOL:${PLAYPEN_WERROR}>:-Werror>)
 target_compile_definitions(playpen_build_flags INTERFACE
   $<$<CONFIG:Debug,RelWithDebInfo>:SIM_ENABLE_ASSERTS>)
@@ -37,22 +39,6 @@ function(playpen_module name)
   target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
     $<$<BOOL:${PLAYPEN_WERROR}>:-Werror>)
 endfunction()
-
-# playpen_precompile(TARGET HEADER...): where PLAYPEN_PCH asks for it, the headers of other libraries
-# that most of a test's sources include are read once for all of them. A source includes what it needs
-# nevertheless: without PLAYPEN_PCH, the default, nobody else does it.
-function(playpen_precompile target)
-  if("tests" IN_LIST PLAYPEN_PCH)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
-  endif()
-endfunction()
-if(PLAYPEN_PCH)
-  # Memory for time: gcc need not look for garbage, where a precompiled header would have it look at
-  # more. And with one, gcc 12 forgets that some warnings are about the standard library's own lines;
-  # builds without have them all.
-  target_compile_options(playpen_build_flags INTERFACE
-    "$<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576;-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>")
-endif()
 
 # playpen_bind_own_functions(TARGET): calls within a shared library go to its own functions, also
 # where a program has one of the same name: by chance, or its copy of an inline function of a common
