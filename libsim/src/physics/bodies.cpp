@@ -332,7 +332,7 @@ int Bodies::add_moving_obstacle(int index, const ObstacleDescription& o) {
 }
 
 // Adds a body that is complete except for what all bodies have in common.
-int Bodies::add_body(Robot r) {
+int Bodies::add_body(Robot&& r) {
   const int index = static_cast<int>(robots_.size());
   r.state->X_WB = {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
   r.details->info->body = index;

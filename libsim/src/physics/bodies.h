@@ -136,7 +136,7 @@ class Bodies {
   void set_corners(const Parts& parts, const std::vector<Vec2>& corners, double height_m);
   [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf, int ignored) const;
   [[nodiscard]] int robot_within(const std::vector<Vec2>& outline, int ignored) const;
-  int add_body(Robot r);
+  int add_body(Robot&& r);
   void add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int index);
   void add_obstacles(const ArenaDescription& arena);
   void add_border(const ArenaDescription& arena);
