@@ -30,11 +30,11 @@ set(CPACK_GENERATOR TGZ)
 if(playpen_multiarch_libdir)
   list(APPEND CPACK_GENERATOR DEB)
 endif()
-set(PLAYPEN_DEB_COMPONENTS programs development)
+set(CPACK_PLAYPEN_DEB_COMPONENTS programs development)
 if(playpen_multiarch_libdir STREQUAL CMAKE_INSTALL_LIBDIR)
-  list(APPEND PLAYPEN_DEB_COMPONENTS prefix prefix_dev)
+  list(APPEND CPACK_PLAYPEN_DEB_COMPONENTS prefix prefix_dev)
 else()
-  list(APPEND PLAYPEN_DEB_COMPONENTS multiarch multiarch_dev)
+  list(APPEND CPACK_PLAYPEN_DEB_COMPONENTS multiarch multiarch_dev)
 endif()
 foreach(_component IN ITEMS programs prefix multiarch)
   string(TOUPPER "${_component}" _component)
@@ -50,17 +50,20 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SOURCE playpen)
 
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "2D robot simulator with the Player API embedded")
+set(_playpen_description "Playpen simulates robots in a plane, for client programs that use the
+interface of Player or CCMorse. A program that is linked with Playpen drives
+the robots in its own process, without a server, a network or a display.
+")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME playpen)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
-set(CPACK_COMPONENT_GROUP_RUNTIME_DESCRIPTION "2D robot simulator with the Player API embedded
- Playpen simulates robots in a plane, for client programs that use the interface
- of Player or CCMorse. A program that is linked with Playpen drives the robots in
- its own process, without a server, a network or a display.
- .
- This package contains the command playpen, the libraries, the worlds, the tasks
- of the course and the documentation ('playpen doc').")
+set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "${_playpen_description}
+This package contains the command playpen, the libraries, the worlds, the tasks
+of the course and the documentation ('playpen doc').")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+file(WRITE "${PROJECT_BINARY_DIR}/package/triggers" "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${PROJECT_BINARY_DIR}/package/triggers")
 # With BUILD_SHARED_LIBS, the command and the libraries need one another.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
   "${PROJECT_BINARY_DIR}/libsim" "${PROJECT_BINARY_DIR}/libplayerlike")
@@ -69,12 +72,9 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS fonts-dejavu-core)
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME playpen-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_COMPONENT_GROUP_DEV_DESCRIPTION "2D robot simulator with the Player API embedded - development files
- Playpen simulates robots in a plane, for client programs that use the interface
- of Player or CCMorse.
- .
- This package contains what such programs are built with: headers, static
- libraries, and files for CMake (find_package(playpen)) and pkg-config (playerc++).")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "${_playpen_description}
+This package contains what such programs are built with: headers, static
+libraries, and files for CMake (playpen) and pkg-config (playerc++).")
 # Those that playpenConfig.cmake finds.
 set(_playpen_dev_packages "playpen (= ${PROJECT_VERSION})" libeigen3-dev)
 if(NOT BUILD_SHARED_LIBS)
@@ -97,7 +97,8 @@ set(CPACK_SOURCE_OUTPUT_CONFIG_FILE "${PROJECT_BINARY_DIR}/package/CPackSourceCo
 include(CPack)
 add_custom_target(package
   COMMAND ${CMAKE_COMMAND} -E rm -rf "${CPACK_PACKAGE_DIRECTORY}"
-  COMMAND ${CMAKE_CPACK_COMMAND} --config "${CPACK_OUTPUT_CONFIG_FILE}" -C $<CONFIG>
+  # Without warnings that modules have no soname.
+  COMMAND ${CMAKE_CPACK_COMMAND} -Wno-dev --config "${CPACK_OUTPUT_CONFIG_FILE}" -C $<CONFIG>
   COMMAND ${CMAKE_COMMAND} -E rm -rf "${CPACK_PACKAGE_DIRECTORY}/_CPack_Packages"
   VERBATIM)
 add_dependencies(package playpen)

@@ -38,7 +38,7 @@ debs=("$build"/packages/playpen_*.deb "$build"/packages/playpen-dev_*.deb)
 tarballs=("$build"/packages/playpen-*.tar.gz)
 ((${#debs[@]} == 2 && ${#tarballs[@]} == 1)) ||
   fail "expected two .deb and one .tar.gz in $build/packages:" "$(ls "$build/packages")"
-lintian --fail-on error --no-tag-display-limit "${debs[@]}"
+lintian --fail-on error --tag-display-limit 0 "${debs[@]}"
 
 headline "What they hold"
 for deb in "${debs[@]}"; do
