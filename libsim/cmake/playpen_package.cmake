@@ -61,9 +61,18 @@ set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "${_playpen_description}
 This package contains the command playpen, the libraries, the worlds, the tasks
 of the course and the documentation ('playpen doc').")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-file(WRITE "${PROJECT_BINARY_DIR}/package/triggers" "activate-noawait ldconfig\n")
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${PROJECT_BINARY_DIR}/package/triggers")
+# Not by CPack, which warns of modules.
+set(_playpen_control "${PROJECT_BINARY_DIR}/package")
+file(WRITE "${_playpen_control}/triggers" "activate-noawait ldconfig\n")
+file(WRITE "${_playpen_control}/shlibs" "")
+set(_playpen_libraries playpen_playerlike)
+if(BUILD_SHARED_LIBS)
+  list(APPEND _playpen_libraries playpen_sim)
+endif()
+foreach(_library IN LISTS _playpen_libraries)
+  file(APPEND "${_playpen_control}/shlibs" "lib${_library} ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} playpen (= ${PROJECT_VERSION})\n")
+endforeach()
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${_playpen_control}/triggers" "${_playpen_control}/shlibs")
 # With BUILD_SHARED_LIBS, the command and the libraries need one another.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
   "${PROJECT_BINARY_DIR}/libsim" "${PROJECT_BINARY_DIR}/libplayerlike")
@@ -97,8 +106,7 @@ set(CPACK_SOURCE_OUTPUT_CONFIG_FILE "${PROJECT_BINARY_DIR}/package/CPackSourceCo
 include(CPack)
 add_custom_target(package
   COMMAND ${CMAKE_COMMAND} -E rm -rf "${CPACK_PACKAGE_DIRECTORY}"
-  # Without warnings that modules have no soname.
-  COMMAND ${CMAKE_CPACK_COMMAND} -Wno-dev --config "${CPACK_OUTPUT_CONFIG_FILE}" -C $<CONFIG>
+  COMMAND ${CMAKE_CPACK_COMMAND} --config "${CPACK_OUTPUT_CONFIG_FILE}" -C $<CONFIG>
   COMMAND ${CMAKE_COMMAND} -E rm -rf "${CPACK_PACKAGE_DIRECTORY}/_CPack_Packages"
   VERBATIM)
 add_dependencies(package playpen)

@@ -25,6 +25,7 @@ block, each on a line of its own:
   <!-- run together -->                   the block's first command runs while the others do, and is stopped
   <!-- not run: REASON -->                the next block is not run
   <!-- not run (COMMAND): REASON -->      this command of the next block is not run
+<!-- times --> marks a text with measured times and means nothing here.
 TEXT
 }
 
