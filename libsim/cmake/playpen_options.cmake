@@ -22,6 +22,14 @@ endif()
 # From an installed program to the libraries beside it: what is loaded or preloaded lies there.
 file(RELATIVE_PATH playpen_libraries_from_command
   "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+# The same binaries are also packaged for Debian, with the libraries in its folder for this kind of
+# machine. Programs look in all of these places; this is a list of C++ strings.
+set(playpen_library_places "\"${playpen_libraries_from_command}\",\"../lib\"")
+set(playpen_multiarch_libdir "")
+if(CMAKE_LIBRARY_ARCHITECTURE)
+  set(playpen_multiarch_libdir "lib/${CMAKE_LIBRARY_ARCHITECTURE}")
+  string(APPEND playpen_library_places ",\"../${playpen_multiarch_libdir}\"")
+endif()
 
 # playpen_module(NAME SOURCE...): a library that is loaded at run time from lib/playpen. It is not built
 # with sanitizers: it is there before they are, or belongs to a library that has none.
@@ -55,8 +63,10 @@ endfunction()
 # beside themselves.
 function(playpen_find_modules_from_programs target)
   if(NOT BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
-    target_link_options(${target} INTERFACE
-      "$<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${CMAKE_INSTALL_LIBDIR}/playpen>")
+    foreach(libdir IN ITEMS ${CMAKE_INSTALL_LIBDIR} ${playpen_multiarch_libdir})
+      target_link_options(${target} INTERFACE
+        "$<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${libdir}/playpen>")
+    endforeach()
   endif()
 endfunction()
 

@@ -74,29 +74,7 @@ playpen=$HOME/playpen/bin/playpen
 headline "A template, filled in and graded"
 cp -r "$clone/apps/par_intro/template" "$HOME/walk/intro"
 cd "$HOME/walk/intro"
-# The body of the function that the template leaves to the reader.
-awk '
-  /^void CRobot::decideSpeeds\(\) \{/ {
-    print
-    print "  double left = laser->GetMaxRange(), right = left;"
-    print "  for (unsigned i = 0; i < laser->GetCount(); ++i) {"
-    print "    const double bearing = laser->GetBearing(i);"
-    print "    if (bearing < -0.9 || bearing > 0.9) continue;"
-    print "    double& side = bearing < 0 ? right : left;"
-    print "    if ((*laser)[i] < side) side = (*laser)[i];"
-    print "  }"
-    print "  const bool close = left < 0.3 || right < 0.3;"
-    print "  forwardSpeed = close ? 0.0 : 0.3;"
-    print "  if (!close) turnRate = 0.0;"
-    print "  if (close && turnRate == 0.0) turnRate = left < right ? -1.0 : 1.0;"
-    print "}"
-    skip = 1
-    found = 1
-  }
-  !skip { print }
-  /^\}/ { skip = 0 }
-  END { exit !found }' robot.cc >filled.cc || fail "the template has no decideSpeeds()"
-mv filled.cc robot.cc
+"$here/fill_intro.sh" robot.cc
 says . cmake -S . -B build "-DCMAKE_PREFIX_PATH=$HOME/playpen"
 says . cmake --build build
 says '5 of 5 runs passed' "$playpen" grade par_intro -- build/par_intro_template

@@ -420,7 +420,7 @@ TEST(StalledProgram, IsPointedToThePageOfWorlds) {
       {"run", "cave", "--out", folder / "out", "--duration", "60", "--", PROGRAMS "push_wall"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, testing::ContainsRegex("\npioneer1 was stalled for [5-9][0-9] % of the "
-                                                 "time that it drove: docs/which_world.md"));
+                                                 "time that it drove: 'playpen doc which_world'"));
   EXPECT_THAT(result.out, Not(HasSubstr("pioneer2 was")));
   const json report = read_report(folder / "out");
   const json& robot = report.at("robots")[0];
