@@ -220,6 +220,16 @@ TEST_F(VirtualTime, OneThatTakesTheEndForAnErrorHasNotFailed) {
   EXPECT_DOUBLE_EQ(sim_time(), 5.0);
 }
 
+// The status 1 may be the end of the run only if it comes then.
+TEST_F(VirtualTime, OneThatFailsBeforeTheEndHasFailed) {
+  const std::string program = SLEEPING_PROGRAM " drive_by_sleeping; exit 1";
+  const ProcessResult result =
+      playpen({"run", world_, "--out", out_, "--duration", "5", "--", "sh", "-c", program});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("ended with status 1"));
+  EXPECT_DOUBLE_EQ(sim_time(), 3.5);
+}
+
 TEST_F(VirtualTime, AProgramThatWasToldOfTheEndMayStillSleep) {
   const ProcessResult result = run("tidy_up_after_the_end", {"--duration", "2"});
   EXPECT_EQ(result.status, 1);
