@@ -126,7 +126,7 @@ TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
 // Video encoders have their own threads, which are not threads of the program. They may wait for
 // one another while a step waits for them.
 TEST_F(VirtualTime, AFilmChangesNothing) {
-  const std::string duration_s = cases("5", "20");
+  const std::string duration_s = cases("3", "20");
   for (const char* name : {"read_in_background", "read_in_own_thread"}) {
     ASSERT_EQ(run(name, {"--duration", duration_s, "--quiet"}).status, 0);
     const json without = report();
