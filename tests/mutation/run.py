@@ -71,33 +71,27 @@ class Copy:
             log.write(f"===== {what}: {' '.join(map(str, command))}\n{done.stdout}\n")
         return done.returncode, done.stdout
 
+    def run(self, preset, tests, arguments, what):
+        """Calls tests/run.sh. Of a sanitizer's preset, only these tests are built."""
+        targets = tests if preset != self.preset else []
+        return self.call(["tests/run.sh", "--preset", preset, *(f for name in targets
+                          for f in ("--target", name)), *arguments], what)
+
     def build(self, preset, tests, what):
-        """Builds all, or for a sanitizer only its tests. @return whether that worked."""
-        folder = f"build/{preset}"
-        if not (self.folder / folder / "CMakeCache.txt").exists():
-            # Otherwise each change of a library would link all tests again.
-            status, _ = self.call(["cmake", "--preset", preset,
-                                   "-DCMAKE_LINK_DEPENDS_NO_SHARED=ON"], what)
-            if status != 0:
-                return False
-        targets = [] if preset == self.preset else [f"--target={name}" for name in tests]
-        command = ["cmake", "--build", folder, "--parallel", str(os.cpu_count() or 1), *targets]
-        return self.call(command, what)[0] == 0
+        """@return whether the build worked."""
+        status, output = self.run(preset, tests, ["-N"], what)
+        missing = [name for name in tests if f": {name}\n" not in output]
+        if status == 0 and missing:
+            raise BadList(f"{what}: preset {preset} has no test {', '.join(missing)}")
+        return status == 0
 
     def first_failure(self, preset, tests, timeout_s, what):
         """Runs these tests, or those of a merge if there are none. @return a failing one's name."""
-        command = ["tests/run.sh", "--preset", preset]
-        if tests and preset != self.preset:
-            command += [word for name in tests for word in ("--target", name)]
-        if tests:
-            command += ["-R", f"^({'|'.join(map(re.escape, tests))})$"]
-        else:
-            command += ["-E", "^mutation_list$"]  # it only tells that a source was changed
-        command += ["--stop-on-failure", "--timeout", str(timeout_s)]
-        status, output = self.call(command, what)
-        missing = [name for name in tests if not re.search(rf"\b{re.escape(name)} \.", output)]
-        if status == 0 and missing:
-            raise BadList(f"{what}: ctest has no test {', '.join(missing)} in preset {preset}")
+        chosen = ["-R", f"^({'|'.join(map(re.escape, tests))})$"]
+        if not tests:
+            chosen = ["-E", "^mutation_list$"]  # it only tells that a source was changed
+        status, output = self.run(preset, tests, [*chosen, "--stop-on-failure", "--timeout",
+                                                  str(timeout_s)], what)
         if status == 0:
             return None
         failed = re.search(r"The following tests FAILED:\s+\d+ - (\S+)", output)
@@ -141,7 +135,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("faults", nargs="*", metavar="FAULT", help="names of faults (default: all)")
-    parser.add_argument("--preset", default="release", help="of faults that name none")
+    parser.add_argument("--preset", default="tests", help="of faults that name none")
     parser.add_argument("--only", metavar="PRESET", help="only the faults that are found in a preset")
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build/mutation/playpen",
                         help="of the copy; one that exists is updated and built on")
