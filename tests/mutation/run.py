@@ -85,19 +85,18 @@ class Copy:
             raise BadList(f"{what}: preset {preset} has no test {', '.join(missing)}")
         return status == 0
 
-    def first_failure(self, preset, tests, timeout_s, what):
-        """Runs these tests, or those of a merge if there are none. @return a failing one's name."""
+    def failures(self, preset, tests, timeout_s, what):
+        """Runs these tests or, if there are none, those of a merge until one fails.
+        @return the names of those that failed."""
         chosen = ["-R", f"^({'|'.join(map(re.escape, tests))})$"]
-        if not tests:
-            chosen = ["-E", "^mutation_list$"]  # it only tells that a source was changed
-        status, output = self.run(preset, tests, [*chosen, "--stop-on-failure", "--timeout",
-                                                  str(timeout_s)], what)
-        if status == 0:
-            return None
-        failed = re.search(r"The following tests FAILED:\s+\d+ - (\S+)", output)
-        if not failed:
+        if not tests:  # mutation_list would only tell that a source was changed
+            chosen = ["-E", "^mutation_list$", "--stop-on-failure"]
+        status, output = self.run(preset, tests, [*chosen, "--timeout", str(timeout_s)], what)
+        failed = output.partition("The following tests FAILED:")[2]
+        failed = re.findall(r"^\s*\d+ - (\S+) ", failed, re.MULTILINE)
+        if (status == 0) != (not failed):
             raise BadList(f"{what}: the tests could not run; see {self.log}")
-        return failed.group(1)
+        return failed
 
 
 def check(copy, faults):
@@ -109,12 +108,12 @@ def check(copy, faults):
         what = f"without a fault, preset {preset}"
         if not copy.build(preset, sorted(tests), what):
             raise BadList(f"{what}: the build failed; see {copy.log}")
-        if failed := copy.first_failure(preset, sorted(tests), TIMEOUT_S, what):
-            raise BadList(f"{what}: {failed} fails; see {copy.log}")
+        if failed := copy.failures(preset, sorted(tests), TIMEOUT_S, what):
+            raise BadList(f"{what}: {', '.join(failed)} failed; see {copy.log}")
 
 
 def look_for(copy, fault, named_only):
-    """Plants a fault and runs the tests. @return the name of the one that finds it, or None."""
+    """Plants a fault and runs the tests. @return the names of those that find it."""
     file = copy.folder / fault["file"]
     text = file.read_text(encoding="utf-8")
     preset = fault.get("preset", copy.preset)
@@ -123,9 +122,9 @@ def look_for(copy, fault, named_only):
         file.write_text(planted(fault, text), encoding="utf-8")
         if not copy.build(preset, fault["tests"], fault["name"]):
             raise BadList(f"[{fault['name']}] does not compile; see {copy.log}")
-        found = copy.first_failure(preset, fault["tests"], timeout_s, fault["name"])
-        if found is None and preset == copy.preset and not named_only:
-            found = copy.first_failure(preset, [], timeout_s, fault["name"])
+        found = copy.failures(preset, fault["tests"], timeout_s, fault["name"])
+        if not found and preset == copy.preset and not named_only:
+            found = copy.failures(preset, [], timeout_s, fault["name"])
         return found
     finally:
         file.write_text(text, encoding="utf-8")
@@ -166,9 +165,10 @@ def main():
     for fault in faults:
         start = time.monotonic()
         found = look_for(copy, fault, options.named_only)
-        found_count += found is not None
-        lost += found is None and fault.get("found", "yes") == "yes"
+        found_count += bool(found)
+        lost += not found and fault.get("found", "yes") == "yes"
         preset = fault.get("preset", options.preset)
+        found = ", ".join(found)
         line = f"found by {found}" if found else "NOT FOUND"
         print(f"{fault['name']:26} {preset:8} {line} ({time.monotonic() - start:.0f} s)", flush=True)
         rows.append(f"| `{fault['name']}` | {fault['breaks']} | {preset} | {found or '**none**'} |")
