@@ -71,39 +71,32 @@ class Copy:
             log.write(f"===== {what}: {' '.join(map(str, command))}\n{done.stdout}\n")
         return done.returncode, done.stdout
 
-    def build(self, preset, tests, what):
-        """Builds all, or for a sanitizer only its tests. @return whether that worked."""
-        folder = f"build/{preset}"
-        if not (self.folder / folder / "CMakeCache.txt").exists():
-            # Otherwise each change of a library would link all tests again.
-            status, _ = self.call(["cmake", "--preset", preset,
-                                   "-DCMAKE_LINK_DEPENDS_NO_SHARED=ON"], what)
-            if status != 0:
-                return False
-        targets = [] if preset == self.preset else [f"--target={name}" for name in tests]
-        command = ["cmake", "--build", folder, "--parallel", str(os.cpu_count() or 1), *targets]
-        return self.call(command, what)[0] == 0
+    def run(self, preset, tests, arguments, what):
+        """Calls tests/run.sh. Of a sanitizer's preset, only these tests are built."""
+        targets = tests if preset != self.preset else []
+        return self.call(["tests/run.sh", "--preset", preset, *(f for name in targets
+                          for f in ("--target", name)), *arguments], what)
 
-    def first_failure(self, preset, tests, timeout_s, what):
-        """Runs these tests, or those of a merge if there are none. @return a failing one's name."""
-        command = ["tests/run.sh", "--preset", preset]
-        if tests and preset != self.preset:
-            command += [word for name in tests for word in ("--target", name)]
-        if tests:
-            command += ["-R", f"^({'|'.join(map(re.escape, tests))})$"]
-        else:
-            command += ["-E", "^mutation_list$"]  # it only tells that a source was changed
-        command += ["--stop-on-failure", "--timeout", str(timeout_s)]
-        status, output = self.call(command, what)
-        missing = [name for name in tests if not re.search(rf"\b{re.escape(name)} \.", output)]
+    def build(self, preset, tests, what):
+        """@return whether the build worked."""
+        status, output = self.run(preset, tests, ["-N"], what)
+        missing = [name for name in tests if f": {name}\n" not in output]
         if status == 0 and missing:
-            raise BadList(f"{what}: ctest has no test {', '.join(missing)} in preset {preset}")
-        if status == 0:
-            return None
-        failed = re.search(r"The following tests FAILED:\s+\d+ - (\S+)", output)
-        if not failed:
+            raise BadList(f"{what}: preset {preset} has no test {', '.join(missing)}")
+        return status == 0
+
+    def failures(self, preset, tests, timeout_s, what):
+        """Runs these tests or, if there are none, those of a merge until one fails.
+        @return the names of those that failed."""
+        chosen = ["-R", f"^({'|'.join(map(re.escape, tests))})$"]
+        if not tests:  # mutation_list would only tell that a source was changed
+            chosen = ["-E", "^mutation_list$", "--stop-on-failure"]
+        status, output = self.run(preset, tests, [*chosen, "--timeout", str(timeout_s)], what)
+        failed = output.partition("The following tests FAILED:")[2]
+        failed = re.findall(r"^\s*\d+ - (\S+) ", failed, re.MULTILINE)
+        if (status == 0) != (not failed):
             raise BadList(f"{what}: the tests could not run; see {self.log}")
-        return failed.group(1)
+        return failed
 
 
 def check(copy, faults):
@@ -115,12 +108,12 @@ def check(copy, faults):
         what = f"without a fault, preset {preset}"
         if not copy.build(preset, sorted(tests), what):
             raise BadList(f"{what}: the build failed; see {copy.log}")
-        if failed := copy.first_failure(preset, sorted(tests), TIMEOUT_S, what):
-            raise BadList(f"{what}: {failed} fails; see {copy.log}")
+        if failed := copy.failures(preset, sorted(tests), TIMEOUT_S, what):
+            raise BadList(f"{what}: {', '.join(failed)} failed; see {copy.log}")
 
 
 def look_for(copy, fault, named_only):
-    """Plants a fault and runs the tests. @return the name of the one that finds it, or None."""
+    """Plants a fault and runs the tests. @return the names of those that find it."""
     file = copy.folder / fault["file"]
     text = file.read_text(encoding="utf-8")
     preset = fault.get("preset", copy.preset)
@@ -129,9 +122,9 @@ def look_for(copy, fault, named_only):
         file.write_text(planted(fault, text), encoding="utf-8")
         if not copy.build(preset, fault["tests"], fault["name"]):
             raise BadList(f"[{fault['name']}] does not compile; see {copy.log}")
-        found = copy.first_failure(preset, fault["tests"], timeout_s, fault["name"])
-        if found is None and preset == copy.preset and not named_only:
-            found = copy.first_failure(preset, [], timeout_s, fault["name"])
+        found = copy.failures(preset, fault["tests"], timeout_s, fault["name"])
+        if not found and preset == copy.preset and not named_only:
+            found = copy.failures(preset, [], timeout_s, fault["name"])
         return found
     finally:
         file.write_text(text, encoding="utf-8")
@@ -141,7 +134,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("faults", nargs="*", metavar="FAULT", help="names of faults (default: all)")
-    parser.add_argument("--preset", default="release", help="of faults that name none")
+    parser.add_argument("--preset", default="tests", help="of faults that name none")
     parser.add_argument("--only", metavar="PRESET", help="only the faults that are found in a preset")
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build/mutation/playpen",
                         help="of the copy; one that exists is updated and built on")
@@ -172,9 +165,10 @@ def main():
     for fault in faults:
         start = time.monotonic()
         found = look_for(copy, fault, options.named_only)
-        found_count += found is not None
-        lost += found is None and fault.get("found", "yes") == "yes"
+        found_count += bool(found)
+        lost += not found and fault.get("found", "yes") == "yes"
         preset = fault.get("preset", options.preset)
+        found = ", ".join(found)
         line = f"found by {found}" if found else "NOT FOUND"
         print(f"{fault['name']:26} {preset:8} {line} ({time.monotonic() - start:.0f} s)", flush=True)
         rows.append(f"| `{fault['name']}` | {fault['breaks']} | {preset} | {found or '**none**'} |")
