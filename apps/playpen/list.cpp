@@ -17,13 +17,13 @@ namespace playpen {
 namespace {
 
 /// The entries under one heading.
-struct Section {
+struct ListedFolder {
   FileKind kind;
   const char* folder;
   const char* heading;
 };
 
-constexpr Section kSections[] = {
+constexpr ListedFolder kListedFolders[] = {
     {FileKind::kWorld, "", "Worlds (playpen run NAME -- PROGRAM)"},
     {FileKind::kWorld, "tasks", "Worlds of the tasks"},
     {FileKind::kWorld, "examples", "Worlds that show what worlds can hold"},
@@ -74,13 +74,13 @@ void print_sections(const std::vector<ShippedFile>& files, const std::string& wh
   for (const ShippedFile& file : files) longest = std::max(longest, file.name.size());
   const std::size_t description_at = kIndent + longest + 2;
   bool is_first = true;
-  for (const Section& section : kSections) {
-    if (!is_asked_for(section.kind, what)) continue;
+  for (const ListedFolder& shown : kListedFolders) {
+    if (!is_asked_for(shown.kind, what)) continue;
     if (!is_first) std::cout << '\n';
     is_first = false;
-    std::cout << tinted(section.heading, Tint::kStrong, colour) << '\n';
+    std::cout << tinted(shown.heading, Tint::kStrong, colour) << '\n';
     for (const ShippedFile& file : files) {
-      if (file.kind != section.kind || file.folder != section.folder) continue;
+      if (file.kind != shown.kind || file.folder != shown.folder) continue;
       std::string name = std::string(kIndent, ' ') + file.name;
       name.resize(description_at, ' ');
       std::cout << name

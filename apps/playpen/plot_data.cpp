@@ -27,7 +27,7 @@ using nlohmann::json;
 using sim::Vec2;
 
 constexpr std::string_view kHeader = "time,robot,x,y,yaw,v,omega,stalled";
-constexpr const char* kTrajectory = "trajectory.csv";
+constexpr const char* kPlottedFile = "trajectory.csv";
 constexpr const char* kReport = "report.json";
 constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
 
@@ -251,13 +251,13 @@ RunData read_run(const std::string& folder) {
   if (!fs::is_directory(path, error)) {
     throw std::runtime_error("expected a folder of results, found no folder '" + folder + "'");
   }
-  for (const char* const name : {kTrajectory, kReport}) {
+  for (const char* const name : {kPlottedFile, kReport}) {
     if (fs::is_regular_file(path / name, error)) continue;
     throw std::runtime_error("expected a folder of results, found no " + std::string(name) +
                              " in '" + folder + "'; 'playpen run WORLD --out " + folder +
                              " -- PROGRAM' makes one");
   }
-  read_trajectory(path / kTrajectory, run);
+  read_trajectory(path / kPlottedFile, run);
   read_report(path / kReport, run);
   return run;
 }

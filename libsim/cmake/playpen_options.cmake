@@ -7,8 +7,9 @@ target_compile_options(playpen_build_flags INTERFACE
   # Memory for time: gcc does not look for garbage before its heap has reached half a gigabyte.
   $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
   $<$<BOOL:${PLAYPEN_WERROR}>:-Werror>)
+option(PLAYPEN_ASSERTS "Check SIM_ASSERT at run time, in Release builds too" ON)
 target_compile_definitions(playpen_build_flags INTERFACE
-  $<$<CONFIG:Debug,RelWithDebInfo>:SIM_ENABLE_ASSERTS>)
+  $<$<BOOL:${PLAYPEN_ASSERTS}>:SIM_ENABLE_ASSERTS>)
 if(PLAYPEN_SANITIZE)
   target_compile_options(playpen_build_flags INTERFACE
     -fsanitize=${PLAYPEN_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
@@ -70,30 +71,45 @@ function(playpen_find_modules_from_programs target)
   endif()
 endfunction()
 
-# playpen_group_sources(TARGET): with PLAYPEN_UNITY, sources of one folder are
-# compiled together, twelve at a time: most of a source's time is spent on the headers of others.
-# Those that have properties of their own are compiled alone.
+# playpen_group_sources(TARGET NAME LEVEL PATTERN[|PATTERN...] ...): with PLAYPEN_UNITY, the sources
+# whose path begins with one of the patterns are compiled together, because most of a source's time is
+# spent on the headers of others and on the same templates. In Release builds they are optimised at
+# LEVEL (-O1, -O2, -O3). A source belongs to the first group that matches. Groups start in their order:
+# long ones come first. Sources with definitions or options of their own are compiled alone.
 function(playpen_group_sources target)
-  if(NOT PLAYPEN_UNITY)
-    return()
-  endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # Warns of types with members of the anonymous namespace, unless they lie in the main file.
-  target_compile_options(${target} PRIVATE
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-  get_target_property(sources ${target} SOURCES)
-  foreach(source IN LISTS sources)
-    get_source_file_property(own ${source} COMPILE_DEFINITIONS)
-    get_source_file_property(own_options ${source} COMPILE_OPTIONS)
-    if(own OR own_options OR IS_ABSOLUTE "${source}")
-      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-      continue()
+  get_target_property(left ${target} SOURCES)
+  set(groups "")
+  while(ARGN)
+    list(POP_FRONT ARGN name level patterns)
+    set(includes "")
+    foreach(source IN LISTS left)
+      get_source_file_property(own ${source} COMPILE_DEFINITIONS)
+      get_source_file_property(own_options ${source} COMPILE_OPTIONS)
+      if(own OR own_options OR IS_ABSOLUTE "${source}" OR NOT source MATCHES "^(${patterns})")
+        continue()
+      endif()
+      list(REMOVE_ITEM left ${source})
+      if(PLAYPEN_UNITY)
+        string(APPEND includes "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${source}\"\n")
+        set_source_files_properties(${source} PROPERTIES HEADER_FILE_ONLY ON)
+      else()
+        set_source_files_properties(${source} PROPERTIES
+          COMPILE_OPTIONS $<$<CONFIG:Release>:${level}>)
+      endif()
+    endforeach()
+    if(PLAYPEN_UNITY)
+      set(group "${CMAKE_CURRENT_BINARY_DIR}/groups/${target}_${name}.cpp")
+      file(CONFIGURE OUTPUT "${group}" CONTENT "${includes}" @ONLY)
+      set_source_files_properties(${group} PROPERTIES
+        COMPILE_OPTIONS $<$<CONFIG:Release>:${level}>)
+      list(APPEND groups "${group}")
     endif()
-    get_filename_component(folder ${source} DIRECTORY)
-    string(MAKE_C_IDENTIFIER "${folder}" group)
-    math(EXPR number "${${group}_count} + 0")
-    math(EXPR ${group}_count "${number} + 1")
-    math(EXPR part "${number} / 12")
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${group}_${part}")
-  endforeach()
+  endwhile()
+  if(PLAYPEN_UNITY)
+    get_target_property(sources ${target} SOURCES)
+    set_target_properties(${target} PROPERTIES SOURCES "${groups};${sources}")
+    # Warns of types with members of the anonymous namespace, unless they lie in the main file.
+    target_compile_options(${target} PRIVATE
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
 endfunction()

@@ -48,7 +48,7 @@ std::terminate_handler previous_handler = nullptr;
   std::abort();
 }
 
-bool says_run_is_over(const std::exception_ptr& error) {
+bool is_end_of_run(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
   } catch (const PlayerError& e) {
@@ -63,7 +63,7 @@ bool says_run_is_over(const std::exception_ptr& error) {
 void prepare_for_uncaught_errors() noexcept {
   static std::once_flag once;
   std::call_once(once, [] {
-    add_end_of_run_test(says_run_is_over);
+    add_end_of_run_test(is_end_of_run);
     previous_handler = std::set_terminate(describe_and_terminate);
   });
 }

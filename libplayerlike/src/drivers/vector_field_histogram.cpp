@@ -9,7 +9,7 @@
 namespace playerlike {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 
 // Bins of the distances to obstacles, half a degree wide.
 constexpr std::size_t kBins = 720;
@@ -18,11 +18,11 @@ constexpr double kReach_m = 3.0;
 constexpr double kMagnitude_per_m4 = 1e4;
 // Openings: those below the first width are ignored, those below the second are narrow. In a wide
 // one the robot keeps half the second width from the border. The values are Player's.
-constexpr double kLeastOpening_rad = 10.0 * kDegree_rad;
-constexpr double kWideOpening_rad = 80.0 * kDegree_rad;
+constexpr double kLeastOpening_rad = 10.0 * kRadPerDegree;
+constexpr double kWideOpening_rad = 80.0 * kRadPerDegree;
 // The turn rate is the greatest beyond this bearing, and proportional to the bearing below
 // (Player).
-constexpr double kFullTurn_rad = 75.0 * kDegree_rad;
+constexpr double kFullTurn_rad = 75.0 * kRadPerDegree;
 // Beyond this bearing the robot turns on the spot.
 constexpr double kVfhTurnOnSpot_rad = 0.5 * std::numbers::pi;
 

@@ -13,14 +13,6 @@ namespace {
 
 using sim::Simulation;
 
-[[noreturn]] void refuse(const std::string& message) {
-  throw SessionError(SessionError::Code::kBadArgument, message);
-}
-
-void require_done(const std::optional<std::string>& refusal) {
-  if (refusal) refuse(*refusal);
-}
-
 template <typename List>
 std::vector<std::string> names_of(const List& list) {
   std::vector<std::string> names;
@@ -35,7 +27,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 [[noreturn]] void refuse_unknown(const char* what, const std::string& name,
                                  const std::vector<std::string>& known) {
-  refuse(unknown_name(what, name, known));
+  refuse_argument(unknown_name(what, name, known));
 }
 
 const sim::ControllerDescription& controller_of(const Simulation& simulation) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/arena.h"
+#include "session/checks.h"
 #include "sim/core/colour.h"
 
 namespace playerlike {
@@ -19,10 +20,6 @@ namespace {
 using sim::SceneObject;
 using sim::Simulation;
 using Numbers = std::vector<double>;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw SessionError(SessionError::Code::kBadArgument, message);
-}
 
 // An object with the data for its properties: the robot or the box that it is, if any. The arena
 // itself has kind "arena".
@@ -73,20 +70,16 @@ const Numbers& numbers(const PropertyValue& value, const std::string& property, 
   const bool finite = list != nullptr && std::all_of(list->begin(), list->end(),
                                                      [](double x) { return std::isfinite(x); });
   if (!finite || list->size() < least || list->size() > most) {
-    refuse("the property \"" + property + "\" takes " + std::to_string(least) +
-           (least == most ? "" : " or " + std::to_string(most)) + " finite numbers");
+    refuse_argument("the property \"" + property + "\" takes " + std::to_string(least) +
+                    (least == most ? "" : " or " + std::to_string(most)) + " finite numbers");
   }
   return *list;
 }
 
 const std::string& text(const PropertyValue& value, const std::string& property) {
   const auto* words = std::get_if<std::string>(&value);
-  if (words == nullptr) refuse("the property \"" + property + "\" takes a text");
+  if (words == nullptr) refuse_argument("the property \"" + property + "\" takes a text");
   return *words;
-}
-
-void require_done(const std::optional<std::string>& refusal) {
-  if (refusal) refuse(*refusal);
 }
 
 // A property: which objects have it, its getter and its setter (null: read-only).
@@ -125,8 +118,8 @@ constexpr Property kProperties[] = {
      [](Simulation& simulation, const Subject& s, const PropertyValue& value) {
        const auto colour = sim::parse_colour(text(value, "colour"));
        if (!colour) {
-         refuse("a colour is \"#rgb\", \"#rrggbb\" or \"#rrggbbaa\", but this is \"" +
-                text(value, "colour").substr(0, 20) + '"');
+         refuse_argument("a colour is \"#rgb\", \"#rrggbb\" or \"#rrggbbaa\", but this is \"" +
+                         text(value, "colour").substr(0, 20) + '"');
        }
        require_done(simulation.set_object_colour(s.object.name, *colour));
      }},
@@ -174,8 +167,9 @@ constexpr Property kProperties[] = {
        const double number = numbers(value, "fiducial_return", 1, 1).front();
        constexpr int kMost = std::numeric_limits<std::int32_t>::max();
        if (!(number >= 0.0 && number <= kMost && number == std::floor(number))) {
-         refuse("the property \"fiducial_return\" is a whole number from 0 (not seen) to " +
-                std::to_string(kMost));
+         refuse_argument(
+             "the property \"fiducial_return\" is a whole number from 0 (not seen) to " +
+             std::to_string(kMost));
        }
        require_done(simulation.set_object_fiducial(s.object.name, static_cast<int>(number)));
      }},
@@ -223,7 +217,7 @@ constexpr Property kProperties[] = {
      [](Simulation& simulation, const Subject& s, const PropertyValue& value) {
        const std::string& word = text(value, "state");
        if (word != "extended" && word != "retracted") {
-         refuse("the state of a block is \"extended\" or \"retracted\"");
+         refuse_argument("the state of a block is \"extended\" or \"retracted\"");
        }
        require_done(simulation.set_obstacle_state(
            s.object.name,
@@ -254,14 +248,14 @@ const Property& require_property(const Subject& s, const std::string& name) {
     if (property.name == name) return property;
     known += (known.empty() ? "" : ", ") + std::string(property.name);
   }
-  refuse(shown_name(s) + " has no property \"" + name + "\"; it has: " + known);
+  refuse_argument(shown_name(s) + " has no property \"" + name + "\"; it has: " + known);
 }
 
 }  // namespace
 
 sim::SceneObject require_object(const Simulation& simulation, const std::string& name) {
   std::optional<SceneObject> object = simulation.find_object(name);
-  if (!object) refuse(simulation.no_such_object(name));
+  if (!object) refuse_argument(simulation.no_such_object(name));
   return std::move(*object);
 }
 
@@ -270,7 +264,7 @@ void place_object(Simulation& simulation, const std::string& name, const sim::Po
   constexpr double kFarthest_m = 1e6;
   for (const double x : {pose.x_m, pose.y_m, pose.yaw_rad}) {
     if (!(std::abs(x) <= kFarthest_m)) {
-      refuse("a pose takes three finite numbers: x and y [m] and the heading [rad]");
+      refuse_argument("a pose takes three finite numbers: x and y [m] and the heading [rad]");
     }
   }
   require_done(
@@ -288,7 +282,7 @@ void set_object_property(Simulation& simulation, const std::string& name,
   const Subject s = subject(simulation, name);
   const Property& found = require_property(s, property);
   if (found.set == nullptr) {
-    refuse("the property \"" + property + "\" of " + shown_name(s) + " cannot be changed");
+    refuse_argument("the property \"" + property + "\" of " + shown_name(s) + " cannot be changed");
   }
   found.set(simulation, s, value);
 }

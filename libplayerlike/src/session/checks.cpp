@@ -49,4 +49,12 @@ bool is_printable(std::string_view text) {
   });
 }
 
+void refuse_argument(const std::string& message) {
+  throw SessionError(SessionError::Code::kBadArgument, message);
+}
+
+void require_done(const std::optional<std::string>& refusal) {
+  if (refusal) refuse_argument(*refusal);
+}
+
 }  // namespace playerlike

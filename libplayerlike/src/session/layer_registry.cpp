@@ -14,7 +14,7 @@ namespace {
 
 constexpr sim::LayerId kNoLayer = -1;
 
-[[noreturn]] void refuse(SessionError::Code code, const std::string& text) {
+[[noreturn]] void reject(SessionError::Code code, const std::string& text) {
   throw SessionError(code, text);
 }
 
@@ -24,7 +24,7 @@ std::size_t cells_of(int width, int height) {
 
 void require_transparency(const sim::LayerStyle& style) {
   if (style.transparency >= 0.0 && style.transparency <= 1.0) return;
-  refuse(SessionError::Code::kBadArgument, "a layer's transparency is a number in 0..1, but is " +
+  reject(SessionError::Code::kBadArgument, "a layer's transparency is a number in 0..1, but is " +
                                                sim::rounded_text(style.transparency, 6));
 }
 
@@ -37,14 +37,14 @@ bool LayerRegistry::owns(int client, sim::LayerId layer) const noexcept {
 
 void LayerRegistry::require(int client, sim::LayerId layer) const {
   if (may_use(client, layer)) return;
-  refuse(SessionError::Code::kBadArgument,
+  reject(SessionError::Code::kBadArgument,
          "this client has no layer with the number " + std::to_string(layer));
 }
 
 void LayerRegistry::require_name(const sim::LayerStack& stack, int client, sim::LayerId layer,
                                  const std::string& name) const {
   if (name.empty() || name.size() > kMaxLayerName || !is_printable(name)) {
-    refuse(SessionError::Code::kBadArgument,
+    reject(SessionError::Code::kBadArgument,
            "a layer's name has 1 to " + std::to_string(kMaxLayerName) +
                " printable characters, but this one " +
                (name.empty()                  ? "is empty"
@@ -53,7 +53,7 @@ void LayerRegistry::require_name(const sim::LayerStack& stack, int client, sim::
   }
   for (const sim::LayerInfo& other : list(stack, client)) {
     if (other.id == layer || other.style.name != name) continue;
-    refuse(SessionError::Code::kBadArgument, "there is a layer \"" + name + "\" already");
+    reject(SessionError::Code::kBadArgument, "there is a layer \"" + name + "\" already");
   }
 }
 
@@ -62,7 +62,7 @@ void LayerRegistry::make_room(sim::LayerStack& stack, int client) {
   const auto own = static_cast<std::size_t>(std::count_if(
       entries_.begin(), entries_.end(), [&](const Entry& e) { return e.client == client; }));
   if (own >= kMaxLayers) {
-    refuse(SessionError::Code::kNotAvailable,
+    reject(SessionError::Code::kNotAvailable,
            "this client has " + std::to_string(own) + " layers, which is the most it may have");
   }
   const std::size_t most = kMaxLayerCells / cells_of(stack.width(), stack.height());
@@ -70,7 +70,7 @@ void LayerRegistry::make_room(sim::LayerStack& stack, int client) {
     const auto orphan = std::find_if(entries_.begin(), entries_.end(),
                                      [](const Entry& e) { return e.client == kNobody; });
     if (orphan == entries_.end()) {
-      refuse(SessionError::Code::kNotAvailable,
+      reject(SessionError::Code::kNotAvailable,
              "there is no room for another layer: " + std::to_string(entries_.size() + 1) +
                  " layers of " + std::to_string(stack.width()) + " x " +
                  std::to_string(stack.height()) + " cells are there");
@@ -101,7 +101,7 @@ sim::LayerId LayerRegistry::create(sim::LayerStack& stack, int client, int port,
 void LayerRegistry::remove(sim::LayerStack& stack, int client, sim::LayerId layer) {
   require(client, layer);
   if (layer == sim::kBaseLayer) {
-    refuse(SessionError::Code::kNotAvailable,
+    reject(SessionError::Code::kNotAvailable,
            "the layer \"canvas\" is shared by all clients and cannot be removed");
   }
   stack.remove(layer);
@@ -114,7 +114,7 @@ void LayerRegistry::set_style(sim::LayerStack& stack, int client, sim::LayerId l
   require_transparency(style);
   if (style.name != stack.style(layer).name) {
     if (layer == sim::kBaseLayer) {
-      refuse(SessionError::Code::kNotAvailable,
+      reject(SessionError::Code::kNotAvailable,
              "the layer \"canvas\" is shared by all clients and cannot be renamed");
     }
     require_name(stack, client, layer, style.name);
@@ -124,13 +124,13 @@ void LayerRegistry::set_style(sim::LayerStack& stack, int client, sim::LayerId l
 
 void LayerRegistry::require_size(const sim::LayerStack& stack, int width, int height) const {
   if (width < 1 || height < 1 || width > sim::kMaxCanvasSide || height > sim::kMaxCanvasSide) {
-    refuse(SessionError::Code::kBadArgument,
+    reject(SessionError::Code::kBadArgument,
            "the grid-map's sides are 1 to " + std::to_string(sim::kMaxCanvasSide) + " cells, but " +
                std::to_string(width) + " x " + std::to_string(height) + " were asked for");
   }
   if (width == stack.width() && height == stack.height()) return;
   if (cells_of(width, height) > kMaxLayerCells / (entries_.size() + 1)) {
-    refuse(SessionError::Code::kNotAvailable,
+    reject(SessionError::Code::kNotAvailable,
            std::to_string(width) + " x " + std::to_string(height) + " cells are too many for " +
                std::to_string(entries_.size() + 1) + " layers: they may have " +
                std::to_string(kMaxLayerCells) + " cells together");
@@ -159,7 +159,7 @@ void LayerRegistry::leave(int client) noexcept {
 
 void require_cells(const sim::CellRect& rect, std::size_t count) {
   if (rect.width >= 0 && rect.height >= 0 && cells_of(rect.width, rect.height) == count) return;
-  refuse(SessionError::Code::kBadArgument, "a rectangle of " + std::to_string(rect.width) + " x " +
+  reject(SessionError::Code::kBadArgument, "a rectangle of " + std::to_string(rect.width) + " x " +
                                                std::to_string(rect.height) + " cells was given " +
                                                std::to_string(count) + " values");
 }

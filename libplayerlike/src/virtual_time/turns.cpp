@@ -22,7 +22,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 // How often to check for blocked threads, and after which time asleep a thread is blocked.
-constexpr std::chrono::milliseconds kPollPeriod(20);
+constexpr std::chrono::milliseconds kCheckPeriod(20);
 constexpr std::chrono::milliseconds kBlocked(100);
 // Minimum number of such checks, since the checking thread itself may have been preempted.
 constexpr int kBlockedChecks = 4;
@@ -394,7 +394,7 @@ void Turns::park(Lock& lock, TurnThread& self) {
     if (!parked()) break;
     lock.unlock();
     signals.let_through();
-    const WaitResult result = wait_for_event(self.event_count, known_count, kPollPeriod);
+    const WaitResult result = wait_for_event(self.event_count, known_count, kCheckPeriod);
     lock.lock();
     if (result == WaitResult::kSignal && self.interruptible) note_signal(self);
     if (result == WaitResult::kTimeOut && parked()) check_blocked_threads(lock);
@@ -491,7 +491,7 @@ void Turns::check_blocked_threads(Lock& lock) {
       t->blocked_since = sample.switches ? std::optional(now) : std::nullopt;
       t->blocked_switches = sample.switches.value_or(0);
       t->blocked_checks = 0;
-    } else if (now - t->blocked_last >= kPollPeriod) {
+    } else if (now - t->blocked_last >= kCheckPeriod) {
       ++t->blocked_checks;
       if (t->blocked_checks >= kBlockedChecks && now - *t->blocked_since >= kBlocked) {
         blocked.push_back(t);

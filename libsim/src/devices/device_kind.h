@@ -39,10 +39,11 @@ template <typename Params>
 /// Defines a row; fields_of<Params>() and fields_of<ReadingType>() describe settings and readings.
 /// @tparam ReadingType  void for a device without readings.
 /// @param interfaces  that the device provides; a name alone has rank 0.
-/// @param make  creates the device from a DeviceConstruction and Params.
+/// @tparam Make  of a lambda without captures: creates the device from a DeviceConstruction and
+///               Params. It is a type, because plain functions compile faster than std::function.
 template <typename Params, typename ReadingType, typename Make>
 [[nodiscard]] DeviceKind device_kind(const char* name, std::vector<ProvidedInterface> interfaces,
-                                     Make make) {
+                                     Make /*make*/) {
   DeviceKind row;
   row.name = name;
   row.interfaces = std::move(interfaces);
@@ -56,9 +57,9 @@ template <typename Params, typename ReadingType, typename Make>
   row.settings_in = [](const std::any& params) -> const void* {
     return std::any_cast<Params>(&params);
   };
-  row.create = [make](const DeviceDescription& device, const RobotDescription& robot,
-                      const RobotModel& model, std::uint64_t seed) -> std::unique_ptr<Device> {
-    return make(DeviceConstruction{device, robot, model, seed}, params_in<Params>(device.params));
+  row.create = [](const DeviceDescription& device, const RobotDescription& robot,
+                  const RobotModel& model, std::uint64_t seed) -> std::unique_ptr<Device> {
+    return Make{}(DeviceConstruction{device, robot, model, seed}, params_in<Params>(device.params));
   };
   if constexpr (!std::is_void_v<ReadingType>) {
     row.reading = {&fields_of<ReadingType>(), &typeid(ReadingType),
@@ -83,12 +84,12 @@ template <typename Made, typename Params, typename ReadingType>
 }
 
 /// Adds properties that depend on the robot's model to a row.
-/// @param complete  fills Params with values from the model.
+/// @tparam Complete  of a lambda without captures, which fills Params with values from the model.
 template <typename Params, typename Complete>
-[[nodiscard]] DeviceKind with_model(DeviceKind row, Complete complete) {
-  row.model_properties = [complete](const std::any& params, const RobotModel& model) {
+[[nodiscard]] DeviceKind with_model(DeviceKind row, Complete /*complete*/) {
+  row.model_properties = [](const std::any& params, const RobotModel& model) {
     auto completed = params_in<Params>(params);
-    complete(completed, model);
+    Complete{}(completed, model);
     std::map<std::string, double> properties;
     add_properties(fields_of<Params>(), &completed, properties);
     return properties;

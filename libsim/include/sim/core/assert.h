@@ -9,7 +9,7 @@ namespace sim::detail {
 }  // namespace sim::detail
 
 /// Checks a condition that can only fail because of a bug in Playpen, never because of user input.
-/// Enabled in Debug and RelWithDebInfo builds; not evaluated in Release.
+/// Enabled unless CMake's option PLAYPEN_ASSERTS is off; not evaluated then.
 #ifdef SIM_ENABLE_ASSERTS
 #define SIM_ASSERT(condition)         \
   ((condition) ? static_cast<void>(0) \

@@ -159,7 +159,11 @@ struct Field {
   std::optional<double> unlisted_at = {};  ///< clients see no such property while a number has this
                                            ///< value
   /// Pointer to the value in an object; nullptr if the value is an empty std::optional.
-  const void* (*get)(const void* object) = nullptr;
+  [[nodiscard]] const void* get(const void* object) const {
+    return find != nullptr ? find(object) : set(const_cast<void*>(object));
+  }
+  /// get() of a std::optional; nullptr for other members, whose set() changes nothing.
+  const void* (*find)(const void* object) = nullptr;
   /// Pointer for writing the value; fills an empty std::optional first.
   void* (*set)(void* object) = nullptr;
   /// Resets a std::optional; nullptr for other members.
@@ -234,15 +238,6 @@ struct Parts<Type Class::*> {
   using Owner = Class;
 };
 
-template <auto kFirst, auto... kRest>
-[[nodiscard]] constexpr auto& follow(auto& object) {
-  if constexpr (sizeof...(kRest) == 0) {
-    return object.*kFirst;
-  } else {
-    return follow<kRest...>(object.*kFirst);
-  }
-}
-
 template <typename T>
 inline constexpr bool kIsOptional = false;
 template <typename T>
@@ -307,6 +302,39 @@ inline constexpr ListAccess kAccess = {
 }  // namespace field_detail
 /// @endcond
 
+/// @cond
+namespace field_detail {
+
+// What depends only on the type of the value. Each field has its own field(), so that is short.
+template <typename Value>
+[[nodiscard]] constexpr Field describe(const char* name, const char* unit, const char* meaning) {
+  Field made{name, type_of<Value>()};
+  made.range.unit = unit;
+  made.meaning = meaning;
+  const auto limits = integer_range<Value>();
+  made.least = limits.first;
+  made.greatest = limits.second;
+  made.is_angle = made.type == FieldType::kNumber && std::string_view(name).ends_with("_deg");
+  if constexpr (std::is_enum_v<Value>) static_assert(sizeof(Value) == sizeof(int));
+  if constexpr (kIsVector<Value>) {
+    made.list = &kAccess<Value>;
+    if constexpr (type_of<Value>() == FieldType::kList) {
+      made.table = &fields_of<typename Value::value_type>;
+    }
+  } else if constexpr (type_of<Value>() == FieldType::kStruct) {
+    made.table = &fields_of<Value>;
+  }
+  return made;
+}
+
+template <typename Owner, auto... kMembers>
+void* address(void* object) {
+  return &(*static_cast<Owner*>(object).*....*kMembers);
+}
+
+}  // namespace field_detail
+/// @endcond
+
 /// A member of a struct, or a member of a member: field<&PoseReading::twist, &Twist::v_mps>("v",
 /// "m/s").
 /// @param unit     shown in messages and pages; empty if it has none.
@@ -315,45 +343,21 @@ template <auto kFirst, auto... kRest>
 [[nodiscard]] constexpr Field field(const char* name, const char* unit = "",
                                     const char* meaning = "") {
   using Owner = typename field_detail::Parts<decltype(kFirst)>::Owner;
-  using Member =
-      std::remove_cvref_t<decltype(field_detail::follow<kFirst, kRest...>(std::declval<Owner&>()))>;
+  using Member = std::remove_reference_t<decltype(((std::declval<Owner&>().*kFirst).*....*kRest))>;
   using Value = typename field_detail::ValueOf<Member>::Type;
-  Field made{name, field_detail::type_of<Value>()};
-  made.range.unit = unit;
-  made.meaning = meaning;
-  const auto limits = field_detail::integer_range<Value>();
-  made.least = limits.first;
-  made.greatest = limits.second;
-  made.is_angle = made.type == FieldType::kNumber && std::string_view(name).ends_with("_deg");
-  if constexpr (std::is_enum_v<Value>) static_assert(sizeof(Value) == sizeof(int));
-  if constexpr (field_detail::kIsVector<Value>) {
-    made.list = &field_detail::kAccess<Value>;
-    if constexpr (field_detail::type_of<Value>() == FieldType::kList) {
-      made.table = &fields_of<typename Value::value_type>;
-    }
-  } else if constexpr (field_detail::type_of<Value>() == FieldType::kStruct) {
-    made.table = &fields_of<Value>;
-  }
+  Field made = field_detail::describe<Value>(name, unit, meaning);
   if constexpr (field_detail::kIsOptional<Member>) {
-    made.get = [](const void* object) -> const void* {
-      const auto& member =
-          field_detail::follow<kFirst, kRest...>(*static_cast<const Owner*>(object));
+    made.find = [](const void* object) -> const void* {
+      const auto& member = ((static_cast<const Owner*>(object)->*kFirst).*....*kRest);
       return member.has_value() ? &*member : nullptr;
     };
     made.set = [](void* object) -> void* {
-      auto& member = field_detail::follow<kFirst, kRest...>(*static_cast<Owner*>(object));
+      auto& member = ((static_cast<Owner*>(object)->*kFirst).*....*kRest);
       return member.has_value() ? &*member : &member.emplace();
     };
-    made.drop = [](void* object) {
-      field_detail::follow<kFirst, kRest...>(*static_cast<Owner*>(object)).reset();
-    };
+    made.drop = [](void* object) { ((static_cast<Owner*>(object)->*kFirst).*....*kRest).reset(); };
   } else {
-    made.get = [](const void* object) -> const void* {
-      return &field_detail::follow<kFirst, kRest...>(*static_cast<const Owner*>(object));
-    };
-    made.set = [](void* object) -> void* {
-      return &field_detail::follow<kFirst, kRest...>(*static_cast<Owner*>(object));
-    };
+    made.set = &field_detail::address<Owner, kFirst, kRest...>;
   }
   return made;
 }
@@ -363,9 +367,6 @@ template <typename Derived, typename Base>
 [[nodiscard]] constexpr Field include() {
   Field made{"", FieldType::kInclude};
   made.table = &fields_of<Base>;
-  made.get = [](const void* object) -> const void* {
-    return static_cast<const Base*>(static_cast<const Derived*>(object));
-  };
   made.set = [](void* object) -> void* {
     return static_cast<Base*>(static_cast<Derived*>(object));
   };
@@ -379,7 +380,6 @@ template <typename Derived, typename Base>
   made.custom = &functions;
   made.range.unit = unit;
   made.meaning = meaning;
-  made.get = [](const void* object) { return object; };
   made.set = [](void* object) { return object; };
   return made;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <any>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -44,13 +43,12 @@ struct DeviceKind : io::DeviceType {
   std::vector<ProvidedInterface> interfaces;
   /// Creates a device.
   /// @param world_seed  seed of the run, for the device's noise stream.
-  std::function<std::unique_ptr<Device>(const DeviceDescription&, const RobotDescription&,
-                                        const RobotModel&, std::uint64_t world_seed)>
-      create;
-  /// Properties that also depend on the robot's model; they replace those of properties(). Empty
+  std::unique_ptr<Device> (*create)(const DeviceDescription&, const RobotDescription&,
+                                    const RobotModel&, std::uint64_t world_seed) = nullptr;
+  /// Properties that also depend on the robot's model; they replace those of properties(). nullptr
   /// for kinds without such properties.
-  std::function<std::map<std::string, double>(const std::any& params, const RobotModel& model)>
-      model_properties;
+  std::map<std::string, double> (*model_properties)(const std::any& params,
+                                                    const RobotModel& model) = nullptr;
 
   /// The numeric settings as clients see them, in SI units and radians.
   [[nodiscard]] std::map<std::string, double> properties(const std::any& params) const;

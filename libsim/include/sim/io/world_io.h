@@ -2,7 +2,6 @@
 #pragma once
 
 #include <any>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,8 +18,8 @@ namespace sim::io {
 struct DeviceType {
   std::string name;
   /// Reads and checks the settings object; missing keys keep the values of `defaults`.
-  std::function<std::any(Reader& settings, const std::any& defaults)> parse;
-  std::function<std::any()> defaults;
+  std::any (*parse)(Reader& settings, const std::any& defaults) = nullptr;
+  std::any (*defaults)() = nullptr;
 };
 
 /// Reads a world file. Relative names in it (maps, files of robot models) are relative to its
