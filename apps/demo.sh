@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# Installs missing packages, builds the programs, lets a robot explore an unknown arena by
-# itself, films it and grades its map.
+# Installs missing packages, builds the command, lets a robot explore an unknown arena by itself,
+# films it and grades its map. Then builds the other programs that the guides run.
 # Results: out/demo/.
 set -euo pipefail
 
@@ -21,6 +21,8 @@ esac
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
+# shellcheck source=SCRIPTDIR/build_tools.sh
+source apps/build_tools.sh
 build=build/release
 out=out/demo
 log=$build/demo.log
@@ -42,32 +44,45 @@ quietly() {
   fi
 }
 
-headline "1/4  Packages"
+headline "1/5  Packages"
 "$root/apps/install_dependencies.sh" build ||
   fail "packages are missing and could not be installed; the reason is above"
 echo "     all there"
 
-headline "2/4  Build"
+# progress: copies ninja's lines to the log, and shows one in ten percent.
+progress() {
+  awk -v log_file="$log" '{
+    print >> log_file
+    if ($1 ~ /^[0-9]+%$/ && $1 + 0 >= next_one) {
+      print "     " $1
+      fflush()
+      next_one = int($1 / 10) * 10 + 10
+    }
+  }'
+}
+# build TARGET...
+build() {
+  local names=()
+  for name in "$@"; do names+=(--target "$name"); done
+  if [[ -t 1 ]]; then
+    # On a terminal ninja shows its progress in one line.
+    cmake --build "$build" --parallel "$(nproc)" "${names[@]}" ||
+      fail "the build failed; the compiler's messages are above"
+  elif ! NINJA_STATUS='%p ' cmake --build "$build" --parallel "$(nproc)" "${names[@]}" 2>&1 |
+    progress; then
+    tail -n 40 "$log" >&2
+    fail "the build failed; the last lines are above, all of them in $root/$log"
+  fi
+}
+
+headline "2/5  Build what the film needs"
 mkdir -p "$build" "$out"
 : >"$log"
-launcher=()
-if command -v ccache >/dev/null 2>&1; then
-  launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-fi
 quietly "configuring" cmake --preset release "${launcher[@]}"
-# The command, the package that `cmake --install` installs, and the programs that the guides run.
-targets=(programs)
-jobs=$(nproc)
-if [[ -t 1 ]]; then
-  # On a terminal ninja shows its progress in one line.
-  cmake --build "$build" --parallel "$jobs" --target "${targets[@]}" ||
-    fail "the build failed; the compiler's messages are above"
-else
-  quietly "the build" cmake --build "$build" --parallel "$jobs" --target "${targets[@]}"
-fi
-echo "     $build/bin/playpen, and the course's programs beside it"
+build playpen par_exploration_solution_nearest
+echo "     $build/bin/playpen"
 
-headline "3/4  A robot explores an arena that it does not know"
+headline "3/5  A robot explores an arena that it does not know"
 results=(film.mp4 scene.png canvas.png layers/occupancy.pgm layers/occupancy.yaml report.json
   trajectory.csv)
 # Those of an earlier run must not pass for this one's.
@@ -80,13 +95,6 @@ for file in "${results[@]}"; do
   [[ -s $out/$file ]] || fail "the run ended well but left no $out/$file; please report this"
 done
 
-headline "4/4  The same again, judged as a student's program is"
-"$build/bin/playpen" grade worlds/tasks/par_exploration.task.json \
-  worlds/tasks/par_exploration.json --seeds 1, --out "$out/grade" \
-  -- "$build/bin/par_exploration_solution_nearest" ||
-  fail "the run did not pass; the reasons are above"
-
-echo
 headline "Look at"
 echo "  $root/$out/film.mp4         how it went, 2.5 times as fast"
 echo "  $root/$out/scene.png        the arena, the robot, and what it knows at the end"
@@ -94,3 +102,19 @@ echo "  $root/$out/canvas.png       what it knows, alone; layers/ has each layer
 echo "  $root/$out/layers/occupancy.yaml   its map, for ROS's map_server"
 echo "  $root/$out/report.json      the figures"
 echo "  $root/$out/trajectory.csv   where it was, and when"
+count_processor_seconds
+echo "The film took $SECONDS s, $processor_seconds s of processor time."
+echo
+
+headline "4/5  The same again, judged as a student's program is"
+"$build/bin/playpen" grade worlds/tasks/par_exploration.task.json \
+  worlds/tasks/par_exploration.json --seeds 1, --out "$out/grade" \
+  -- "$build/bin/par_exploration_solution_nearest" ||
+  fail "the run did not pass; the reasons are above"
+
+headline "5/5  Build the other programs that the guides run"
+echo "     You can interrupt this: what is above stays, and apps/demo.sh goes on from here next time."
+build programs
+echo "     $root/$build/bin has the course's programs and their solutions"
+count_processor_seconds
+echo "All took $SECONDS s, $processor_seconds s of processor time."

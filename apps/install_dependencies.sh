@@ -20,6 +20,7 @@ Groups (default: build):
           and Boost.Program_options
   lint    clang, its formatter and linter, shellcheck
   doc     Doxygen
+  package what the target `package` needs to make and check Debian packages
 
   --list  print the names of the groups' packages, one a line, and install nothing
   --help  print this
@@ -44,6 +45,7 @@ optional_test_packages=(python3-morse-simulator libboost-program-options-dev)
 lint_packages=(
   clang=clang clang-format=clang-format clang-tidy=clang-tidy shellcheck=shellcheck git=git)
 doc_packages=(doxygen=doxygen)
+package_packages=(dpkg-dev=dpkg-shlibdeps file=file lintian=lintian)
 
 fail() {
   printf 'install_dependencies: %s\n' "$@" >&2
@@ -102,7 +104,7 @@ for argument in "$@"; do
       usage
       exit 0
       ;;
-    build | test | lint | doc) groups+=("$argument") ;;
+    build | test | lint | doc | package) groups+=("$argument") ;;
     *)
       usage >&2
       fail "unknown argument '$argument'"
@@ -126,6 +128,7 @@ for group in "${groups[@]}"; do
       with_lint=true
       ;;
     doc) wanted+=("${doc_packages[@]}") ;;
+    package) wanted+=("${package_packages[@]}") ;;
   esac
 done
 

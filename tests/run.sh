@@ -8,15 +8,20 @@ usage() {
   cat <<'TEXT'
 Usage: tests/run.sh [--preset NAME] [--target NAME]... [CTEST ARGUMENTS...]
 
-Builds a preset of CMakePresets.json (default: dev) in build/NAME and runs its tests in
-parallel. With --target only these targets are built. Anything else is handed to ctest, for
-example:
+Builds a preset of CMakePresets.json (default: tests) and runs its tests in parallel. The preset
+tests adds the tests to build/release, which apps/demo.sh builds and users install; any other NAME
+is built in build/NAME. With --target only these targets are built. Anything else is handed to
+ctest, for example:
   tests/run.sh -R scan          only the tests whose name matches
   tests/run.sh -LE install      all but those labelled 'install'
+
+Environment:
+  PLAYPEN_NIGHTLY=1   run all cases, seeds and repetitions (docs/decisions/nightly.md)
+  PLAYPEN_CACHE=off   do without ccache
 TEXT
 }
 
-preset=dev
+preset=tests
 targets=()
 while (($# > 0)); do
   case $1 in
@@ -42,21 +47,24 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 apps/install_dependencies.sh build test
 
-launcher=()
-if command -v ccache >/dev/null 2>&1; then
-  # Without precompiled headers and joined tests, because ccache cannot store what used a
-  # precompiled header, and gets more hits if each test is compiled separately.
-  launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DPLAYPEN_PCH= -DPLAYPEN_JOIN=)
-fi
+# shellcheck source=SCRIPTDIR/../apps/build_tools.sh
+source apps/build_tools.sh
 jobs=$(nproc)
-mkdir -p "build/$preset"
-configure_log=build/$preset/configure.log
-if ! cmake --preset "$preset" "${launcher[@]}" >"$configure_log" 2>&1; then
+build=build/$preset
+if [[ $preset == tests ]]; then build=build/release; fi
+mkdir -p "$build"
+configure_log=$build/configure.log
+nightly=OFF
+if [[ -n ${PLAYPEN_NIGHTLY:-} ]]; then nightly=ON; fi
+if ! cmake --preset "$preset" "-DPLAYPEN_NIGHTLY=$nightly" "${launcher[@]}" >"$configure_log" 2>&1; then
   cat "$configure_log" >&2
   echo "tests/run.sh: configuring preset '$preset' failed; the reason is above" >&2
   exit 1
 fi
-cmake --build "build/$preset" --parallel "$jobs" "${targets[@]}"
+cmake --build "$build" --parallel "$jobs" "${targets[@]}"
+count_processor_seconds
+built=$processor_seconds
+echo "Built after $SECONDS s, $built s of processor time."
 
 # ThreadSanitizer of older compilers cannot place its memory if the kernel randomises addresses by
 # more than 28 bits. It always can without randomisation.
@@ -84,4 +92,8 @@ else
 fi
 
 # Many tests wait for programs, sockets or a window, so run half a job more per processor.
-"${run[@]}" ctest --preset "$preset" --parallel "$((jobs + (jobs + 1) / 2))" "$@"
+status=0
+"${run[@]}" ctest --preset "$preset" --parallel "$((jobs + (jobs + 1) / 2))" "$@" || status=$?
+count_processor_seconds
+echo "Tested after $SECONDS s, $((processor_seconds - built)) s of processor time in the tests."
+exit "$status"

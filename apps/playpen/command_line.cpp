@@ -48,8 +48,9 @@ CommandLine::CommandLine(std::string name)
   app.formatter(std::make_shared<HelpFormatter>(*this));  // commands inherit the formatter
   app.footer(
       "Exit status: 0 success, 1 the program failed, 2 bad input.\n"
-      "'playpen help COMMAND' explains a command, 'playpen list' shows worlds,\n"
-      "tasks and models, and 'playpen doctor' checks whether all features work.");
+      "'playpen help COMMAND' explains a command, 'playpen doc' shows the\n"
+      "documentation, 'playpen list' shows worlds, tasks and models, and\n"
+      "'playpen doctor' checks whether all features work.");
   add_run(*this);
   add_grade(*this);
   add_serve(*this);
@@ -60,6 +61,7 @@ CommandLine::CommandLine(std::string name)
   add_render(*this);
   add_plot(*this);
   add_token(*this);
+  add_doc(*this);
   add_doctor(*this);
   add_completion(*this);
   add_help(*this);

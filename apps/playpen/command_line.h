@@ -13,7 +13,7 @@ namespace playpen {
 
 /// The kinds of value that an option or argument takes, for shell completion.
 struct ValueKind {
-  enum class Kind { kAnything, kFile, kFolder, kWorld, kTask, kNamedFile, kChoice };
+  enum class Kind { kAnything, kFile, kFolder, kWorld, kTask, kNamedFile, kPage, kChoice };
   Kind kind = Kind::kAnything;
   std::vector<std::string> choices;  ///< of kChoice
 };
@@ -67,6 +67,7 @@ void add_plot(CommandLine& line);
 void add_list(CommandLine& line);
 void add_new(CommandLine& line);
 void add_token(CommandLine& line);
+void add_doc(CommandLine& line);
 void add_doctor(CommandLine& line);
 void add_help(CommandLine& line);
 void add_completion(CommandLine& line);

@@ -75,6 +75,8 @@ std::string bash_call(const ValueKind& kind) {
       return "_playpen_named tasks";
     case Kind::kNamedFile:
       return "_playpen_named";
+    case Kind::kPage:
+      return "_playpen_words \"$(\"$playpen\" doc --names 2>/dev/null)\"";
     case Kind::kChoice:
       return "_playpen_words " + quoted(joined(kind.choices, " "));
     case Kind::kAnything:
@@ -213,6 +215,8 @@ std::string zsh_action(const ValueKind& kind) {
       return " _playpen_named tasks";
     case Kind::kNamedFile:
       return " _playpen_named";
+    case Kind::kPage:
+      return " _playpen_pages";
     case Kind::kChoice:
       return '(' + joined(kind.choices, " ") + ')';
     case Kind::kAnything:
@@ -240,6 +244,11 @@ std::string zsh_script(const CommandLine& line) {
          "  names=(${(f)\"$($playpen list \"$@\" --names 2>/dev/null)\"})\n"
          "  compadd -a names\n"
          "  _files -g '*.json'\n"
+         "}\n"
+         "_playpen_pages() {\n"
+         "  local -a names\n"
+         "  names=(${(f)\"$($playpen doc --names 2>/dev/null)\"})\n"
+         "  compadd -a names\n"
          "}\n\n"
          "_playpen() {\n"
          "  local context state line playpen=$words[1]\n"
@@ -314,6 +323,8 @@ std::string fish_values(const ValueKind& kind) {
       return command("playpen list tasks --names");
     case Kind::kNamedFile:
       return command("playpen list --names");
+    case Kind::kPage:
+      return "-f " + command("playpen doc --names");
     case Kind::kChoice:
       return "-f -a " + fish_quoted(joined(kind.choices, " "));
     case Kind::kAnything:

@@ -117,7 +117,8 @@ std::string man_page(const CommandLine& line) {
   }
   page << ".SH FILES\n.TP\n\\fIPREFIX/share/playpen/worlds\\fR\nThe worlds, tasks and robot models "
           "that have names.\n.TP\n\\fIPREFIX/share/playpen/templates\\fR\nWhat 'playpen new' "
-          "copies.\n.TP\n\\fIout/WORLD\\fR\nThe results of a run: pictures, report and "
+          "copies.\n.TP\n\\fIPREFIX/share/playpen/docs\\fR\nThe pages of 'playpen "
+          "doc'.\n.TP\n\\fIout/WORLD\\fR\nThe results of a run: pictures, report and "
           "trajectory.\n";
   return page.str();
 }

@@ -89,8 +89,8 @@ void add_new(CommandLine& line) {
   line.takes(folder->required()->type_name(""), ValueKind::Kind::kFolder);
   command.footer(
       "intro, planning, exploration, traps, exploration_changing, chase and\n"
-      "localization are the course's tasks (docs/course_guide.md), client is the\n"
-      "smallest client program, with CMakeLists.txt and Makefile.\n"
+      "localization are the course's tasks ('playpen doc course_guide'), client is\n"
+      "the smallest client program, with CMakeLists.txt and Makefile.\n"
       "For example:\n"
       "  playpen new intro my_robot");
   command.callback([request, &line] {

@@ -3,7 +3,6 @@
 
 #include <stdlib.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -25,11 +24,14 @@ constexpr const char* kSpecial = " :;$\t\n";
 
 /// Folders that may contain Playpen's own libraries, relative to this program's folder, so that an
 /// installed tree can be moved.
-std::array<fs::path, 2> library_folders() {
+std::vector<fs::path> library_folders() {
   const std::vector<fs::path> own = own_folders();
   const fs::path folder = own.empty() ? fs::path() : own.front();
-  return {(folder / PLAYPEN_LIBRARIES_FROM_COMMAND / "playpen").lexically_normal(),
-          (folder / "../lib/playpen").lexically_normal()};
+  std::vector<fs::path> folders;
+  for (const char* place : {PLAYPEN_LIBRARY_PLACES}) {
+    folders.push_back((folder / place / "playpen").lexically_normal());
+  }
+  return folders;
 }
 
 fs::path find_library() {

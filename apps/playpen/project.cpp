@@ -60,12 +60,12 @@ void name_the_package(const fs::path& folder, const fs::path& prefix) {
 }
 
 /// The file's folder, relative to the folder of the libraries: in the layout of the install rules,
-/// or of a build folder, which has lib/ beside bin/.
+/// of Debian's package, or of a build folder, which has lib/ beside bin/.
 std::optional<fs::path> folder_by_libraries(const char* folder, const char* file) {
   const std::vector<fs::path> own = own_folders();
   if (own.empty()) return std::nullopt;
   std::error_code error;
-  for (const char* libraries : {PLAYPEN_LIBRARIES_FROM_COMMAND, "../lib"}) {
+  for (const char* libraries : {PLAYPEN_LIBRARY_PLACES}) {
     fs::path found = (own.front() / libraries / folder).lexically_normal();
     if (fs::is_regular_file(found / file, error)) return found;
   }
@@ -119,7 +119,9 @@ void copy_template(const ProjectTemplate& kind, const fs::path& folder) {
                                "' cannot be written: " + error.message());
     }
   }
-  if (const std::optional<fs::path> prefix = package_prefix()) name_the_package(folder, *prefix);
+  const std::optional<fs::path> prefix = package_prefix();
+  // CMake and pkg-config search /usr anyway, and the project stays valid on other computers.
+  if (prefix && *prefix != "/usr") name_the_package(folder, *prefix);
 }
 
 }  // namespace playpen

@@ -73,8 +73,8 @@ void add_serve(CommandLine& line) {
   playerlike::ServerSettings& server = request->server;
   CLI::App& command = line.add_command("serve", "Offer a world to client programs over TCP");
   command.footer(
-      "Clients connect with PLAYPEN_WORLD=tcp://HOST:PORT, or as MORSE's do; see\n"
-      "docs/remote.md.\n"
+      "Clients connect with PLAYPEN_WORLD=tcp://HOST:PORT, or as MORSE's do: see\n"
+      "'playpen doc remote'.\n"
       "Ends on Ctrl-C (SIGINT) or SIGTERM, with reports and pictures written.");
   add_world(line, command, request->world);
   add_port(command, "--port", "TCP port; 0: any free one [4000]", server.port);

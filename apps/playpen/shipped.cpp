@@ -231,7 +231,7 @@ void throw_if_other_kind(const std::string& file, FileKind wanted) {
              is_file(task)) {
     hint = "did you mean \"" + task + "\"?";
   } else {
-    hint = "'playpen list tasks' shows tasks; docs/grading.md tells how to write one";
+    hint = "'playpen list tasks' shows tasks; 'playpen doc grading' tells how to write one";
   }
   throw ConfigError(ConfigIssue{"file/other-kind", file, "",
                                 std::string("a ") + to_string(wanted) + " file",

@@ -2,73 +2,106 @@
 # Install rules: libraries, headers, worlds, the command, and a package that others find with
 # find_package(playpen). Nothing installed names the source or build folder, so that the tree can
 # be moved or packed.
+#
+# Components (docs/decisions/package.md):
+#   programs, development  what lies at the same place in each layout
+#   prefix, prefix_dev     libraries, and what names their folder: for `cmake --install` and the tarball
+#   multiarch, multiarch_dev  the same files in Debian's folder for libraries; only packages have them
 include(CMakePackageConfigHelpers)
-set(_playpen_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/playpen")
+include(playpen_player_names)
+write_basic_package_version_file(
+  "${PROJECT_BINARY_DIR}/package/playpenConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
 
-install(TARGETS playpen_sim playpen_playerlike
-  EXPORT playpenTargets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-
-# What pictures and films need, loaded from beside the library.
-install(TARGETS playpen_text playpen_film LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/playpen")
-# The shared library beside static ones.
-if(TARGET playpen_player)
-  install(TARGETS playpen_player
-    EXPORT playpenTargets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(TARGET playpen)
+  set_target_properties(playpen PROPERTIES INSTALL_RPATH "\$ORIGIN/${playpen_libraries_from_command}")
   # Whoever builds the command can install the package.
-  if(TARGET playpen)
+  if(TARGET playpen_player)
     add_dependencies(playpen playpen_player)
   endif()
+endif()
+
+# playpen_install_libraries(LIBDIR COMPONENT [EXCLUDE_FROM_ALL]): the libraries in a folder, and what
+# names that folder: build files and links for clients.
+function(playpen_install_libraries libdir component)
+  set(runtime COMPONENT ${component} ${ARGN})
+  set(development COMPONENT ${component}_dev ${ARGN})
+  set(libraries playpen_sim playpen_playerlike)
+  # The shared library beside static ones. With sanitizers there is none.
+  if(TARGET playpen_player)
+    list(APPEND libraries playpen_player)
+  endif()
+  install(TARGETS ${libraries}
+    EXPORT playpen_${component}
+    ARCHIVE DESTINATION ${libdir} ${development}
+    LIBRARY DESTINATION ${libdir} ${runtime} NAMELINK_COMPONENT ${component}_dev)
+
+  # What pictures and films need, and what `playpen run` preloads.
+  set(modules playpen_text playpen_film)
+  if(TARGET playpen)
+    list(APPEND modules playpen_virtual_time)
+  endif()
+  install(TARGETS ${modules} LIBRARY DESTINATION "${libdir}/playpen" ${runtime})
+
+  set(package_dir "${libdir}/cmake/playpen")
+  install(EXPORT playpen_${component} FILE playpenTargets.cmake NAMESPACE playpen::
+    DESTINATION "${package_dir}" ${development})
+  configure_package_config_file("${PROJECT_SOURCE_DIR}/libsim/cmake/playpenConfig.cmake.in"
+    "${PROJECT_BINARY_DIR}/package/${component}/playpenConfig.cmake"
+    INSTALL_DESTINATION "${package_dir}"
+    PATH_VARS CMAKE_INSTALL_DATADIR)
+  install(FILES
+    "${PROJECT_BINARY_DIR}/package/${component}/playpenConfig.cmake"
+    "${PROJECT_BINARY_DIR}/package/playpenConfigVersion.cmake"
+    "${PROJECT_SOURCE_DIR}/libsim/cmake/FindPlaypenBox2D.cmake"
+    DESTINATION "${package_dir}" ${development})
+  if(BUILD_SHARED_LIBS OR TARGET playpen_player)
+    playpen_install_player_names("${libdir}" ${component}_dev ${ARGN})
+  endif()
+endfunction()
+
+playpen_install_libraries("${CMAKE_INSTALL_LIBDIR}" prefix)
+if(playpen_multiarch_libdir AND NOT playpen_multiarch_libdir STREQUAL CMAKE_INSTALL_LIBDIR)
+  playpen_install_libraries("${playpen_multiarch_libdir}" multiarch EXCLUDE_FROM_ALL)
 endif()
 
 # Folders, not file sets: CMake has those from 3.23 on, Ubuntu 22.04 has 3.22.
 foreach(_dir IN ITEMS "${PROJECT_SOURCE_DIR}/libsim/include" "${PROJECT_SOURCE_DIR}/libplayerlike/include"
     "${PROJECT_BINARY_DIR}/libplayerlike/include")
-  install(DIRECTORY "${_dir}/"
+  install(DIRECTORY "${_dir}/" COMPONENT development
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/playpen"
     FILES_MATCHING PATTERN "*.h")
 endforeach()
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/worlds/"
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/worlds/" COMPONENT programs
   DESTINATION "${CMAKE_INSTALL_DATADIR}/playpen/worlds")
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" COMPONENT programs DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+# `playpen doc` reads the pages. Programs must work without the folder of documentation, which small
+# systems leave out, so that one has links only.
+set(_playpen_pages "${CMAKE_INSTALL_DATADIR}/playpen")
+install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
+  COMPONENT programs DESTINATION "${_playpen_pages}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" COMPONENT programs DESTINATION "${_playpen_pages}"
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
+file(RELATIVE_PATH _playpen_pages "/${CMAKE_INSTALL_DOCDIR}" "/${_playpen_pages}")
+set(_playpen_links)
+foreach(_page IN ITEMS README.md CHANGELOG.md docs)
+  list(APPEND _playpen_links "${CMAKE_INSTALL_DOCDIR}/${_page}=${_playpen_pages}/${_page}")
+endforeach()
+playpen_install_links("${_playpen_links}" programs)
 
 if(TARGET playpen)
-  set_target_properties(playpen PROPERTIES INSTALL_RPATH "\$ORIGIN/${playpen_libraries_from_command}")
   # The window's program is looked for beside the command.
-  install(TARGETS playpen playpen-view RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(TARGETS playpen_virtual_time
-    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/playpen")
-endif()
-
-if(TARGET playpen)
+  install(TARGETS playpen playpen-view
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   foreach(_template IN ITEMS par_intro par_planning par_exploration par_traps
       par_exploration_changing par_chase par_localization client)
     string(REPLACE "par_" "" _name "${_template}")
-    install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/${_template}/template/"
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/${_template}/template/" COMPONENT programs
       DESTINATION "${CMAKE_INSTALL_DATADIR}/playpen/templates/${_name}"
       PATTERN build EXCLUDE PATTERN out EXCLUDE)
   endforeach()
 endif()
 
-install(EXPORT playpenTargets NAMESPACE playpen:: DESTINATION "${_playpen_package_dir}")
-configure_package_config_file(
-  "${CMAKE_CURRENT_LIST_DIR}/playpenConfig.cmake.in"
-  "${PROJECT_BINARY_DIR}/package/playpenConfig.cmake"
-  INSTALL_DESTINATION "${_playpen_package_dir}"
-  PATH_VARS CMAKE_INSTALL_DATADIR)
-write_basic_package_version_file(
-  "${PROJECT_BINARY_DIR}/package/playpenConfigVersion.cmake"
-  COMPATIBILITY SameMinorVersion)
-install(FILES
-  "${PROJECT_BINARY_DIR}/package/playpenConfig.cmake"
-  "${PROJECT_BINARY_DIR}/package/playpenConfigVersion.cmake"
-  "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenBox2D.cmake"
-  DESTINATION "${_playpen_package_dir}")
-# With sanitizers there is no shared library beside static ones.
-if(BUILD_SHARED_LIBS OR TARGET playpen_player)
-  include(playpen_player_names)
-endif()
 include(playpen_build_package)
+include(playpen_package)

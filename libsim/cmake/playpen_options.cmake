@@ -4,6 +4,8 @@ add_library(playpen_build_flags INTERFACE)
 target_compile_options(playpen_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow
   -ffp-contract=off            # the same bits from every compiler, Debug and Release
+  # Memory for time: gcc does not look for garbage before its heap has reached half a gigabyte.
+  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
   $<$<BOOL:${PLAYPEN_WERROR}>:-Werror>)
 option(PLAYPEN_ASSERTS "Check SIM_ASSERT at run time, in Release builds too" ON)
 target_compile_definitions(playpen_build_flags INTERFACE
@@ -21,6 +23,14 @@ endif()
 # From an installed program to the libraries beside it: what is loaded or preloaded lies there.
 file(RELATIVE_PATH playpen_libraries_from_command
   "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+# The same binaries are also packaged for Debian, with the libraries in its folder for this kind of
+# machine. Programs look in all of these places; this is a list of C++ strings.
+set(playpen_library_places "\"${playpen_libraries_from_command}\",\"../lib\"")
+set(playpen_multiarch_libdir "")
+if(CMAKE_LIBRARY_ARCHITECTURE)
+  set(playpen_multiarch_libdir "lib/${CMAKE_LIBRARY_ARCHITECTURE}")
+  string(APPEND playpen_library_places ",\"../${playpen_multiarch_libdir}\"")
+endif()
 
 # playpen_module(NAME SOURCE...): a library that is loaded at run time from lib/playpen. It is not built
 # with sanitizers: it is there before they are, or belongs to a library that has none.
@@ -39,22 +49,6 @@ function(playpen_module name)
     $<$<BOOL:${PLAYPEN_WERROR}>:-Werror>)
 endfunction()
 
-# playpen_precompile(TARGET HEADER...): where PLAYPEN_PCH asks for it, the headers of other libraries
-# that most of a test's sources include are read once for all of them. A source includes what it needs
-# nevertheless: without PLAYPEN_PCH, the default, nobody else does it.
-function(playpen_precompile target)
-  if("tests" IN_LIST PLAYPEN_PCH)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
-  endif()
-endfunction()
-if(PLAYPEN_PCH)
-  # Memory for time: gcc need not look for garbage, where a precompiled header would have it look at
-  # more. And with one, gcc 12 forgets that some warnings are about the standard library's own lines;
-  # builds without have them all.
-  target_compile_options(playpen_build_flags INTERFACE
-    "$<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576;-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>")
-endif()
-
 # playpen_bind_own_functions(TARGET): calls within a shared library go to its own functions, also
 # where a program has one of the same name: by chance, or its copy of an inline function of a common
 # header, which may be compiled without optimisation.
@@ -70,8 +64,10 @@ endfunction()
 # beside themselves.
 function(playpen_find_modules_from_programs target)
   if(NOT BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
-    target_link_options(${target} INTERFACE
-      "$<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${CMAKE_INSTALL_LIBDIR}/playpen>")
+    foreach(libdir IN ITEMS ${CMAKE_INSTALL_LIBDIR} ${playpen_multiarch_libdir})
+      target_link_options(${target} INTERFACE
+        "$<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${libdir}/playpen>")
+    endforeach()
   endif()
 endfunction()
 

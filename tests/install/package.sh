@@ -6,14 +6,15 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: tests/install/package.sh FOLDER
+Usage: tests/install/package.sh [--shared] FOLDER
 
-Clones this checkout, with its changes, below FOLDER, builds there what apps/demo.sh builds, and follows
-the pages for new users with an empty home: every command runs as it is written there, and so does the
-walk of walk.sh. Then the same build folder is configured for shared libraries, which compiles nothing
-again, and the pages are followed once more. What was built below FOLDER before is built on.
+Follows the pages for new users in this checkout, with what apps/demo.sh has built in build/release and
+an empty home below FOLDER: every command runs as it is written there, and so does the walk of walk.sh.
+With --shared, build/release is configured for shared libraries meanwhile, which compiles nothing again.
 TEXT
 }
+shared=false
+if [[ ${1:-} == --shared ]]; then shared=true && shift; fi
 if (($# != 1)) || [[ $1 == -* ]]; then
   usage >&2
   exit 2
@@ -21,11 +22,9 @@ fi
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 pages=(README.md docs/bring_your_program.md docs/playerc.md)
-mkdir -p "$1/home/src"
-folder=$(cd "$1" && pwd)
-home=$folder/home
-clone=$home/src/playpen
-"$root/tests/install/clone.sh" "$root" "$clone"
+rm -rf -- "$1"
+mkdir -p "$1/home"
+home=$(cd "$1/home" && pwd)
 
 fail() {
   printf 'package: %s\n' "$@" >&2
@@ -41,45 +40,28 @@ timed() {
   printf '\n===== %s: %d s\n\n' "$what" $((SECONDS - start))
 }
 
-# build SHARED: builds as demo.sh does, on a machine without the benchmark library.
-build() {
-  local settings=(-DCMAKE_DISABLE_FIND_PACKAGE_benchmark=ON "-DBUILD_SHARED_LIBS=$1")
-  if command -v ccache >/dev/null 2>&1; then settings+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
-  (cd "$clone" && cmake --preset release "${settings[@]}" &&
-    cmake --build build/release --parallel "$(nproc)" --target programs)
-}
-
 # follow PAGE...
-follow() {
-  "$clone/tests/install/pages.sh" --clone "$clone" --home "$home" "${@/#/$clone/}"
+follow() { "$root/tests/install/pages.sh" --clone "$root" --home "$home" "${@/#/$root/}"; }
+
+# kind_is SHARED: configures build/release, as on a machine without the benchmark library.
+kind_is() {
+  cd "$root"
+  cmake --preset release -DCMAKE_DISABLE_FIND_PACKAGE_benchmark=ON "-DBUILD_SHARED_LIBS=$1"
+  cmake --build build/release --parallel "$(nproc)" --target programs
 }
 
-# The installed package, moved, with a separate project and the build files of old programs. For
-# shared libraries the test install.consumer does this.
-check_install() {
-  cmake "-DBUILD_DIR=$clone/build/release" "-DSOURCE_DIR=$clone" \
-    -DCONFIG=Release -DGENERATOR=Ninja -DCXX_COMPILER=g++ -DC_COMPILER=gcc -DCXX_FLAGS= \
-    "-DSTAGE_DIR=$folder/stage" "-DCONSUMER_DIR=$clone/tests/install/consumer" \
-    -P "$clone/tests/install/check_install.cmake"
-}
+if $shared; then
+  trap 'kind_is OFF' EXIT
+  timed "the shared build" kind_is ON
+  timed "the pages" follow docs/start_here.md "${pages[@]}"
+  loaded=$(ldd "$home/README/build/my_robot")
+  [[ $loaded == *libplaypen_playerlike.so*libplaypen_sim.so* ]] ||
+    fail "the shared package is not shared:" "$loaded"
+  exit 0
+fi
 
-timed "the static build" build OFF
-PLAYPEN_WALK_CLONE=$clone timed "the walk" "$clone/tests/install/walk.sh" "$home"
-# Run both at the same time: each alone leaves the second processor mostly idle.
-check_install >"$folder/check_install.log" 2>&1 &
-checking=$!
-trap 'kill "$checking" 2>/dev/null || true' EXIT
+timed "the walk" env "PLAYPEN_WALK_CLONE=$root" "$root/tests/install/walk.sh" "$home"
 timed "the pages" follow "${pages[@]}"
-wait_for_check() { wait "$checking" || { cat "$folder/check_install.log" >&2 && return 1; }; }
-timed "the installed package, further on" wait_for_check
-trap - EXIT
 # The target playpen::playerlike is the library that the demo has built: static.
 loaded=$(ldd "$home/README/build/my_robot")
 [[ $loaded != *libplaypen* ]] || fail "the static package is not static:" "$loaded"
-
-timed "the shared build" build ON
-rm -rf -- "$home/playpen"
-timed "the pages" follow docs/start_here.md "${pages[@]}"
-loaded=$(ldd "$home/README/build/my_robot")
-[[ $loaded == *libplaypen_playerlike.so*libplaypen_sim.so* ]] ||
-  fail "the shared package is not shared:" "$loaded"

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The tasks in arenas that change: each solution passes with the seeds of the task, each template
-// fails with a reason. (The templates, filled in as their comments describe, are graded by the
-// tests ..._template_filled.)
+// The tasks in arenas that change: each solution passes with the seeds of the task (per merge with
+// some of them), each template fails with a reason. (The templates, filled in as their comments
+// describe, are graded by the tests ..._template_filled.)
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "nightly.h"
 #include "playpen_process.h"
 #include "run_files.h"
 #include "temporary_folder.h"
@@ -20,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test_support::cases;
 using test_support::playpen;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
@@ -41,6 +43,16 @@ class ArenaTasks : public testing::Test {
     ProcessOptions patient;
     patient.timeout = std::chrono::seconds(3000);
     return playpen(call, patient);
+  }
+  /// How many seeds of the task are used.
+  [[nodiscard]] static int seeds() { return cases(2, 5); }
+  [[nodiscard]] static std::vector<std::string> with_seeds() {
+    return {"--seeds", std::to_string(seeds())};
+  }
+  /// "TASK: all of the runs passed" of so many runs for each seed.
+  [[nodiscard]] static std::string passed(const std::string& task, int per_seed = 1) {
+    const std::string runs = std::to_string(per_seed * seeds());
+    return task + ": " + runs + " of " + runs + " runs passed";
   }
   [[nodiscard]] json runs() const {
     return json::parse(read_bytes(fs::path(out_) / "grade.json")).at("runs");
@@ -92,9 +104,9 @@ TEST_F(ArenaTasks, TheTemplateLosesItsPointsInATrap) {
 }
 
 TEST_F(ArenaTasks, TheSolutionLooksAgainWhereTheArenaHasChanged) {
-  const ProcessResult graded = grade("par_exploration_changing", {}, CHANGING_PROGRAM);
+  const ProcessResult graded = grade("par_exploration_changing", with_seeds(), CHANGING_PROGRAM);
   EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
-  EXPECT_THAT(graded.out, HasSubstr("par_exploration_changing: 5 of 5 runs passed"));
+  EXPECT_THAT(graded.out, HasSubstr(passed("par_exploration_changing")));
   std::set<json> ends;
   for (const json& run : runs()) {
     EXPECT_EQ(run.at("end").at("kind"), "by-itself");
@@ -109,9 +121,9 @@ TEST_F(ArenaTasks, ExplorersWhichIgnoreTheChangesFail) {
   EXPECT_EQ(still.status, 1) << still.err;
   EXPECT_THAT(still.out, HasSubstr("coverage 0.000, at least 0.98 needed"));
   // The solution of the exploration task ends while the arena still changes.
-  const ProcessResult early = grade("par_exploration_changing", {}, NEAREST_PROGRAM);
+  const ProcessResult early = grade("par_exploration_changing", with_seeds(), NEAREST_PROGRAM);
   EXPECT_EQ(early.status, 1) << early.err;
-  EXPECT_THAT(early.out, HasSubstr("0 of 5 runs passed"));
+  EXPECT_THAT(early.out, HasSubstr("0 of " + std::to_string(seeds()) + " runs passed"));
   EXPECT_THAT(early.out, HasSubstr("score 0, at least 1 needed"));
 }
 
@@ -128,31 +140,40 @@ TEST_F(ArenaTasks, TheSolutionCatchesTheFox) {
 }
 
 TEST_F(ArenaTasks, TheFoxGetsAwayFromTheTemplate) {
-  const ProcessResult graded = grade("par_chase", {}, CHASE_TEMPLATE);
+  const ProcessResult graded = grade("par_chase", with_seeds(), CHASE_TEMPLATE);
   EXPECT_EQ(graded.status, 1) << graded.out << graded.err;
-  for (const char* seed : {"1", "2", "3", "4", "5"}) {
-    EXPECT_THAT(graded.out, HasSubstr("par_chase seed " + std::string(seed) +
+  for (int seed = 1; seed <= seeds(); ++seed) {
+    EXPECT_THAT(graded.out, HasSubstr("par_chase seed " + std::to_string(seed) +
                                       ": verdict: failed: the fox got away"));
   }
 }
 
 TEST_F(ArenaTasks, TheParticleFilterFindsTheRobotAndTheGoal) {
-  const ProcessResult graded = grade("par_localization", {}, PARTICLES_PROGRAM);
+  const ProcessResult graded = grade("par_localization", with_seeds(), PARTICLES_PROGRAM);
   EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
-  EXPECT_THAT(graded.out, HasSubstr("par_localization: 10 of 10 runs passed"));
+  EXPECT_THAT(graded.out, HasSubstr(passed("par_localization", 2)));
   std::set<double> times;
   for (const json& run : runs()) times.insert(run.at("sim_time").get<double>());
   EXPECT_GT(times.size(), 2U) << "the seeds make no difference";
 }
 
 TEST_F(ArenaTasks, AmclFindsTheRobotAndTheGoal) {
-  const ProcessResult graded = grade("par_localization", {}, AMCL_PROGRAM);
+  const ProcessResult graded = grade("par_localization", with_seeds(), AMCL_PROGRAM);
   EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
-  EXPECT_THAT(graded.out, HasSubstr("par_localization: 10 of 10 runs passed"));
+  EXPECT_THAT(graded.out, HasSubstr(passed("par_localization", 2)));
 }
 
 TEST_F(ArenaTasks, TheTemplateWandersWithoutACollision) {
-  const ProcessResult graded = grade("par_localization", {"--seeds", "1,"}, LOCALIZATION_TEMPLATE);
+  // The task with a shorter duration per merge, because the template drives until the end.
+  const std::string tasks = PLAYPEN_SOURCE_DIR "/worlds/tasks/";
+  json task = json::parse(read_bytes(tasks + "par_localization.task.json"), nullptr, true, true);
+  task.erase("$schema");
+  task["duration"] = cases(100, 300);
+  for (json& world : task["worlds"]) {
+    world["world"] = tasks + world["world"].get<std::string>();
+  }
+  const ProcessResult graded = grade(folder_.write("par_localization.task.json", task.dump()),
+                                     {"--seeds", "1,"}, LOCALIZATION_TEMPLATE);
   EXPECT_EQ(graded.status, 1) << graded.out << graded.err;
   EXPECT_THAT(graded.out, HasSubstr("par_localization seed 1: goal not reached"));
   EXPECT_THAT(graded.out, Not(HasSubstr("collision")));

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "nightly.h"
 #include "playpen_process.h"
 #include "run_files.h"
 #include "sim/io/map_file.h"
@@ -21,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test_support::cases;
 using test_support::expect_equal_files;
 using test_support::Files;
 using test_support::files_of_run;
@@ -157,14 +159,17 @@ TEST_P(ExplorationOf, IsCompleteAndTwiceTheSameToTheBit) {
   expect_equal_files(files_of_run(out_), first, "the second of two equal runs");
 }
 
-INSTANTIATE_TEST_SUITE_P(EachSolutionInEachWorld, ExplorationOf,
-                         testing::Values(Case{NEAREST_PROGRAM, "par_exploration"},
-                                         Case{NEAREST_PROGRAM, "par_exploration_2"},
-                                         Case{GAIN_PROGRAM, "par_exploration"},
-                                         Case{GAIN_PROGRAM, "par_exploration_2"}));
+INSTANTIATE_TEST_SUITE_P(
+    EachSolutionInEachWorld, ExplorationOf,
+    testing::ValuesIn(cases<std::vector<Case>>({{NEAREST_PROGRAM, "par_exploration_2"},
+                                                {GAIN_PROGRAM, "par_exploration"}},
+                                               {{NEAREST_PROGRAM, "par_exploration"},
+                                                {NEAREST_PROGRAM, "par_exploration_2"},
+                                                {GAIN_PROGRAM, "par_exploration"},
+                                                {GAIN_PROGRAM, "par_exploration_2"}})));
 
 TEST_F(Exploration, IsCompleteWithOtherSeeds) {
-  for (const char* seed : {"2", "3", "4", "5"}) {
+  for (const std::string& seed : cases<std::vector<std::string>>({"2"}, {"2", "3", "4", "5"})) {
     SCOPED_TRACE(seed);
     expect_explored(run(world_file("par_exploration"), {"--seed", seed}, {NEAREST_PROGRAM}),
                     "par_exploration");

@@ -24,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+#include "nightly.h"
 #include "playpen_process.h"
 #include "run_files.h"
 #include "run_process.h"
@@ -255,8 +256,9 @@ TEST_F(PlaypenEnds, AFileThatReachesItsLimitKeepsTheReport) {
   EXPECT_FALSE(fs::exists(result("scene.part.png")));
 }
 
-// --- The table of ends: what a run leaves, by how and when it ends. PLAYPEN_ENDS_TRIES=20 tries
-// each end in each phase 20 times and prints the table's rows; by default each end is tried once.
+// --- The table of ends: what a run leaves, by how and when it ends. A merge tries each end once, a
+// nightly run once in each phase. PLAYPEN_ENDS_TRIES=20 tries each end in each phase 20 times. With
+// each phase, the table's rows are printed.
 
 enum class Whom { kCommand, kProgram, kGroup, kDisk, kTerminal };
 enum class Phase { kStart, kRun, kPictures, kFilm };
@@ -457,7 +459,7 @@ class PlaypenEndsTable : public PlaypenEnds, public testing::WithParamInterface<
 TEST_P(PlaypenEndsTable, LeavesReportTrajectoryAndPictures) {
   const WayToEnd& way = GetParam();
   const char* const wanted = std::getenv("PLAYPEN_ENDS_TRIES");
-  const int tries = wanted == nullptr ? 0 : std::atoi(wanted);
+  const int tries = wanted == nullptr ? test_support::cases(0, 1) : std::atoi(wanted);
   constexpr Phase kPhases[] = {Phase::kStart, Phase::kRun, Phase::kPictures, Phase::kFilm};
   if (tries <= 0) {
     // A different phase for each end, so that all phases are tested.

@@ -7,6 +7,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -31,9 +32,9 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::UnorderedElementsAre;
 
-const std::vector<std::string> kCommands = {"run",   "grade",  "serve",      "new",
-                                            "list",  "check",  "render",     "plot",
-                                            "token", "doctor", "completion", "help"};
+const std::vector<std::string> kCommands = {"run",    "grade",      "serve", "new",   "list",
+                                            "check",  "render",     "plot",  "token", "doc",
+                                            "doctor", "completion", "help"};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -163,6 +164,7 @@ TEST(PlaypenCompletion, OfBashKnowsCommandsOptionsValuesAndNames) {
               UnorderedElementsAre("intro", "planning", "exploration", "traps",
                                    "exploration_changing", "chase", "localization", "client"));
   EXPECT_THAT(completed({"help", "gr"}), ElementsAre("grade"));
+  EXPECT_THAT(completed({"doc", "devices/las"}), ElementsAre("devices/laser"));
   EXPECT_THAT(completed({"run", "cave", "--", "./n"}), ElementsAre("./notes.txt"));
   EXPECT_THAT(completed({"run", "cave", "--", "./x", "no"}), ElementsAre("notes.txt"));
 }
@@ -215,6 +217,65 @@ class PseudoTerminal {
   int terminal_ = -1;
 };
 
+TEST(PlaypenDoc, ListsEachPageOfTheSourceTreeWithItsTitle) {
+  const std::string list = playpen({"doc"}).out;
+  EXPECT_THAT(list, HasSubstr("start_here  "));
+  const std::regex line("devices/laser +\\S");
+  EXPECT_TRUE(std::regex_search(list, line)) << list;
+  std::set<std::string> pages;
+  const std::filesystem::path root(PLAYPEN_SOURCE_DIR "/docs");
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    if (entry.path().extension() != ".md") continue;
+    pages.insert(entry.path().lexically_relative(root).replace_extension().string());
+  }
+  const std::vector<std::string> names = lines_of(playpen({"doc", "--names"}).out);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()), pages);
+  EXPECT_EQ(names.size(), pages.size());
+}
+
+TEST(PlaypenDoc, PrintsAPageByEachOfItsNames) {
+  const std::string laser = test_support::read_bytes(PLAYPEN_SOURCE_DIR "/docs/devices/laser.md");
+  for (const char* name : {"devices/laser", "laser", "laser.md", "docs/devices/laser.md"}) {
+    const ProcessResult result = playpen({"doc", name});
+    EXPECT_EQ(result.status, 0) << name << ": " << result.err;
+    EXPECT_EQ(result.out, laser) << name;
+  }
+  // A decision has the same name; pages outside of folders come first.
+  EXPECT_EQ(playpen({"doc", "arena_controller"}).out,
+            test_support::read_bytes(PLAYPEN_SOURCE_DIR "/docs/arena_controller.md"));
+}
+
+TEST(PlaypenDoc, AnUnknownPageIsAnErrorWithTheNearestName) {
+  const ProcessResult result = playpen({"doc", "strat_here"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("no page 'strat_here'"), HasSubstr("did you mean 'start_here'?"),
+                    HasSubstr("'playpen doc' lists")));
+  for (const char* name : {"../README", "/etc/passwd", "docs/", ".md", "xyzzyxyzzy"}) {
+    const ProcessResult other = playpen({"doc", name});
+    EXPECT_EQ(other.status, 2) << name;
+    EXPECT_THAT(other.err, HasSubstr(std::string("no page '") + name + '\'')) << name;
+  }
+  EXPECT_EQ(playpen({"doc", "laser", "--names"}).status, 2);
+}
+
+TEST(PlaypenDoc, OfAnInstallationReadsItsOwnPages) {
+  const TemporaryFolder prefix;
+  const std::string command = prefix.write("bin/playpen", "");
+  std::filesystem::copy_file(PLAYPEN_COMMAND, command,
+                             std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::permissions(command, std::filesystem::perms::owner_all);
+  const ProcessResult missing = run_process({command, "doc"});
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, AllOf(HasSubstr("share/playpen/docs"), HasSubstr("install Playpen")));
+  prefix.write("share/playpen/docs/index.md", "# All pages\n");
+  prefix.write("share/playpen/docs/devices/laser.md", "# A laser\n");
+  EXPECT_EQ(run_process({command, "doc"}).out,
+            "index          All pages\ndevices/laser  A laser\n");
+  EXPECT_EQ(run_process({command, "doc", "laser"}).out, "# A laser\n");
+}
+
 TEST(Terminal, TellsItsColumnsAndEverythingElseHas80) {
   EXPECT_EQ(playpen::terminal_columns(PseudoTerminal(132).descriptor()), 132U);
   EXPECT_EQ(playpen::terminal_columns(PseudoTerminal(0).descriptor()), 80U);
@@ -222,6 +283,18 @@ TEST(Terminal, TellsItsColumnsAndEverythingElseHas80) {
   EXPECT_EQ(playpen::terminal_columns(file), 80U);
   EXPECT_FALSE(playpen::shows_colour(file));
   close(file);
+}
+
+TEST(PlaypenDoc, OnATerminalThePagerShowsThePage) {
+  const TemporaryFolder folder;
+  const PseudoTerminal terminal(80);
+  const std::string shell = std::string("'" PLAYPEN_COMMAND "' doc start_here >/dev/fd/") +
+                            std::to_string(terminal.descriptor());
+  test_support::ProcessOptions options;
+  options.environment["PAGER"] = "cp -t " + (folder / ".");
+  ASSERT_EQ(run_process({"sh", "-c", shell}, options).status, 0);
+  EXPECT_EQ(test_support::read_bytes(folder / "start_here.md"),
+            test_support::read_bytes(PLAYPEN_SOURCE_DIR "/docs/start_here.md"));
 }
 
 TEST(Terminal, ShowsColourUnlessTheUserOrTheTerminalObjects) {

@@ -141,7 +141,7 @@ TEST(PlaypenNames, AFileOfAnotherKindIsSaidToBeOne) {
   EXPECT_THAT(error_of({"grade", worlds + "tasks/par_intro.json", "--", "/bin/true"}),
               AllOf(HasSubstr("found a world file"), HasSubstr("par_intro.task.json")));
   EXPECT_THAT(error_of({"grade", worlds + "cave.json", "--", "/bin/true"}),
-              AllOf(HasSubstr("found a world file"), HasSubstr("docs/grading.md")));
+              AllOf(HasSubstr("found a world file"), HasSubstr("playpen doc grading")));
 }
 
 TEST(PlaypenList, TellsOfEachWorldTaskAndModelInLinesThatFit) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "nightly.h"
 #include "playpen_process.h"
 #include "run_process.h"
 #include "temporary_folder.h"
@@ -17,6 +18,8 @@
 namespace {
 
 namespace fs = std::filesystem;
+using test_support::kOnlyNightly;
+using test_support::nightly;
 using test_support::playpen;
 using test_support::ProcessOptions;
 using test_support::ProcessResult;
@@ -48,15 +51,23 @@ std::vector<std::string> commands_of(const std::string& text) {
   return commands;
 }
 
-/// Makes a project in "my robot" of a folder and executes the printed commands, except for grading.
+/// Makes a project in "my robot" of a folder.
+/// @return the printed commands.
+std::vector<std::string> make_project(const std::string& kind, const TemporaryFolder& folder) {
+  const ProcessResult made = playpen({"new", kind, "my robot"}, in(folder / "."));
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_TRUE(fs::exists(folder / "my robot/README.md"));
+  std::vector<std::string> commands = commands_of(made.out);
+  EXPECT_EQ(commands.size(), kind == "client" ? 3U : 4U) << made.out;
+  return commands;
+}
+
+/// Makes a project and executes the printed commands, except for grading.
 void build_and_run(const std::string& kind, const std::string& result) {
   const TemporaryFolder folder;
   const ProcessOptions options = in(folder / ".");
-  const ProcessResult made = playpen({"new", kind, "my robot"}, options);
-  ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_TRUE(fs::exists(folder / "my robot/README.md"));
-  const std::vector<std::string> commands = commands_of(made.out);
-  ASSERT_EQ(commands.size(), kind == "client" ? 3U : 4U) << made.out;
+  const std::vector<std::string> commands = make_project(kind, folder);
+  ASSERT_GE(commands.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
     const ProcessResult step = run_process({"sh", "-c", commands[i]}, options);
     ASSERT_EQ(step.status, 0) << commands[i] << '\n' << step.out << step.err;
@@ -64,11 +75,28 @@ void build_and_run(const std::string& kind, const std::string& result) {
   EXPECT_TRUE(fs::exists(folder / result)) << result;
 }
 
+// Each project, without its build, which takes a compiler some seconds.
+TEST(PlaypenNew, MakesProjectsOfEachKind) {
+  for (const std::string task : {"intro", "planning", "exploration", "traps",
+                                 "exploration_changing", "chase", "localization"}) {
+    SCOPED_TRACE(task);
+    const TemporaryFolder folder;
+    make_project(task, folder);
+    const fs::path source = PLAYPEN_SOURCE_DIR "/apps/par_" + task + "/template";
+    for (const auto& file : fs::directory_iterator(source)) {
+      EXPECT_TRUE(fs::exists(folder / "my robot" / file.path().filename())) << file.path();
+    }
+  }
+}
+
 TEST(PlaypenNew, TheIntroTemplateBuildsAndRuns) {
   build_and_run("intro", "out/par_intro/report.json");
 }
 
+// The templates of the tasks differ in their sources only, which the tests ..._template_filled
+// compile. So a merge builds one of them, and the client.
 TEST(PlaypenNew, ThePlanningTemplateBuildsAndRuns) {
+  if (!nightly()) GTEST_SKIP() << kOnlyNightly;
   // The template plans nothing and therefore fails; the test only checks that it was built.
   const TemporaryFolder folder;
   const ProcessOptions options = in(folder / ".");
@@ -80,14 +108,17 @@ TEST(PlaypenNew, ThePlanningTemplateBuildsAndRuns) {
 }
 
 TEST(PlaypenNew, TheExplorationTemplateBuildsAndRuns) {
+  if (!nightly()) GTEST_SKIP() << kOnlyNightly;
   build_and_run("exploration", "out/par_exploration/report.json");
 }
 
 TEST(PlaypenNew, TheTrapsTemplateBuildsAndRuns) {
+  if (!nightly()) GTEST_SKIP() << kOnlyNightly;
   build_and_run("traps", "out/par_traps/report.json");
 }
 
 TEST(PlaypenNew, TheTemplatesOfChangingArenasBuildAndRun) {
+  if (!nightly()) GTEST_SKIP() << kOnlyNightly;
   build_and_run("exploration_changing", "out/par_exploration_changing/report.json");
   build_and_run("chase", "out/par_chase/report.json");
   build_and_run("localization", "out/par_localization/report.json");

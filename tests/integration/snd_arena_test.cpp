@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// SndDriver in the SyRoTek arena: random blocks, random starts and goals.
+// SndDriver in the SyRoTek arena: random blocks, random starts and goals; 50 cases per merge, 200
+// in nightly runs.
 //
 // To run a single case: SND_CASE=17 snd_arena_test
 #include <gtest/gtest.h>
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "libCCMorse/CCMorse.h"
+#include "nightly.h"
 #include "patient_host.h"
 #include "sim/core/random_stream.h"
 #include "sim/simulation/simulation.h"
@@ -25,12 +27,6 @@
 namespace {
 
 using sim::Vec2;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kCases = 12;
-#else
-constexpr int kCases = 200;
-#endif
 
 // The S1R's farthest corner is hypot(0.087, 0.045) = 0.098 m from its centre; 5 cm of clearance.
 constexpr double kRadius_m = 0.098 + 0.05;
@@ -208,7 +204,7 @@ TEST(SndArena, OpenGoalsAreReachedAndNothingIsEverHit) {
   int reached = 0;
   int blocked = 0;
   const int first = only == nullptr ? 0 : std::atoi(only);
-  const int end = only == nullptr ? kCases : first + 1;
+  const int end = only == nullptr ? test_support::cases(50, 200) : first + 1;
   for (int k = first; k < end; ++k) {
     const Case c = make_case(k);
     const Outcome outcome = run(c);

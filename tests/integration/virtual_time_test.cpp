@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "machine_load.h"
+#include "nightly.h"
 #include "playpen_process.h"
 #include "run_files.h"
 #include "run_process.h"
@@ -27,6 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test_support::cases;
 using test_support::MachineLoad;
 using test_support::playpen;
 using test_support::Process;
@@ -103,15 +105,16 @@ TEST_F(VirtualTime, EveryWayToSleepMovesSimulatedTimeAndTheClock) {
 }
 
 TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
+  const std::string duration_s = cases("20", "60");
   for (const char* name :
        {"drive_by_sleeping", "read_and_sleep", "read_in_background", "read_in_own_thread"}) {
-    const ProcessResult first = run(name, {"--duration", "60", "--quiet"});
+    const ProcessResult first = run(name, {"--duration", duration_s, "--quiet"});
     ASSERT_EQ(first.status, 0) << first.err;
     const json first_report = report();
     const std::string trajectory = read_bytes(fs::path(out_) / "trajectory.csv");
 
     std::optional<MachineLoad> load(4U);
-    const ProcessResult second = run(name, {"--duration", "60", "--quiet"});
+    const ProcessResult second = run(name, {"--duration", duration_s, "--quiet"});
     load.reset();
     ASSERT_EQ(second.status, 0) << second.err;
     EXPECT_EQ(first_report, report()) << name;
@@ -123,11 +126,13 @@ TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
 // Video encoders have their own threads, which are not threads of the program. They may wait for
 // one another while a step waits for them.
 TEST_F(VirtualTime, AFilmChangesNothing) {
+  const std::string duration_s = cases("3", "20");
   for (const char* name : {"read_in_background", "read_in_own_thread"}) {
-    ASSERT_EQ(run(name, {"--duration", "20", "--quiet"}).status, 0);
+    ASSERT_EQ(run(name, {"--duration", duration_s, "--quiet"}).status, 0);
     const json without = report();
-    ASSERT_EQ(run(name, {"--duration", "20", "--quiet", "--record", folder_ / "film.mp4"}).status,
-              0);
+    ASSERT_EQ(
+        run(name, {"--duration", duration_s, "--quiet", "--record", folder_ / "film.mp4"}).status,
+        0);
     EXPECT_EQ(report(), without) << name;
     EXPECT_GT(fs::file_size(folder_ / "film.mp4"), 1000U);
   }
@@ -218,6 +223,16 @@ TEST_F(VirtualTime, OneThatTakesTheEndForAnErrorHasNotFailed) {
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.err, HasSubstr("ended with status 255 when the run was over"));
   EXPECT_DOUBLE_EQ(sim_time(), 5.0);
+}
+
+// The status 1 may be the end of the run only if it comes then.
+TEST_F(VirtualTime, OneThatFailsBeforeTheEndHasFailed) {
+  const std::string program = SLEEPING_PROGRAM " drive_by_sleeping; exit 1";
+  const ProcessResult result =
+      playpen({"run", world_, "--out", out_, "--duration", "5", "--", "sh", "-c", program});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("ended with status 1"));
+  EXPECT_DOUBLE_EQ(sim_time(), 3.5);
 }
 
 TEST_F(VirtualTime, AProgramThatWasToldOfTheEndMayStillSleep) {

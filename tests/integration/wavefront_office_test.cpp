@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // A Pioneer with the drivers wavefront and snd goes to ten random goals of the office, for each of
-// several seeds: with its true pose, and with the pose that amcl finds from a noisy laser and noisy
-// odometry.
+// several seeds (2 per merge, 10 in nightly runs): with its true pose, and with the pose that amcl
+// finds from a noisy laser and noisy odometry.
 //
 // To run a single seed: WAVEFRONT_SEED=3 wavefront_office_test
 #include <gtest/gtest.h>
@@ -15,6 +15,7 @@
 
 #include "drivers/distance_wave.h"
 #include "libCCMorse/CCMorse.h"
+#include "nightly.h"
 #include "patient_host.h"
 #include "playerlike/messages/messages.h"
 #include "sim/core/random_stream.h"
@@ -24,11 +25,6 @@ namespace {
 
 using sim::Vec2;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kSeeds = 1;
-#else
-constexpr int kSeeds = 10;
-#endif
 constexpr int kGoals = 10;
 constexpr double kTolerance_m = 0.3;  // of both worlds
 // Longer than any path of the office takes at half speed.
@@ -101,7 +97,7 @@ void expect_ten_goals(const std::string& name, int seed, uint32_t measured, doub
 void expect_ten_goals_of_each_seed(const std::string& name, uint32_t measured, double error_m) {
   const char* const only = std::getenv("WAVEFRONT_SEED");
   const int first = only == nullptr ? 0 : std::atoi(only);
-  const int end = only == nullptr ? kSeeds : first + 1;
+  const int end = only == nullptr ? test_support::cases(2, 10) : first + 1;
   for (int seed = first; seed < end; ++seed) expect_ten_goals(name, seed, measured, error_m);
 }
 

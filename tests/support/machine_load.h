@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "nightly.h"
 #include "run_process.h"
 
 /// Tests of runs on a busy machine.
@@ -18,8 +19,8 @@ namespace test_support {
 /// Busy processes. They end with this object, and with the test.
 class MachineLoad {
  public:
-  /// Four processes per core.
-  MachineLoad() : MachineLoad(4 * std::max(1U, std::thread::hardware_concurrency())) {}
+  /// A process per core, four in nightly runs.
+  MachineLoad() : MachineLoad(cases(1U, 4U) * std::max(1U, std::thread::hardware_concurrency())) {}
   explicit MachineLoad(unsigned count) {
     for (unsigned i = 0; i < count; ++i) {
       processes_.push_back(std::make_unique<Process>(
@@ -33,7 +34,7 @@ class MachineLoad {
 };
 
 /// How often a test repeats its runs under load. PLAYPEN_REPEATS in the environment replaces the
-/// usual number; less than `least` counts as `least`.
+/// usual number of a merge or a nightly run; less than `least` counts as `least`.
 [[nodiscard]] inline int repeats(int usual, int least) {
   const char* text = std::getenv("PLAYPEN_REPEATS");
   return text == nullptr ? usual : std::max(least, std::atoi(text));

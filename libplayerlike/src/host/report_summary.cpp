@@ -42,10 +42,11 @@ std::string stall_advice(const nlohmann::json& report) {
     const double driven_s = robot.value("driven_time", 0.0);
     const double stalled_s = robot.at("stalled_time").get<double>();
     if (driven_s < kLeastDriven_s || stalled_s <= kMost * driven_s) continue;
-    advice += robot.at("name").get<std::string>() + " was stalled for " +
-              sim::fixed_text(100.0 * std::min(stalled_s / driven_s, 1.0), 0) +
-              " % of the time that it drove: docs/which_world.md names the world that suits a "
-              "program\n";
+    advice +=
+        robot.at("name").get<std::string>() + " was stalled for " +
+        sim::fixed_text(100.0 * std::min(stalled_s / driven_s, 1.0), 0) +
+        " % of the time that it drove: 'playpen doc which_world' names the world that suits a "
+        "program\n";
   }
   return advice;
 }

@@ -97,7 +97,9 @@ class CborReader {
   };
 
   [[noreturn]] static void refuse(const std::string& what) {
-    throw ProtocolError("protocol/syntax", "not CBOR as docs/protocol.md wants it: " + what);
+    throw ProtocolError(
+        "protocol/syntax",
+        "not CBOR as Playpen's protocol wants it ('playpen doc protocol'): " + what);
   }
 
   std::string_view take(std::uint64_t size) {

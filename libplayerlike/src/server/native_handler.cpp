@@ -140,7 +140,7 @@ void NativeHandler::execute(const json& message, const json& id, std::string& na
   const auto type = own == nullptr ? protocol::find_request(name) : std::nullopt;
   if (own == nullptr && !type) {
     throw ProtocolError("protocol/unknown-request",
-                        "there is no request of this name; see docs/protocol.md");
+                        "there is no request of this name; see 'playpen doc protocol'");
   }
   if (!wait_ && (own == nullptr || !own->for_watchers)) {
     throw ProtocolError("access/denied", "this connection only watches, as its hello said");

@@ -472,7 +472,7 @@ void on_waits_for_real(const char* what) {
                              "simulated time";
     if (Turns::instance().note_unrepeatable(text)) {
       log_to_stderr()(sim::LogLevel::kWarning,
-                      text + " (docs/virtual_time.md; --real-sleep makes all of it real)");
+                      text + " ('playpen doc virtual_time'; --real-sleep makes all of it real)");
     }
   } catch (const std::exception&) {
     // Out of memory; the warning is lost.

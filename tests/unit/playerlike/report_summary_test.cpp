@@ -47,8 +47,9 @@ TEST(ReportSummary, NamesRobotsThatStalledForMostOfTheTimeThatTheyDrove) {
       {"name": "r3", "path_length": 1.0, "collisions": 1, "least_clearance": 0.0,
        "stalled_time": 0.7, "driven_time": 0.9}]})");
   const std::string summary = summarize_report(file);
-  EXPECT_THAT(summary, HasSubstr("\nr1 was stalled for 75 % of the time that it drove: "
-                                 "docs/which_world.md names the world that suits a program\n"));
+  EXPECT_THAT(summary,
+              HasSubstr("\nr1 was stalled for 75 % of the time that it drove: "
+                        "'playpen doc which_world' names the world that suits a program\n"));
   EXPECT_THAT(summary, Not(HasSubstr("r2 was stalled")));
   EXPECT_THAT(summary, Not(HasSubstr("r3 was stalled")));
 }

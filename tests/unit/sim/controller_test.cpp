@@ -237,6 +237,26 @@ TEST(ArenaTrap, HasAnyShape) {
   }
 }
 
+// More traps than are tested while a robot is near others.
+TEST(ArenaTrap, SpringsEachOfManyOnItsWay) {
+  constexpr int kTraps = 12;
+  std::string traps;
+  for (int i = 0; i < kTraps; ++i) {
+    traps += std::string(i == 0 ? "" : ", ") + R"({"name": "p)" + std::to_string(i) +
+             R"(", "region": {"circle": {"center": [)" + fixed_text(1.2 + 0.18 * i, 2) +
+             R"(, 2], "radius": 0.05}}})";
+  }
+  Simulation simulation(room(R"("traps": [)" + traps + "]"));
+  drive(simulation, 0.5);
+  run(simulation, 5.0);  // 2.5 m; the last trap begins 2.13 m ahead
+  const std::vector<double> times = times_of(simulation, ArenaEventKind::kTrap);
+  ASSERT_THAT(times, SizeIs(kTraps));
+  // From border to border a robot drives 0.18 m, in 0.36 s.
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    EXPECT_NEAR(times[i] - times[i - 1], 0.36, 0.011) << i;
+  }
+}
+
 TEST(ArenaTrap, FollowsARobotOrAnObstacle) {
   // The robots are 1 m apart. r2 is near itself, but springs nothing.
   Simulation near_robot(trap_room(R"("near": {"object": "r2", "distance": 0.8})"));

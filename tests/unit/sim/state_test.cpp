@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "nightly.h"
 #include "run_process.h"
 #include "sim/core/hash.h"
 #include "sim/devices/camera.h"
@@ -28,14 +29,16 @@ namespace sim {
 namespace {
 
 namespace fs = std::filesystem;
+using test_support::cases;
 using test_support::read_bytes;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;
 
 constexpr const char* kFolderVariable = "PLAYPEN_STATE_TEST_FOLDER";
-constexpr int kSteps = 600;
-constexpr int kSnapshots = 50;
 constexpr int kGoOn = 30;  // steps after a restore
+
+int steps_of_trace() { return cases(300, 600); }
+std::size_t snapshots_of_trace() { return cases<std::size_t>(10, 50); }
 
 const fs::path kWorlds = fs::path(PLAYPEN_SOURCE_DIR) / "worlds";
 
@@ -280,7 +283,9 @@ std::array<std::uint64_t, 2> seen(const Simulation& simulation) {
 std::set<int> moments() {
   std::mt19937 random(4711);
   std::set<int> moments = {0};
-  while (moments.size() < kSnapshots) moments.insert(number_in(random, kSteps - kGoOn));
+  while (moments.size() < snapshots_of_trace()) {
+    moments.insert(number_in(random, steps_of_trace() - kGoOn));
+  }
   return moments;
 }
 
@@ -319,7 +324,7 @@ TEST(State, GoesOnInAnotherProcessToTheSameBits) {
   Simulation simulation(full_world());
   const std::set<int> saved = moments();
   Trace trace;
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < steps_of_trace(); ++i) {
     trace.push_back(seen(simulation));
     if (saved.contains(i)) {
       const Snapshot snapshot = simulation.save();
@@ -333,7 +338,7 @@ TEST(State, GoesOnInAnotherProcessToTheSameBits) {
   for (int robot = 0; robot < simulation.robot_count(); ++robot) {
     collisions += simulation.statistics(robot).collisions;
   }
-  EXPECT_GT(collisions, 30);
+  EXPECT_GT(collisions, cases(10, 30));
   write_file(folder / "trace", trace.data(), trace.size() * sizeof(Trace::value_type));
   test_support::ProcessOptions options;
   options.environment[kFolderVariable] = folder.path().string();
@@ -353,7 +358,7 @@ Simulation busy_simulation(int steps) {
 }
 
 TEST(State, IsTheSameAfterSavingAndRestoring) {
-  Simulation simulation = busy_simulation(300);
+  Simulation simulation = busy_simulation(cases(100, 300));
   const Snapshot snapshot = simulation.save();
   EXPECT_EQ(simulation.save(), snapshot);
   simulation.restore(snapshot);
@@ -365,16 +370,16 @@ TEST(State, IsTheSameAfterSavingAndRestoring) {
 }
 
 TEST(State, OfAForkIsItsOwn) {
-  Simulation simulation = busy_simulation(200);
+  Simulation simulation = busy_simulation(80);
   Simulation fork = simulation.fork();
   const std::uint64_t before = simulation.state_hash();
   EXPECT_EQ(fork.state_hash(), before);
-  for (int i = 200; i < 260; ++i) {
+  for (int i = 80; i < 140; ++i) {
     interfere(fork, i);
     fork.step();
   }
   EXPECT_EQ(simulation.state_hash(), before);
-  for (int i = 200; i < 260; ++i) {
+  for (int i = 80; i < 140; ++i) {
     interfere(simulation, i);
     simulation.step();
   }
@@ -540,7 +545,8 @@ TEST(Snapshots, OfAnyBytesAreRefusedOrGoOn) {
   const Snapshot good = simulation.save();
   std::mt19937 random(99);
   int refused = 0;
-  for (int round = 0; round < 200; ++round) {
+  const int rounds = cases(50, 200);
+  for (int round = 0; round < rounds; ++round) {
     Snapshot bad = good;
     for (int k = 1 + number_in(random, 3); k > 0; --k) {
       const std::size_t at = kHeader + random() % (good.size() - kHeader);
@@ -568,7 +574,7 @@ TEST(Snapshots, OfAnyBytesAreRefusedOrGoOn) {
     }
     static_cast<void>(other.snapshot());
   }
-  EXPECT_GT(refused, 20);
+  EXPECT_GT(refused, rounds / 10);
 }
 
 }  // namespace

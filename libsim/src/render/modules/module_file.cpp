@@ -36,9 +36,11 @@ std::vector<fs::path> own_folders() {
   std::vector<fs::path> folders;
   const fs::path folder = own_folder();
   if (folder.empty()) return folders;
-  for (const char* place : {".", "../lib", PLAYPEN_LIBRARIES_FROM_COMMAND}) {
+  for (const char* place : {".", PLAYPEN_LIBRARY_PLACES}) {
     const fs::path candidate = (folder / place / "playpen").lexically_normal();
-    if (folders.empty() || folders.back() != candidate) folders.push_back(candidate);
+    if (std::find(folders.begin(), folders.end(), candidate) == folders.end()) {
+      folders.push_back(candidate);
+    }
   }
   return folders;
 }
