@@ -65,3 +65,6 @@ timed "the pages" follow "${pages[@]}"
 # The target playpen::playerlike is the library that the demo has built: static.
 loaded=$(ldd "$home/README/build/my_robot")
 [[ $loaded != *libplaypen* ]] || fail "the static package is not static:" "$loaded"
+
+"$root/apps/install_dependencies.sh" package
+timed "the Debian packages" "$root/tests/install/deb.sh" "$root/build/release" "$1/deb"
