@@ -10,6 +10,7 @@ Usage: tests/install/package.sh [--shared] FOLDER
 
 Follows the pages for new users in this checkout, with what apps/demo.sh has built in build/release and
 an empty home below FOLDER: every command runs as it is written there, and so does the walk of walk.sh.
+Then the Debian packages are made and checked (deb.sh).
 With --shared, build/release is configured for shared libraries meanwhile, which compiles nothing again.
 TEXT
 }
