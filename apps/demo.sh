@@ -95,6 +95,7 @@ for file in "${results[@]}"; do
   [[ -s $out/$file ]] || fail "the run ended well but left no $out/$file; please report this"
 done
 
+echo
 headline "Look at"
 echo "  $root/$out/film.mp4         how it went, 2.5 times as fast"
 echo "  $root/$out/scene.png        the arena, the robot, and what it knows at the end"
@@ -112,6 +113,7 @@ headline "4/5  The same again, judged as a student's program is"
   -- "$build/bin/par_exploration_solution_nearest" ||
   fail "the run did not pass; the reasons are above"
 
+echo
 headline "5/5  Build the other programs that the guides run"
 echo "     You can interrupt this: what is above stays, and apps/demo.sh goes on from here next time."
 build programs

@@ -35,7 +35,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 commit=$(git -C "$root" rev-parse --verify "${1:-HEAD}^{commit}")
 export PLAYPEN_CACHE=off
 unset PLAYPEN_NIGHTLY
-"$root/apps/install_dependencies.sh" build test lint doc
+"$root/apps/install_dependencies.sh" build test lint doc package
 
 folder=$(mktemp -d)
 trap 'rm -rf -- "$folder"' EXIT

@@ -55,7 +55,7 @@ if [[ $preset == tests ]]; then build=build/release; fi
 mkdir -p "$build"
 configure_log=$build/configure.log
 nightly=OFF
-if [[ -n ${PLAYPEN_NIGHTLY:-} ]]; then nightly=ON; fi
+if [[ ${PLAYPEN_NIGHTLY:-0} != 0 ]]; then nightly=ON; fi
 if ! cmake --preset "$preset" "-DPLAYPEN_NIGHTLY=$nightly" "${launcher[@]}" >"$configure_log" 2>&1; then
   cat "$configure_log" >&2
   echo "tests/run.sh: configuring preset '$preset' failed; the reason is above" >&2

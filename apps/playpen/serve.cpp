@@ -51,7 +51,8 @@ class HeldSignals {
       over_ = true;
       end_on_second_.join();
     }
-    pthread_sigmask(SIG_SETMASK, &old_mask_, nullptr);
+    // The signals stay blocked: the process is about to exit with its status, which a late request
+    // to end must not change.
   }
 
   /// Waits a moment. @return the number of a signal that arrived; 0: none.

@@ -21,9 +21,11 @@ endforeach()
 # What gcc leaves in archives for debuggers only.
 find_program(_strip strip REQUIRED NO_CACHE)
 file(GLOB_RECURSE _archives "${_dev}/lib/*.a")
-execute_process(COMMAND "${_strip}" --strip-debug --remove-section=.comment --remove-section=.note
-    --enable-deterministic-archives ${_archives}
-  COMMAND_ERROR_IS_FATAL ANY)
+if(_archives)
+  execute_process(COMMAND "${_strip}" --strip-debug --remove-section=.comment --remove-section=.note
+      --enable-deterministic-archives ${_archives}
+    COMMAND_ERROR_IS_FATAL ANY)
+endif()
 
 # compressed(FILE): replaces a file by FILE.gz, without name and time.
 find_program(_gzip gzip REQUIRED NO_CACHE)

@@ -82,7 +82,7 @@ cd "$HOME"
 playpen=$folder/root/usr/bin/playpen
 readelf -d "$playpen" | grep -E 'R(UN)?PATH' && fail "the command has a path of its own to libraries"
 "$playpen" --version
-"$playpen" doc | grep -q '^start_here ' || fail "'playpen doc' does not list start_here"
+[[ $("$playpen" doc --names) == *$'\nstart_here\n'* ]] || fail "'playpen doc' does not list start_here"
 "$playpen" doc start_here | cmp - "$folder/root/usr/share/doc/playpen/docs/start_here.md"
 "$playpen" new intro robot
 "$here/fill_intro.sh" robot/robot.cc
@@ -118,6 +118,6 @@ if cmake --build "$build" --target uninstall >"$folder/again.log" 2>&1; then
   fail "a second uninstall should be an error"
 fi
 grep -q 'Nothing is installed from this build folder' "$folder/again.log" || cat "$folder/again.log"
-tar --list --gzip --file "${tarballs[0]}" | grep -q '/lib/pkgconfig/playerc++.pc$' ||
+[[ $(tar --list --gzip --file "${tarballs[0]}") == */lib/pkgconfig/playerc++.pc* ]] ||
   fail "the tarball has no lib/pkgconfig/playerc++.pc"
 headline "The packages are good"

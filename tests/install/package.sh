@@ -10,6 +10,7 @@ Usage: tests/install/package.sh [--shared] FOLDER
 
 Follows the pages for new users in this checkout, with what apps/demo.sh has built in build/release and
 an empty home below FOLDER: every command runs as it is written there, and so does the walk of walk.sh.
+Then the Debian packages are made and checked (deb.sh).
 With --shared, build/release is configured for shared libraries meanwhile, which compiles nothing again.
 TEXT
 }
@@ -65,3 +66,6 @@ timed "the pages" follow "${pages[@]}"
 # The target playpen::playerlike is the library that the demo has built: static.
 loaded=$(ldd "$home/README/build/my_robot")
 [[ $loaded != *libplaypen* ]] || fail "the static package is not static:" "$loaded"
+
+"$root/apps/install_dependencies.sh" package
+timed "the Debian packages" "$root/tests/install/deb.sh" "$root/build/release" "$1/deb"

@@ -79,9 +79,9 @@ void Results::write() {
       warn_(std::string(problem) + e.what());
     }
   };
-  constexpr const char* kMissing = "results of the run are missing: ";
+  constexpr const char* kMissingResults = "results of the run are missing: ";
   const std::string& folder = settings_.output_folder;
-  attempt(kMissing, [&] { recorder_->close_trajectory(); });
+  attempt(kMissingResults, [&] { recorder_->close_trajectory(); });
   if (!folder.empty()) {
     const TimeStatistics time = time_();
     const std::string report = report_text(simulation_, *recorder_, time, reason_of_end());
@@ -89,14 +89,15 @@ void Results::write() {
       kept_->keep_step(time, *recorder_, simulation_);
       kept_->keep_looks(report, simulation_);
     }
-    attempt(kMissing, [&] { write_report(folder, signed_report(report, settings_.grading)); });
+    attempt(kMissingResults,
+            [&] { write_report(folder, signed_report(report, settings_.grading)); });
   }
   set_phase(KeptRun::Phase::kReported);
   for (auto& [port, log] : logs) {
     if (const auto problem = log.close()) warn_(*problem);
   }
   if (!folder.empty()) {
-    attempt(kMissing,
+    attempt(kMissingResults,
             [&] { write_pictures(folder, simulation_.layers(), scene(), settings_.pictures); });
   }
   attempt("the recording is not complete: ", [&] { recorder_->close_film(); });

@@ -44,6 +44,7 @@ template <typename Params>
 template <typename Params, typename ReadingType, typename Make>
 [[nodiscard]] DeviceKind device_kind(const char* name, std::vector<ProvidedInterface> interfaces,
                                      Make /*make*/) {
+  static_assert(std::is_empty_v<Make>, "give a lambda: the row makes one of its own");
   DeviceKind row;
   row.name = name;
   row.interfaces = std::move(interfaces);
@@ -87,6 +88,7 @@ template <typename Made, typename Params, typename ReadingType>
 /// @tparam Complete  of a lambda without captures, which fills Params with values from the model.
 template <typename Params, typename Complete>
 [[nodiscard]] DeviceKind with_model(DeviceKind row, Complete /*complete*/) {
+  static_assert(std::is_empty_v<Complete>, "give a lambda: the row makes one of its own");
   row.model_properties = [](const std::any& params, const RobotModel& model) {
     auto completed = params_in<Params>(params);
     Complete{}(completed, model);

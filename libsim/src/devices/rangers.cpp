@@ -153,14 +153,14 @@ std::optional<FieldError> check_mountings(const void* object) {
   return FieldError{"", "as many as there are ranges", "", "", "mountings"};
 }
 
-std::unique_ptr<Device> make_ranger(const DeviceConstruction& construction,
-                                    const RangerParams& params) {
+constexpr auto kMakeRanger = [](const DeviceConstruction& construction,
+                                const RangerParams& params) {
   const bool may_be_inside = !std::ranges::all_of(params.X_BS, [&construction](const Pose& X_BS) {
     return is_safely_inside(construction.model.footprint, X_BS);
   });
   return std::make_unique<Ranger>(construction.name(), construction.device.type, params,
                                   may_be_inside, construction.noise());
-}
+};
 
 }  // namespace
 
@@ -213,11 +213,11 @@ SIM_FIELDS(RangerReading, kRangerReading, check_mountings)
 
 DeviceKind infrared_kind() {
   return device_kind<InfraredParams, RangerReading>("infrared", {{"ir"}, {"ranger", 2}},
-                                                    make_ranger);
+                                                    kMakeRanger);
 }
 
 DeviceKind sonar_kind() {
-  return device_kind<SonarParams, RangerReading>("sonar", {{"ranger", 1}, {"sonar"}}, make_ranger);
+  return device_kind<SonarParams, RangerReading>("sonar", {{"ranger", 1}, {"sonar"}}, kMakeRanger);
 }
 
 }  // namespace sim
