@@ -22,3 +22,9 @@ launcher=()
 if [[ ${PLAYPEN_CACHE:-} != off ]] && command -v ccache >/dev/null 2>&1; then
   launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DPLAYPEN_PCH= -DPLAYPEN_JOIN=)
 fi
+
+# jobs: compilations at a time: one a processor, but each needs up to 2.2 GB of memory.
+memory_kb=$(awk '/^MemAvailable:/ { print $2 }' /proc/meminfo)
+jobs=$((${memory_kb:-0} / 2300000))
+if ((jobs > $(nproc))); then jobs=$(nproc); fi
+if ((jobs < 1)); then jobs=1; fi

@@ -66,9 +66,9 @@ build() {
   for name in "$@"; do names+=(--target "$name"); done
   if [[ -t 1 ]]; then
     # On a terminal ninja shows its progress in one line.
-    cmake --build "$build" --parallel "$(nproc)" "${names[@]}" ||
+    cmake --build "$build" --parallel "$jobs" "${names[@]}" ||
       fail "the build failed; the compiler's messages are above"
-  elif ! NINJA_STATUS='%p ' cmake --build "$build" --parallel "$(nproc)" "${names[@]}" 2>&1 |
+  elif ! NINJA_STATUS='%p ' cmake --build "$build" --parallel "$jobs" "${names[@]}" 2>&1 |
     progress; then
     tail -n 40 "$log" >&2
     fail "the build failed; the last lines are above, all of them in $root/$log"

@@ -49,7 +49,6 @@ apps/install_dependencies.sh build test
 
 # shellcheck source=SCRIPTDIR/../apps/build_tools.sh
 source apps/build_tools.sh
-jobs=$(nproc)
 build=build/$preset
 if [[ $preset == tests ]]; then build=build/release; fi
 mkdir -p "$build"
@@ -93,7 +92,7 @@ fi
 
 # Many tests wait for programs, sockets or a window, so run half a job more per processor.
 status=0
-"${run[@]}" ctest --preset "$preset" --parallel "$((jobs + (jobs + 1) / 2))" "$@" || status=$?
+"${run[@]}" ctest --preset "$preset" --parallel "$(($(nproc) + ($(nproc) + 1) / 2))" "$@" || status=$?
 count_processor_seconds
 echo "Tested after $SECONDS s, $((processor_seconds - built)) s of processor time in the tests."
 exit "$status"
