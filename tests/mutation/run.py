@@ -71,31 +71,24 @@ class Copy:
             log.write(f"===== {what}: {' '.join(map(str, command))}\n{done.stdout}\n")
         return done.returncode, done.stdout
 
-    def run(self, preset, tests, arguments, what):
-        """Calls tests/run.sh. Of a sanitizer's preset, only these tests are built."""
-        targets = tests if preset != self.preset else []
-        return self.call(["tests/run.sh", "--preset", preset, *(f for name in targets
-                          for f in ("--target", name)), *arguments], what)
-
-    def build(self, preset, tests, what):
-        """@return whether the build worked."""
-        status, output = self.run(preset, tests, ["-N"], what)
-        missing = [name for name in tests if f": {name}\n" not in output]
-        if status == 0 and missing:
-            raise BadList(f"{what}: preset {preset} has no test {', '.join(missing)}")
-        return status == 0
-
     def failures(self, preset, tests, timeout_s, what):
-        """Runs these tests or, if there are none, those of a merge until one fails.
-        @return the names of those that failed."""
-        chosen = ["-R", f"^({'|'.join(map(re.escape, tests))})$"]
-        if not tests:  # mutation_list would only tell that a source was changed
-            chosen = ["-E", "^mutation_list$", "--stop-on-failure"]
-        status, output = self.run(preset, tests, [*chosen, "--timeout", str(timeout_s)], what)
+        """Builds what has changed, for a sanitizer only these tests, and runs these tests or, if
+        there are none, those of a merge until one fails. @return the names of those that failed."""
+        command = ["tests/run.sh", "--preset", preset, "--timeout", str(timeout_s)]
+        if preset != self.preset:
+            command[3:3] = [word for name in tests for word in ("--target", name)]
+        if tests:
+            command += ["-R", f"^({'|'.join(map(re.escape, tests))})$"]
+        else:  # mutation_list would only tell that a source was changed
+            command += ["-E", "^mutation_list$", "--stop-on-failure"]
+        status, output = self.call(command, what)
+        if "Test project" not in output:
+            raise BadList(f"{what}: the build failed; see {self.log}")
         failed = output.partition("The following tests FAILED:")[2]
         failed = re.findall(r"^\s*\d+ - (\S+) ", failed, re.MULTILINE)
-        if (status == 0) != (not failed):
-            raise BadList(f"{what}: the tests could not run; see {self.log}")
+        missing = [name for name in tests if f": {name}\n" not in output]
+        if missing or (status == 0) != (not failed):
+            raise BadList(f"{what}: {', '.join(missing) or 'tests'} did not run; see {self.log}")
         return failed
 
 
@@ -106,8 +99,6 @@ def check(copy, faults):
         presets.setdefault(fault.get("preset", copy.preset), set()).update(fault["tests"])
     for preset, tests in presets.items():
         what = f"without a fault, preset {preset}"
-        if not copy.build(preset, sorted(tests), what):
-            raise BadList(f"{what}: the build failed; see {copy.log}")
         if failed := copy.failures(preset, sorted(tests), TIMEOUT_S, what):
             raise BadList(f"{what}: {', '.join(failed)} failed; see {copy.log}")
 
@@ -120,8 +111,6 @@ def look_for(copy, fault, named_only):
     timeout_s = int(fault.get("timeout", TIMEOUT_S))
     try:
         file.write_text(planted(fault, text), encoding="utf-8")
-        if not copy.build(preset, fault["tests"], fault["name"]):
-            raise BadList(f"[{fault['name']}] does not compile; see {copy.log}")
         found = copy.failures(preset, fault["tests"], timeout_s, fault["name"])
         if not found and preset == copy.preset and not named_only:
             found = copy.failures(preset, [], timeout_s, fault["name"])

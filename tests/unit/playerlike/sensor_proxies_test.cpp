@@ -218,6 +218,18 @@ TEST_P(SensorProxies, SettingsAreThoseOfConfigureRightAfterIt) {
 constexpr const char* kThreeRangers =
     R"({"infrared": {}, "sonar": {"mounts": [{"x": 0.1, "yaw_deg": 30}, {"x": 0.2}]}})";
 
+TEST_P(SensorProxies, SonarShowsTheNewestReading) {
+  const auto client = open(room(R"({"sonar": {"mounts": [{}], "range_max": 5}})"));
+  SonarProxy sonar(client.get(), 0);
+  Position2dProxy position(client.get(), 0);
+  position.SetSpeed(0.2, 0.0);
+  for (int i = 0; i < 10; ++i) {
+    client->Read();
+    EXPECT_NEAR(sonar[0], 2.8 - position.GetXPos(), 1e-5) << i;  // the block's face is at 2.8
+  }
+  EXPECT_LT(sonar[0], 1.65);  // 2 cm nearer with each reading
+}
+
 TEST_P(SensorProxies, RangersAreCountedLaserSonarInfrared) {
   const auto client = open(room(kThreeRangers));
   EXPECT_EQ(RangerProxy(client.get(), 0).GetDriverName(), "laser");

@@ -313,6 +313,18 @@ TEST(MonteCarloLocalizer, TracksFromAGivenPoseAndFollowsTheOdometryBetweenScans)
               1e-12);
 }
 
+TEST(MonteCarloLocalizer, AppendsEachStepOfTheOdometryToThoseBefore) {
+  MonteCarloLocalizer localizer = localizer_in(room());
+  localizer.set_pose({1.5, 1.0, 0.0}, {});
+  // Ahead and to the left, then ahead in the new direction.
+  localizer.move({0.2, 0.0, 0.5 * std::numbers::pi});
+  localizer.move({0.1, 0.0, 0.0});
+  const Pose mean = localizer.hypotheses().front().mean;
+  EXPECT_NEAR(mean.x_m, 1.7, 1e-9);
+  EXPECT_NEAR(mean.y_m, 1.1, 1e-9);
+  EXPECT_NEAR(mean.yaw_rad, 0.5 * std::numbers::pi, 1e-9);
+}
+
 TEST(MonteCarloLocalizer, RepeatsToTheBitAndIsRestored) {
   const OccupancyMap map = room();
   const auto run = [&](bool with_restore) {

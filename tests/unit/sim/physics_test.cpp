@@ -74,6 +74,15 @@ TEST(FeasibleTwist, ObliqueContactTradesSpeedForTurn) {
   EXPECT_NEAR(t.omega_radps, -0.2 * 10.0, 1e-12);
 }
 
+TEST(FeasibleTwist, TwoContactsLeaveWhatBothAllow) {
+  // v + 0.1 omega <= 0.1 and v - 0.1 omega <= 0.05 meet at (0.075, 0.25). The target differs from
+  // it by (0.425, -0.25), which is a (0.5, 10) + b (0.5, -10) with a = 0.4125 and b = 0.4375: both
+  // contacts push, so no other allowed twist is nearer in the metric diag(2, 0.01).
+  const Twist t = feasible_twist({0.5, 0.0, 0.0}, 2.0, 0.01, {{1.0, 0.1, 0.1}, {1.0, -0.1, 0.05}});
+  EXPECT_NEAR(t.v_mps, 0.075, 1e-12);
+  EXPECT_NEAR(t.omega_radps, 0.25, 1e-12);
+}
+
 TEST(FeasibleTwist, NeverHasMoreEnergyThanTheTarget) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
