@@ -58,6 +58,13 @@ class StageFiles : public testing::Test {
   test_support::TemporaryFolder folder_;
 };
 
+TEST_F(StageFiles, TextsThatAreNotUtf8AreLatin1) {
+  // 0xE9 is a small e with an acute accent, U+00E9, in UTF-8 the bytes C3 A9.
+  const WorldDescription world = read("position ( name \"caf\xe9\" pose [ 0 0 0 0 ] )");
+  ASSERT_THAT(world.robots, SizeIs(1));
+  EXPECT_EQ(world.robots[0].name, "caf\xc3\xa9");
+}
+
 TEST_F(StageFiles, TheFirstDefinitionCounts) {
   const WorldDescription world = read(
       "define bot position ( size [0.4 0.4 0.2] mass 3 )\n"

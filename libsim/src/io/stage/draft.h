@@ -14,6 +14,11 @@ namespace sim::io::stage {
 
 using Json = nlohmann::ordered_json;
 
+/// The text of a JSON file. Bytes of a path that are not UTF-8 are replaced by U+FFFD.
+[[nodiscard]] inline std::string file_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 /// A device of a robot, and what Player's configuration files may call it.
 struct DraftDevice {
   std::string stage_type;  ///< "ranger", "fiducial", ...

@@ -14,7 +14,7 @@ void finish_robots(Translation& translation) {
     Json model = {{"name", draft.kind}};
     for (auto& [key, value] : draft.model.items()) model[key] = value;
     model["devices"] = draft.devices;
-    const std::string text = model.dump(2) + "\n";
+    const std::string text = file_text(model);
     std::string& file = models[text];
     if (file.empty()) {
       std::string stem = draft.kind;

@@ -228,7 +228,7 @@ Result import(const std::string& path, const std::string& text, const std::strin
     Reader::Document document;
     document.file = path;
     document.files = &translation.files;
-    result.files.world = translation.world.dump(2) + "\n";
+    result.files.world = file_text(translation.world);
     result.world = read_world_document(result.files.world, types, document);
     if (document.issues.empty()) break;
     const bool only_places =

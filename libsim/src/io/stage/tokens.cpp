@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/document.h"
+#include "sim/core/utf8.h"
 
 namespace sim::io::stage {
 namespace {
@@ -14,6 +15,23 @@ namespace {
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
+
+/// A text as UTF-8. Files of Stage's time that are none are in ISO 8859-1, whose characters have
+/// the numbers of their bytes.
+std::string utf8_text(std::string_view text) {
+  if (find_invalid_utf8(text) == std::string_view::npos) return std::string(text);
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      result += c;
+    } else {
+      result += static_cast<char>(0xC0U | (byte >> 6U));
+      result += static_cast<char>(0x80U | (byte & 0x3FU));
+    }
+  }
+  return result;
+}
 
 class Lexer {
  public:
@@ -133,7 +151,7 @@ class Lexer {
       throw ConfigError(issue_at(place, "stage/syntax", "a double quote at the end of the text",
                                  "the end of the line"));
     }
-    add(TokenKind::kString, std::string(text_.substr(begin, at_ - begin)), place);
+    add(TokenKind::kString, utf8_text(text_.substr(begin, at_ - begin)), place);
     ++at_;
   }
 

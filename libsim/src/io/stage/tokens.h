@@ -38,7 +38,8 @@ enum class TokenKind : std::uint8_t {
   kEnd,  ///< after the last token
 };
 
-/// One token. A string's text has no quotes.
+/// One token. A string's text has no quotes, and is UTF-8: a text that is not is read as ISO
+/// 8859-1.
 struct Token {
   TokenKind kind = TokenKind::kEnd;
   std::string text;
