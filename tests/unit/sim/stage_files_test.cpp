@@ -59,10 +59,19 @@ class StageFiles : public testing::Test {
 };
 
 TEST_F(StageFiles, TextsThatAreNotUtf8AreLatin1) {
-  // 0xE9 is a small e with an acute accent, U+00E9, in UTF-8 the bytes C3 A9.
-  const WorldDescription world = read("position ( name \"caf\xe9\" pose [ 0 0 0 0 ] )");
+  // 0xE9 is an e with an acute accent; as UTF-8 it has two bytes, and names have _ for each.
+  folder_.write("w.world",
+                "position ( name \"caf\xe9\" pose [ 0 0 0 0 ] ranger ( sensor ( "
+                "range [ 0 5 ] samples 5 fov 180 ) ) )");
+  const WorldDescription world = load_world(folder_.write(
+      "w.cfg",
+      "driver ( name \"stage\" provides [ \"simulation:0\" ] worldfile \"w.world\" )\n"
+      "driver ( name \"stage\" provides [ \"position2d:0\" \"ranger:0\" ] model "
+      "\"caf\xe9\" )\n"
+      "driver ( name \"rangertolaser\" provides [ \"l\xe4s:0\" ] requires [ "
+      "\"ranger:0\" ] )\n"));
   ASSERT_THAT(world.robots, SizeIs(1));
-  EXPECT_EQ(world.robots[0].name, "caf\xc3\xa9");
+  EXPECT_EQ(world.robots[0].name, "caf__");
 }
 
 TEST_F(StageFiles, TheFirstDefinitionCounts) {
