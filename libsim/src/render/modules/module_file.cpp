@@ -81,7 +81,8 @@ void* open_somewhere(const std::string& file, std::string& places) {
 }
 
 template <typename Functions>
-const Functions& functions(const std::string& file, const char* entry) {
+const Functions& functions(const char* file_name, const char* entry) {
+  const std::string file = file_name;
   using Entry = const Functions* (*)();
   const auto* const table = reinterpret_cast<Entry>(load_module(file, entry))();
   if (std::string_view(table->version) != PLAYPEN_VERSION) {
