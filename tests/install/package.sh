@@ -44,10 +44,10 @@ timed() {
 # follow PAGE...
 follow() { "$root/tests/install/pages.sh" --clone "$root" --home "$home" "${@/#/$root/}"; }
 
-# kind_is SHARED: configures build/release, as on a machine without the benchmark library.
+# kind_is SHARED: configures build/release and builds what apps/demo.sh builds.
 kind_is() {
   cd "$root"
-  cmake --preset release -DCMAKE_DISABLE_FIND_PACKAGE_benchmark=ON "-DBUILD_SHARED_LIBS=$1"
+  cmake --preset release "-DBUILD_SHARED_LIBS=$1"
   cmake --build build/release --parallel "$(nproc)" --target programs
 }
 

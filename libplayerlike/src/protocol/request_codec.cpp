@@ -213,7 +213,10 @@ json encode_value(const Value& value, Encoding encoding) {
 /// The index of a word in `words`. @param expected  describes the words in errors.
 std::size_t decode_word(const json& value, const char* key, std::span<const std::string_view> words,
                         const char* expected) {
-  const auto word = std::find(words.begin(), words.end(), value);
+  const auto* const text = value.get_ptr<const std::string*>();
+  const auto word = text == nullptr
+                        ? words.end()
+                        : std::find(words.begin(), words.end(), std::string_view(*text));
   if (word == words.end()) refuse_value(key, expected, value);
   return static_cast<std::size_t>(word - words.begin());
 }
