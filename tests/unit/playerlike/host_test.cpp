@@ -508,6 +508,24 @@ TEST_F(HostTest, AdvanceStopsNowAndThen) {
   EXPECT_EQ(host->time().steps, 1U);
 }
 
+// The reader steps the simulation to the time at which the sleeper goes on, and must wait for it
+// then.
+TEST_F(HostTest, AThreadThatStepsWakesOneThatSleepsLessLong) {
+  const auto world = start(two_robots(R"({"clients": 2})"));
+  const auto reader = world->connect(6665);
+  const auto sleeper = world->connect(6666);
+  subscribe_position(*reader);
+  std::thread other([&] {
+    for (int i = 0; i < 2; ++i) sleeper->request(SleepRequest{0.35});
+  });
+  for (int i = 1; i <= 7; ++i) {
+    EXPECT_THAT(read(*reader).times_ns, testing::ElementsAre(i * 100'000'000));
+  }
+  other.join();
+  EXPECT_EQ(host->time().steps, 70U);
+  EXPECT_EQ(logged(), "") << "nobody was silent";
+}
+
 TEST_F(HostTest, AThreadsClientsDoNotHoldOneAnotherUp) {
   start(two_robots());
   Looped a(*host, 6665);

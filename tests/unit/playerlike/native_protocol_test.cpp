@@ -410,6 +410,26 @@ TEST(NativeAccess, WhoMayCommandNoRobotMayNotChangeTheCanvasOfAll) {
   EXPECT_EQ(driver.error("resize_canvas", {{"width", 10}, {"height", 10}}), "");
 }
 
+TEST(NativeAccess, WhoMayNotCommandEachRobotMayNotChangeWhatConcernsAll) {
+  AccessSettings access;
+  access.robot_tokens = {{"r1", "r1-token"}, {"r2", "r2-token"}};
+  FakeHub hub(test::patient_host(two_robots()), access);
+  const std::vector<std::pair<std::string, json>> requests = {
+      {"save_state", {{"name", "s"}}},
+      {"restore_state", {{"name", "s"}}},
+      {"set_configuration", {{"name", "open"}}},
+      {"set_block", {{"name", "gate"}, {"extended", true}}},
+      {"set_timer", {{"name", "tick"}, {"enabled", true}}},
+      {"set_trap", {{"name", "home"}, {"enabled", true}}}};
+  Client driver(hub, Encoding::kJson, {{"tokens", {"r2-token"}}});
+  Client referee(hub, Encoding::kJson, {{"tokens", {"r1-token", "r2-token"}}});
+  for (const auto& [name, request] : requests) {
+    EXPECT_EQ(driver.error(name, request), "access/denied") << name;
+    EXPECT_NE(referee.error(name, request), "access/denied") << name;
+  }
+  EXPECT_EQ(referee.error("restore_state", {{"name", "s"}}), "");
+}
+
 TEST(NativeAccess, WhoMayCommandNoRobotMayNotSetEntriesOfTheBlackboard) {
   AccessSettings access;
   access.server_token = "server-token";
