@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <cstddef>
+#include <initializer_list>
 
 #include "virtual_time/preload/common.h"
 
