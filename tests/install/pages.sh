@@ -25,7 +25,6 @@ block, each on a line of its own:
   <!-- run together -->                   the block's first command runs while the others do, and is stopped
   <!-- not run: REASON -->                the next block is not run
   <!-- not run (COMMAND): REASON -->      this command of the next block is not run
-<!-- times --> marks a text with measured times and means nothing here.
 TEXT
 }
 
@@ -128,8 +127,6 @@ steps() {
       local one='^<!-- not run \((.+)\): (.+) -->$' is_file='^<!-- file: ([A-Za-z0-9_./+-]+) -->$'
       if [[ $line == "<!-- run in: Playpen's folder -->" ]]; then
         echo in_clone
-      elif [[ $line == '<!-- times -->' ]]; then
-        : # for those who measure the times in the text that follows
       elif [[ $line == '<!-- run in: a folder of yours -->' ]]; then
         echo in_own
       elif [[ $line == '<!-- run together -->' ]]; then
