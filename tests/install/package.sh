@@ -22,6 +22,8 @@ if (($# != 1)) || [[ $1 == -* ]]; then
 fi
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+# shellcheck source=SCRIPTDIR/../../apps/build_tools.sh
+source "$root/apps/build_tools.sh"
 pages=(README.md docs/bring_your_program.md docs/playerc.md)
 rm -rf -- "$1"
 mkdir -p "$1/home"
@@ -48,7 +50,7 @@ follow() { "$root/tests/install/pages.sh" --clone "$root" --home "$home" "${@/#/
 kind_is() {
   cd "$root"
   cmake --preset release "-DBUILD_SHARED_LIBS=$1"
-  cmake --build build/release --parallel "$(nproc)" --target programs
+  cmake --build build/release --parallel "$jobs" --target programs
 }
 
 if $shared; then
