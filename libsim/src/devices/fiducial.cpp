@@ -9,6 +9,7 @@
 #include "physics/physics_world.h"
 #include "sim/devices/robot_snapshot.h"
 #include "sim/world/description.h"
+#include "sim/world/limits.h"
 
 namespace sim {
 namespace {
@@ -30,7 +31,7 @@ void FiducialFinder::measure(const StepContext& context) {
   const Pose X_SW = X_WS.inverse();
   reading.X_WS = X_WS;
   const auto look_at = [&](int id, const Pose& X_WT, double height_m, const Contact& target) {
-    if (id == 0 || height_m <= params_.height_m) return;
+    if (id == 0 || !reaches_height(height_m, params_.height_m)) return;
     if ((X_WT.position() - X_WS.position()).squaredNorm() >
         params_.range_max_m * params_.range_max_m) {
       return;
@@ -95,7 +96,7 @@ constexpr Field kFiducialSettings[] = {
         .within(0.01, 360.0),
     mount_field<&FiducialParams::X_BS>("pose of the sensor on the body, X_BS"),
     height_field<&FiducialParams::height_m>(
-        "above the floor; objects that are not higher are invisible and do not occlude"),
+        "above the floor; lower objects are invisible and do not occlude"),
     noise_field<&FiducialParams::noise_m>("standard deviation of a distance")
         .with_realism(0.0, 0.01),
     field<&FiducialParams::noise_bearing_rad>("noise_bearing_deg", "degrees",

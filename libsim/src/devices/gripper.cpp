@@ -10,6 +10,7 @@
 #include "physics/physics_world.h"
 #include "sim/devices/robot_snapshot.h"
 #include "sim/world/description.h"
+#include "sim/world/limits.h"
 #include "sim/world/outline.h"
 
 namespace sim {
@@ -213,7 +214,7 @@ void Gripper::close_further(RobotControl& robot, const StepContext& now) {
   for (std::size_t i = 0; i < things.size(); ++i) {
     const ObstacleDescription& thing = things[i];
     if (!thing.portable || thing.carried_by >= 0 || thing.state != ObstacleState::kExtended ||
-        thing.height_m <= params_.height_m) {
+        !reaches_height(thing.height_m, params_.height_m)) {
       continue;
     }
     const auto reach = reach_across(X_GW * pose_of(thing), thing, 0.0, params_.length_m);

@@ -446,7 +446,7 @@ int Bodies::robot_on(int index) const {
 bool Bodies::is_inside_edged(const Vec2& p_W, double height_m) const {
   for (const std::size_t i : edged_) {
     if (!obstacles_[i]->IsEnabled()) continue;
-    if (infos_[parts_[i].first_info]->height_m <= height_m) continue;
+    if (!reaches_height(infos_[parts_[i].first_info]->height_m, height_m)) continue;
     if (is_inside(corners_of_parts(parts_[i]), p_W)) return true;
   }
   return false;

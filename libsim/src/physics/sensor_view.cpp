@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "physics/hilbert_curve.h"
+#include "sim/world/limits.h"
 #include "sim/world/outline.h"
 
 namespace sim::physics {
@@ -34,12 +35,12 @@ void append_edges(const EdgeList& list, std::size_t first, std::size_t last, con
                   double sensor_height_m, scan::EdgeBuffer& out) {
   static_assert(sizeof(Edge) == sizeof(Four));
   const std::size_t begin = out.size();
-  const bool all_high_enough = list.least_height_m > sensor_height_m;
+  const bool all_high_enough = reaches_height(list.least_height_m, sensor_height_m);
   scan::Edge* const target = out.append(last - first);
   const Four origin = {p_WL.x(), p_WL.y(), p_WL.x(), p_WL.y()};
   std::size_t count = 0;
   for (std::size_t i = first; i < last; ++i) {
-    if (!all_high_enough && list.heights_m[i] <= sensor_height_m) continue;
+    if (!all_high_enough && !reaches_height(list.heights_m[i], sensor_height_m)) continue;
     put_edge(target + count++, &list.edges[i].x0, origin);
   }
   out.truncate(begin + count);
@@ -48,7 +49,7 @@ void append_edges(const EdgeList& list, std::size_t first, std::size_t last, con
 // Appends a round solid, relative to the sensor, if it is higher than the sensor.
 void append_cylinder(const Cylinder& cylinder, const Vec2& p_WL, double sensor_height_m,
                      scan::EdgeBuffer& out) {
-  if (cylinder.height_m <= sensor_height_m) return;
+  if (!reaches_height(cylinder.height_m, sensor_height_m)) return;
   const Vec2 p_LC = cylinder.center - p_WL;
   out.add(scan::Circle{p_LC.x(), p_LC.y(), cylinder.radius_m});
 }
@@ -212,7 +213,7 @@ double SensorView::entry_of_superstructures(const Robot& r, const Vec2& p_WA, co
   const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
   double least = 1.0;
   for (const Superstructure& part : r.details->superstructures) {
-    if (part.height_m <= height_m) continue;
+    if (!reaches_height(part.height_m, height_m)) continue;
     for (std::size_t i = 0; i < part.outline.size(); ++i) {
       const Vec2& start = part.outline[i];
       const Vec2 side = part.outline[(i + 1) % part.outline.size()] - start;
@@ -279,7 +280,7 @@ double SensorView::cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC, double 
   const Vec2 along = (p_WC - p_WA) / length_m;
   double least_m = length_m;
   visit_cylinders(p_WA.cwiseMin(p_WC), p_WA.cwiseMax(p_WC), [&](const Cylinder& cylinder) {
-    if (cylinder.height_m <= height_m || is_within(cylinder, p_WA)) return;
+    if (!reaches_height(cylinder.height_m, height_m) || is_within(cylinder, p_WA)) return;
     if (ignored != nullptr && ignored->kind == Contact::Kind::kObstacle &&
         ignored->index == cylinder.obstacle) {
       return;
@@ -334,7 +335,7 @@ void SensorView::collect_edges(const Vec2& p_WL, double radius_m, double sensor_
     if (outline.robot == own_robot) continue;
     const double reach = radius_m + outline.seen_radius_m;
     if ((outline.p_WB - p_WL).squaredNorm() > reach * reach) continue;
-    if (outline.height_m > sensor_height_m) {
+    if (reaches_height(outline.height_m, sensor_height_m)) {
       for (std::size_t i = 0; i < outline.count; ++i) {
         const Edge e = outline.edge(i);
         edges.add(static_cast<float>(e.x0 - p_WL.x()), static_cast<float>(e.y0 - p_WL.y()),
@@ -360,7 +361,7 @@ void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, doub
     for (const std::int32_t disc : discs) {
       const Outline& outline = outlines_[static_cast<std::size_t>(disc)];
       if (outline.robot == own_robot) continue;
-      if (outline.height_m > sensor_height_m) append_robot(outline, p_WL, edges);
+      if (reaches_height(outline.height_m, sensor_height_m)) append_robot(outline, p_WL, edges);
       for (std::size_t i = outline.first_cylinder; i < outline.end_cylinder; ++i) {
         append_cylinder(load_cylinders_[i], p_WL, sensor_height_m, edges);
       }
@@ -431,7 +432,7 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
       const FixtureInfo& info = info_of(fixture);
       const bool wanted = info.kind == target_kind && info.index == target_index;
       if (info.cylinder >= 0) return -1.0F;
-      if (info.body >= 0 || wanted || info.height_m <= height_m) return -1.0F;
+      if (info.body >= 0 || wanted || !reaches_height(info.height_m, height_m)) return -1.0F;
       blocked = true;
       return 0.0F;
     }
@@ -452,7 +453,7 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
       p_WA, p_WC,
       [&](int robot) {
         return robot != own_robot && robot != target_robot &&
-               bodies_.robot(robot).details->height_m > height_m;
+               reaches_height(bodies_.robot(robot).details->height_m, height_m);
       },
       [&](float) {
         blocked = true;
@@ -472,7 +473,7 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
   bool inside = false;
   visit_fixed(bodies_.world(), p_W, p_W, [&](const b2Fixture& fixture) {
     const FixtureInfo& info = info_of(&fixture);
-    if (info.height_m <= height_m) return;
+    if (!reaches_height(info.height_m, height_m)) return;
     inside = inside ||
              (info.cylinder < 0
                   ? fixture.TestPoint(to_box2d(p_W))
@@ -481,7 +482,8 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
   inside = inside || bodies_.is_inside_edged(p_W, height_m);
   bodies_.for_robots_in(p_W, p_W, [&](const Bodies::Circle& circle) {
     const Robot& r = bodies_.robot(circle.robot);
-    if (inside || circle.robot == own_robot || r.details->height_m <= height_m) return;
+    if (inside || circle.robot == own_robot) return;
+    if (!reaches_height(r.details->height_m, height_m)) return;
     inside = r.details->round ? is_within({{circle.x, circle.y}, circle.radius, 0.0, -1}, p_W)
                               : r.details->shape.TestPoint(transform_of(r), to_box2d(p_W));
   });
@@ -491,7 +493,8 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
     const Vec2 p_B = r.X_WB.inverse() * p_W;
     inside = std::any_of(r.details->superstructures.begin(), r.details->superstructures.end(),
                          [&](const Superstructure& part) {
-                           return part.height_m > height_m && is_inside(part.outline, p_B);
+                           return reaches_height(part.height_m, height_m) &&
+                                  is_inside(part.outline, p_B);
                          });
   }
   if (inside || !bodies_.has_walls()) return inside;
@@ -501,7 +504,8 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
   visit_fixed(bodies_.world(), p_W, {bodies_.wall_right_m(), p_W.y()},
               [&](const b2Fixture& fixture) {
                 const FixtureInfo& info = info_of(&fixture);
-                if (info.kind != Contact::Kind::kWall || info.height_m <= height_m) return;
+                if (info.kind != Contact::Kind::kWall) return;
+                if (!reaches_height(info.height_m, height_m)) return;
                 const Edge& e = bodies_.edges().edges[info.first_edge];
                 if ((e.y0 > p_W.y()) == (e.y1 > p_W.y())) return;
                 const double x = e.x0 + (p_W.y() - e.y0) / (e.y1 - e.y0) * (e.x1 - e.x0);

@@ -135,7 +135,7 @@ TEST(Gripper, BreaksItsBeams) {
 }
 
 TEST(Gripper, DoesNotFeelWhatIsLowerThanItself) {
-  Rig rig(R"({"name": "mat", "center": [1.127, 1], "size": [0.06, 0.04], "height": 0.05, )"
+  Rig rig(R"({"name": "mat", "center": [1.127, 1], "size": [0.06, 0.04], "height": 0.049, )"
           R"("portable": true})");
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(110);

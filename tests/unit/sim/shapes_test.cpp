@@ -144,7 +144,8 @@ TEST(Shapes, InsideIsExact) {
                      polygon("wedge", {1, 3}, {{0, 0}, {1, 0}, {0, 1}})}));
   EXPECT_TRUE(physics.is_inside_solid({3.0, 1.3999}, 0.1, -1));
   EXPECT_FALSE(physics.is_inside_solid({3.0, 1.4001}, 0.1, -1)) << "not its skin";
-  EXPECT_FALSE(physics.is_inside_solid({3.0, 1.0}, 0.16, -1)) << "above it";
+  EXPECT_TRUE(physics.is_inside_solid({3.0, 1.0}, 0.16, -1)) << "at its top";
+  EXPECT_FALSE(physics.is_inside_solid({3.0, 1.0}, 0.161, -1)) << "above it";
   EXPECT_TRUE(physics.is_inside_solid({3.1, 4.5}, 0.1, -1));
   EXPECT_FALSE(physics.is_inside_solid({3.7, 4.5}, 0.1, -1)) << "within the notch";
   EXPECT_FALSE(physics.is_inside_solid({3.1, 4.5}, 0.2, -1)) << "above it";
@@ -161,7 +162,7 @@ TEST(Shapes, LinesOfSightPassACircleByAHair) {
   EXPECT_TRUE(is_free(3.5001)) << "through its skin in Box2D";
   EXPECT_TRUE(physics.is_line_free({1, 3}, {2.4999, 3}, 0.1, -1, kNothing)) << "ends before it";
   EXPECT_FALSE(physics.is_line_free({1, 3}, {2.5001, 3}, 0.1, -1, kNothing));
-  EXPECT_TRUE(physics.is_line_free({1, 3}, {5, 3}, 0.16, -1, kNothing)) << "above it";
+  EXPECT_TRUE(physics.is_line_free({1, 3}, {5, 3}, 0.161, -1, kNothing)) << "above it";
   EXPECT_TRUE(physics.is_line_free({1, 3}, {5, 3}, 0.1, -1, {-1, Kind::kObstacle, 0})) << "to it";
   EXPECT_TRUE(physics.is_line_free({3, 3}, {5, 3}, 0.1, -1, kNothing)) << "from within it";
   // From within the skin of 1 mm towards the circle.

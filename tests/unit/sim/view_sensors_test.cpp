@@ -116,7 +116,8 @@ TEST(Fiducial, SeesWithinRangeAndFieldOfViewOnly) {
   EXPECT_THAT(seen(R"({"field_of_view_deg": 89})"), ElementsAre(1));
   EXPECT_THAT(seen(R"({"range_max": 2.5})"), ElementsAre(2, 3));
   EXPECT_THAT(seen(R"({"range_max_id": 2.5})"), ElementsAre(2, 3, 0));
-  EXPECT_THAT(seen(R"({"height": 0.16})"), IsEmpty());  // at the height of their upper sides
+  EXPECT_THAT(seen(R"({"height": 0.16})"), ElementsAre(2, 3, 1));  // the height of their tops
+  EXPECT_THAT(seen(R"({"height": 0.161})"), IsEmpty());
 }
 
 TEST(Fiducial, DoesNotSeeThroughSolids) {
@@ -128,7 +129,7 @@ TEST(Fiducial, DoesNotSeeThroughSolids) {
   };
   EXPECT_THAT(seen(block(3.5, 4, R"("name": "wall")")), IsEmpty());
   EXPECT_THAT(seen(block(3.5, 4.21, R"("name": "beside")")), ElementsAre(1));
-  EXPECT_THAT(seen(block(3.5, 4, R"("height": 0.1)")), ElementsAre(1));
+  EXPECT_THAT(seen(block(3.5, 4, R"("height": 0.099)")), ElementsAre(1));
   EXPECT_THAT(seen(block(3.5, 4, R"("type": "dynamic", "state": "retracted")")), ElementsAre(1));
   EXPECT_THAT(seen(block(3.5, 4, R"("type": "dynamic")")), IsEmpty());
   // A marked object hides others, too.

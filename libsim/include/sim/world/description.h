@@ -48,7 +48,7 @@ struct ObstacleDescription {
   Vec2 size = {0.2, 0.2};      ///< extent along its own x and y axes [m], each > 0; of a circle
                                ///< the diameter twice, of a polygon the extent of `outline`
   double yaw_rad = 0.0;        ///< turn of its axes against W's [rad]
-  double height_m = 0.16;      ///< a sensor mounted at this height or above looks over it [m]
+  double height_m = 0.16;      ///< a sensor mounted above this height looks over it [m]
   ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
   std::vector<std::string> tags;                   ///< as RobotDescription::tags
   int fiducial = 0;                   ///< number that fiducial devices read; 0: they do not see it
@@ -113,7 +113,7 @@ struct DockDescription {
 /// ring of a solid region runs counter-clockwise, the ring of a hole clockwise.
 struct WallLoop {
   std::vector<Vec2> vertices;
-  /// A sensor mounted at this height or above looks over it [m]; infinite by default.
+  /// A sensor mounted above this height looks over it [m]; infinite by default.
   double height_m = std::numeric_limits<double>::infinity();
 };
 

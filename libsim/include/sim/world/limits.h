@@ -24,6 +24,16 @@ inline constexpr double kGreatestRobotHeight_m = 10.0;
 /// Maximum number of superstructures of a robot model.
 inline constexpr std::size_t kMostSuperstructures = 32;
 
+/// Heights that differ by less are equal [m]: sums such as 0.37 - 0.02 + 0.05 + 0.01 and 0.41
+/// differ by rounding only.
+inline constexpr double kSameHeight_m = 1e-6;
+
+/// Whether a sensor at a height meets a solid that ends there or higher. A solid whose top is
+/// exactly at the sensor's height is seen, as in Stage (World::Raytrace() of libstage/world.cc).
+[[nodiscard]] inline bool reaches_height(double top_m, double height_m) {
+  return top_m > height_m - kSameHeight_m;
+}
+
 /// Maximum distance from the origin of W, along x or y, of a floor and everything on it [m].
 inline constexpr double kFarthest_m = 10'000.0;
 
