@@ -111,6 +111,7 @@ class RangerProxy : public ClientProxy {
   double mMinRange = 0.0;
   double mMaxRange = 0.0;
   double mRangeRes = 0.0;  // 0: not rounded
+  bool mLimits = false;    // whether Configure() has limited or rounded the ranges
   std::vector<player_pose3d_t> mPoses;
 };
 

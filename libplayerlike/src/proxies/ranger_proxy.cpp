@@ -38,6 +38,7 @@ RangerProxy::RangerProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, 
   Attach(PLAYER_RANGER_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
   mMaxRange = mLink->property("range_max", 0.0);
+  mMinRange = mLink->property("range_min", 0.0);
   mIsLaser = mLink->info().type == "laser";
   if (mIsLaser) {
     const detail::ScannerSettings scanner = detail::scanner_settings(mLink->info().properties);
@@ -74,11 +75,9 @@ void RangerProxy::HandleReading() {
 // Exposes the measured ranges or a part of them.
 void RangerProxy::View() {
   mLink->show(mLink->measured);
-  if (mStride == 1 && mShown == mCount && mRangeRes == 0.0 && mMinRange == 0.0 &&
-      mMaxRange == mLink->property("range_max", 0.0)) {
-    return;
-  }
+  if (mStride == 1 && mShown == mCount && !mLimits) return;
   const auto limit = [this](std::vector<double>& ranges) {
+    if (!mLimits) return;
     for (double& range : ranges) {
       range = playerlike::limited_range_m(range, mRangeRes, mMinRange, mMaxRange);
     }
@@ -156,7 +155,9 @@ player_point_3d_t RangerProxy::GetPoint(uint32_t aIndex) const {
 
 uint32_t RangerProxy::GetIntensityCount() const {
   const scoped_lock_t lock(LockData("RangerProxy::GetIntensityCount"));
-  return static_cast<uint32_t>(intensities_of(mLink->newest).size());
+  const std::size_t measured = intensities_of(mLink->newest).size();
+  const bool of_echoes = measured == 0 && mLink->property("intensity", 0.0) > 0.0;
+  return static_cast<uint32_t>(of_echoes ? ranges_of(mLink->newest).size() : measured);
 }
 
 double RangerProxy::GetIntensity(uint32_t aIndex) const {
@@ -164,6 +165,10 @@ double RangerProxy::GetIntensity(uint32_t aIndex) const {
   const scoped_lock_t lock(LockData(fun));
   const std::vector<double>& intensities = intensities_of(mLink->newest);
   if (aIndex < intensities.size()) return intensities[aIndex];
+  if (const double echo = mLink->property("intensity", 0.0); echo > 0.0) {
+    const double range = mLink->element_or_zero(fun, kRanges, aIndex, ranges_of(mLink->newest));
+    return range < mLink->property("range_max", 0.0) ? echo : 0.0;
+  }
   mLink->warn_once(fun, "there is no intensity " + std::to_string(aIndex) +
                             ": the simulated rangers measure ranges only; intensities read 0");
   return 0.0;
@@ -209,6 +214,7 @@ void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularR
   mMaxRange = aMaxRange > 0.0 ? std::min(aMaxRange, most) : most;
   mMinRange = std::min(aMinRange, mMaxRange);
   mRangeRes = aRangeRes;
+  mLimits = mRangeRes > 0.0 || mMinRange > 0.0 || mMaxRange != most;
   View();
 }
 

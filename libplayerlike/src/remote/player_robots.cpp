@@ -257,6 +257,7 @@ void complete_ranger(const player::RangerGeom* geometry, const player::RangerCon
     set_scanner(config->min_angle, config->max_angle, config->angular_res, config->max_range,
                 config->frequency, properties);
     properties["field_of_view"] = finite(config->max_angle - config->min_angle);
+    properties["range_min"] = finite(config->min_range);
   }
 }
 

@@ -219,6 +219,7 @@ class RangerDevice final : public RobotDevice {
         is_laser_(info().type == "laser"),
         scanner_(is_laser_ ? scanner_settings(info().properties) : ScannerSettings{}),
         beams_(scanner_),
+        min_range_m_(setting("range_min")),
         max_range_m_(setting("range_max")) {
     if (!is_laser_) elements_ = element_mountings(info().properties);
   }
@@ -233,8 +234,16 @@ class RangerDevice final : public RobotDevice {
       return;
     }
     constexpr std::size_t kCounts = 8;
-    sink.data(PLAYER_RANGER_DATA_RANGE,
-              encode_long(data_, kCounts + sizeof(double) * data_.ranges.size()));
+    const std::size_t length = kCounts + sizeof(double) * data_.ranges.size();
+    sink.data(PLAYER_RANGER_DATA_RANGE, encode_long(data_, length));
+    const double echo = setting("intensity");
+    if (echo <= 0.0) return;
+    // As Stage's driver: intensities follow their ranges.
+    player::RangerDataIntns strengths;
+    for (const double range_m : data_.ranges) {
+      strengths.intensities.push_back(range_m < max_range_m_ ? echo : 0.0);
+    }
+    sink.data(PLAYER_RANGER_DATA_INTNS, encode_long(strengths, length));
   }
 
  protected:
@@ -260,12 +269,11 @@ class RangerDevice final : public RobotDevice {
 
  private:
   void show(const std::vector<double>& ranges_m, const BeamWindow& window) {
-    const bool limits = range_res_m_ > 0.0 || min_range_m_ > 0.0 || limits_range_;
     data_.ranges.resize(window.shown);
     for (std::size_t i = 0; i < window.shown; ++i) {
       const double range_m = ranges_m[window.first + i * window.stride];
       data_.ranges[i] =
-          limits ? limited_range_m(range_m, range_res_m_, min_range_m_, max_range_m_) : range_m;
+          limits_ ? limited_range_m(range_m, range_res_m_, min_range_m_, max_range_m_) : range_m;
     }
   }
 
@@ -313,17 +321,17 @@ class RangerDevice final : public RobotDevice {
     max_range_m_ = wish.max_range > 0.0 ? std::min(wish.max_range, most_m) : most_m;
     min_range_m_ = std::min(wish.min_range, max_range_m_);
     range_res_m_ = wish.range_res;
-    limits_range_ = max_range_m_ != most_m;
+    limits_ = range_res_m_ > 0.0 || min_range_m_ > 0.0 || max_range_m_ != most_m;
   }
 
   const bool is_laser_;
   const ScannerSettings scanner_;
   ShownBeams beams_;                // of a laser
   std::vector<Mounting> elements_;  // of a ring
-  double min_range_m_ = 0.0;
+  double min_range_m_;
   double max_range_m_;
   double range_res_m_ = 0.0;           // 0: ranges are not rounded
-  bool limits_range_ = false;          // whether max_range_m_ is below the device's own limit
+  bool limits_ = false;                // whether a client has limited or rounded the ranges
   player::RangerDataRange data_ = {};  // keeps its memory
 };
 

@@ -147,6 +147,20 @@ template <auto kMember>
   return field<kMember>("range_max", "m", meaning).within(kLeastLength_m, 1000.0);
 }
 template <auto kMember>
+[[nodiscard]] constexpr Field range_min_field() {
+  return field<kMember>("range_min", "m",
+                        "least range; only for programs that ask, ranges are not changed")
+      .within(0.0, 1000.0)
+      .unlisted(0.0);
+}
+template <auto kMember>
+[[nodiscard]] constexpr Field intensity_field() {
+  return field<kMember>("intensity", "",
+                        "intensity of each echo that `RangerProxy` states; 0: none is measured")
+      .within(0.0, 1e6)
+      .unlisted(0.0);
+}
+template <auto kMember>
 [[nodiscard]] constexpr Field height_field(const char* meaning) {
   return field<kMember>("height", "m", meaning).within(0.0, 100.0);
 }

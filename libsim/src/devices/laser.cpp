@@ -155,6 +155,8 @@ constexpr Field kLaserSettings[] = {
     field<&LaserParams::size_height_m>("size_height", "m",
                                        "height of its case; only for programs that ask")
         .within(0.0, 100.0),
+    range_min_field<&LaserParams::range_min_m>(),
+    intensity_field<&LaserParams::intensity>(),
 };
 SIM_FIELDS(LaserParams, kLaserSettings, check_laser_view)
 

@@ -83,8 +83,8 @@ Odometry::Odometry(std::string name, const OdometryParams& params, double wheel_
       omnidirectional_(omnidirectional),
       has_errors_(params.noise > 0.0 || params.wheel_ratio != 1.0 ||
                   params.wheelbase_ratio != 1.0 || params.scale != 1.0 ||
-                  params.heading_drift_radps != 0.0 || params.scale_noise > 0.0 ||
-                  params.heading_noise_rad > 0.0),
+                  params.side_scale != 1.0 || params.heading_drift_radps != 0.0 ||
+                  params.scale_noise > 0.0 || params.heading_noise_rad > 0.0),
       motors_(std::move(motors)),
       X_SB_(params.start),
       noise_(std::move(noise)),
@@ -135,7 +135,7 @@ void Odometry::add_errors(double dt_s, WheelPath& path) {
   path.dyaw_rad = (right_m - left_m) / wheel_separation_m_ * params_.wheelbase_ratio;
   if (omnidirectional_) {
     path.side_m += noise_.gaussian(params_.noise * std::sqrt(std::abs(path.side_m)));
-    path.side_m *= present_scale_;
+    path.side_m *= present_scale_ * params_.side_scale;
   }
   path.dyaw_rad += params_.heading_drift_radps * dt_s;
   path.dyaw_rad += noise_.gaussian(params_.heading_noise_rad * std::sqrt(dt_s));
@@ -298,6 +298,11 @@ constexpr Field kOdometrySettings[] = {
         .unlisted(1.0),
     field<&OdometryParams::scale>("scale", "", "factor of all distances")
         .within(0.0, 10.0)
+        .with_realism(1.0, 1.0)
+        .unlisted(1.0),
+    field<&OdometryParams::side_scale>(
+        "side_scale", "", "further factor of distances sideways, of omnidirectional robots")
+        .within(0.0, 1000.0)
         .with_realism(1.0, 1.0)
         .unlisted(1.0),
     field<&OdometryParams::scale_noise>("scale_noise", "",

@@ -8,7 +8,6 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
-#include "sim/core/assert.h"
 #include "sim/core/degrees.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/robot_snapshot.h"
@@ -67,7 +66,6 @@ Ranger::Ranger(std::string name, std::string type, const RangerParams& params, b
       params_(params),
       may_be_inside_(may_be_inside),
       noise_(std::move(noise)) {
-  SIM_ASSERT(!params.X_BS.empty());
   for (const Pose& X_BS : params.X_BS) reach_m_ = std::max(reach_m_, X_BS.position().norm());
   auto& first = edit();
   first.ranges_m.assign(params.X_BS.size(), 0.0);
@@ -91,13 +89,14 @@ void Ranger::measure(const StepContext& context) {
                       [&](double limit_m) { return *distance2 >= limit_m * limit_m; });
     shells_[static_cast<std::size_t>(shell)].add(edge);
   }
+  const double view_rad = params_.single_ray ? 0.0 : params_.field_of_view_rad;
   for (std::size_t i = 0; i < params_.X_BS.size(); ++i) {
     const Pose X_WS = X_WB * params_.X_BS[i];
     const Vec2 p_BS_W = X_WS.position() - X_WB.position();
     double range_m = 0.0;
     if (!may_be_inside_ ||
         !context.physics.is_inside_solid(X_WS.position(), params_.height_m, context.robot)) {
-      range_m = least_range_m({p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, params_.field_of_view_rad});
+      range_m = least_range_m({p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, view_rad});
     }
     // As for the laser: without an echo there is no noise.
     const double sigma_m = range_deviation_m(range_m, params_.noise_m, params_.noise_share);
@@ -173,12 +172,12 @@ constexpr Field kRangerSettings[] = {
     range_max_field<&RangerParams::range_max_m>("maximum range, and the reading if nothing is hit"),
     height_field<&RangerParams::height_m>("above the floor; lower obstacles are not seen"),
     field<&RangerParams::X_BS>("mounts", "m, degrees",
-                               "poses of the transducers on the body, X_BS; 1 to 64 of them")
-        .counting(1, RangerParams::kMaxTransducers)
-        .with_issue("device/ranger-mounts",
-                    "a list of 1 to 64 poses {\"x\", \"y\", \"yaw_deg\"}, one for each transducer")
+                               "poses of the transducers on the body, X_BS; at most 64 of them")
+        .counting(0, RangerParams::kMaxTransducers)
         .property_name("mount")
         .listing_elements(),
+    range_min_field<&RangerParams::range_min_m>(),
+    intensity_field<&RangerParams::intensity>(),
 };
 SIM_FIELDS(RangerParams, kRangerSettings)
 
@@ -200,6 +199,9 @@ constexpr Field kSonar[] = {
     field<&SonarParams::field_of_view_rad>("field_of_view_deg", "degrees",
                                            "full angle of each transducer's cone")
         .within(0.01, 180.0),
+    field<&SonarParams::single_ray>(
+        "single_ray", "", "it measures along the axis of the cone only, as sonars of Stage do")
+        .not_property(),
 };
 SIM_FIELDS(SonarParams, kSonar)
 

@@ -162,6 +162,29 @@ TEST_P(SensorProxies, RangerOfALaserIsOneElementWithManyRanges) {
   EXPECT_THAT(printed(ranger), HasSubstr("range [m]"));
 }
 
+// As a ranger of Stage states them: -fov / 2 to fov / 2, the least range, which does not change the
+// ranges, and an intensity for each range: that of echoes, and 0 without one.
+TEST_P(SensorProxies, RangersStateTheirLeastRangeViewAndIntensities) {
+  const auto client = open(room(
+      R"({"laser": {"beams": 3, "resolution_deg": 90, "range_max": 1.8, "pose": {"x": 0.1},
+                    "range_min": 1.75, "intensity": 1},
+          "sonar": {"mounts": [{"x": 0.1}], "field_of_view_deg": 60, "single_ray": true,
+                    "range_min": 0.5, "range_max": 1.5, "intensity": 0.5}})"));
+  RangerProxy laser(client.get());
+  RangerProxy sonar(client.get(), 1);
+  client->Read();
+  EXPECT_EQ(laser.GetMinRange(), 1.75);
+  EXPECT_NEAR(laser[1], 1.7, 1e-5);
+  ASSERT_EQ(laser.GetIntensityCount(), 3U);
+  EXPECT_EQ(laser.GetIntensity(0), 0.0);  // the border is 2 m away
+  EXPECT_EQ(laser.GetIntensity(1), 1.0);
+  EXPECT_EQ(sonar.GetMinRange(), 0.5);
+  EXPECT_NEAR(sonar.GetMinAngle(), -kPi / 6.0, 1e-12);
+  EXPECT_NEAR(sonar.GetMaxAngle(), kPi / 6.0, 1e-12);
+  ASSERT_EQ(sonar.GetIntensityCount(), 1U);
+  EXPECT_EQ(sonar.GetIntensity(0), 0.0);  // the block is 1.7 m away
+}
+
 TEST_P(SensorProxies, RangerIsCroppedByConfigure) {
   const auto client = open(room(
       R"({"laser": {"beams": 181, "resolution_deg": 1, "range_max": 8, "pose": {"x": 0.1}}})"));

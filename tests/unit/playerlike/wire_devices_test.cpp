@@ -389,6 +389,12 @@ void expect_ranger_equal(const std::string& world_name) {
     for (std::uint32_t i = 0; i < proxy.GetRangeCount(); ++i) {
       ASSERT_EQ(data.ranges[i], proxy.GetRange(i)) << i;
     }
+    if (proxy.GetIntensityCount() == 0) return;  // only devices/sonar.json has any
+    const auto strengths = device.data<player::RangerDataIntns>(PLAYER_RANGER_DATA_INTNS);
+    ASSERT_EQ(strengths.intensities.size(), proxy.GetIntensityCount());
+    for (std::uint32_t i = 0; i < proxy.GetIntensityCount(); ++i) {
+      ASSERT_EQ(strengths.intensities[i], proxy.GetIntensity(i)) << i;
+    }
   };
   expect_same();
   const auto geometry = device.request<player::RangerGeom>(PLAYER_RANGER_REQ_GET_GEOM);

@@ -286,7 +286,7 @@ position ( name "odom" size [0.4 0.4 0.2] pose [3 0 0 90] localization "odom"
   const auto& odometry = device<OdometryParams>(world, "odometry", 1);
   EXPECT_NEAR(odometry.scale, 1.02, 1e-9);
   // Stage reads the last number as an angle: 1 degree is a share of 0.01745.
-  EXPECT_NEAR(odometry.scale * odometry.wheelbase_ratio, 1.0 + std::numbers::pi / 180.0, 1e-6);
+  EXPECT_NEAR(odometry.wheelbase_ratio, 1.0 + std::numbers::pi / 180.0, 1e-9);
   EXPECT_NEAR(odometry.start.x_m, 2.0, 1e-9);
   EXPECT_NEAR(odometry.start.yaw_rad, 0.5 * std::numbers::pi, 1e-9);
   Simulation simulation(world);

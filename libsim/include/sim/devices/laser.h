@@ -25,6 +25,8 @@ struct LaserParams {
   double height_m = 0.125;      ///< of its case along L's axes, for clients, >= 0
   Vec2 size_m{0.05, 0.05};      ///< of its case along L's axes, for clients, >= 0
   double size_height_m = 0.07;  ///< height of its case, for clients, >= 0
+  double range_min_m = 0.0;     ///< least range, for clients, [0, 1000]; ranges are not changed
+  double intensity = 0.0;       ///< of each echo, for clients, [0, 1e6]; 0: none is measured
 };
 
 /// One scan. Beam i has the angle angle_min_rad + i * resolution_rad from L's x axis.
@@ -35,7 +37,7 @@ struct LaserReading final : Reading {
   double range_max_m = 0.0;
   Pose X_WB;  ///< pose of the robot (for pictures; not sent to clients)
   /// Strength of each beam's echo, as a real laser states it; empty: not measured, as by all
-  /// simulated lasers.
+  /// simulated lasers; see LaserParams::intensity.
   std::vector<double> intensities;
 
   /// The least of ranges_m; range_max_m before the first scan. O(beams).

@@ -41,6 +41,7 @@ struct OdometryParams {
   double wheel_ratio = 1.0;        ///< E_d: diameter of the right wheel / of the left, [0.5, 2]
   double wheelbase_ratio = 1.0;    ///< E_b: true wheelbase / the assumed one, [0.5, 2]
   double scale = 1.0;              ///< factor of all distances, [0, 10]
+  double side_scale = 1.0;         ///< further factor of distances sideways, [0, 1000]
   double heading_drift_radps = 0;  ///< added to the turn rate [rad/s]
   /// @}
   /// @name Further noise

@@ -22,7 +22,10 @@ struct RangerParams {
   double range_max_m = 1.0;        ///< (0, 1000] [m]
   double height_m = 0.05;          ///< above the floor [m]; lower obstacles are not seen
   double field_of_view_rad = 0.0;  ///< full angle of a transducer's cone, [0, pi]; 0: a single ray
-  std::vector<Pose> X_BS;          ///< mountings of the transducers on the body, 1 to 64
+  bool single_ray = false;         ///< measures along a single ray, and states the cone to clients
+  std::vector<Pose> X_BS;          ///< mountings of the transducers on the body, at most 64
+  double range_min_m = 0.0;        ///< least range, for clients, [0, 1000]; ranges are not changed
+  double intensity = 0.0;          ///< of each echo, for clients, [0, 1e6]; 0: none is measured
 
   /// Maximum number of transducers of a ranger.
   static constexpr int kMaxTransducers = 64;

@@ -16,6 +16,7 @@ namespace {
 struct Transducer {
   Pose3 mount;
   double size_z_m = 0.02;  // defaults: ModelRanger::Sensor of libstage/stage.hh
+  double range_min_m = 0.0;
   double range_max_m = 5.0;
   double view_rad = 0.1;
   int samples = 1;
@@ -32,6 +33,9 @@ std::string add(RobotDraft& robot, const std::string& stage_type, const std::str
     name = type + std::to_string(number);
   }
   if (name != type) settings["type"] = type;
+  if (robot.flat && settings.contains("height")) {
+    settings["height"] = type == "sonar" ? kFlatSonar_m : kFlatSensor_m;
+  }
   robot.devices[name] = std::move(settings);
   robot.list.push_back({stage_type, name, type});
   return name;
@@ -52,7 +56,9 @@ Transducer read_sensor(const Properties& sensor, const Context& context) {
   read.place = sensor.entity().place;
   read.mount = sensor.pose("pose");
   read.size_z_m = sensor.tuple<3>("size", "lll", {0.02, 0.02, 0.02})[2];
-  read.range_max_m = sensor.tuple<2>("range", "ll", {0.0, 5.0})[1];
+  const auto range = sensor.tuple<2>("range", "ll", {0.0, 5.0});
+  read.range_min_m = range[0];
+  read.range_max_m = range[1];
   read.view_rad = sensor.angle_rad("fov", 0.1);
   read.samples = sensor.integer("samples", 1);
   const auto noise = sensor.tuple<3>("noise", "lfa", {0.0, 0.0, 0.0});
@@ -87,11 +93,21 @@ std::vector<Transducer> read_old_sensors(const Properties& ranger, const Context
     if (pose.size() > 2) read.mount.pose.yaw_rad = pose.back() * context.units.angle_rad;
     if (pose.size() > 3) read.mount.z_m = pose[2] * length_m;
     const auto view = ranger.tuple<3>("sview" + index, "lla", common);
+    read.range_min_m = view[0];
     read.range_max_m = view[1];
     read.view_rad = view[2];
     all.push_back(read);
   }
   return all;
+}
+
+/// What a device tells programs, besides its ranges, as InterfaceRanger of
+/// libstageplugin/p_ranger.cc.
+void add_reports(const Transducer& transducer, Json& settings) {
+  if (transducer.range_min_m > 0.0) {
+    settings["range_min"] = neat(clamped(transducer.range_min_m, 0.0, 1000.0));
+  }
+  settings["intensity"] = 1.0;  // Stage's default of ranger_return
 }
 
 void add_scanner(const std::string& stage_type, const Transducer& transducer, const Mount& mount,
@@ -112,6 +128,7 @@ void add_scanner(const std::string& stage_type, const Transducer& transducer, co
   laser["resolution_deg"] =
       clamped(view_rad * 180.0 / std::numbers::pi / std::max(1, beams - 1), 0.0001, 360.0);
   laser["range_max"] = range_of(transducer.range_max_m);
+  add_reports(transducer, laser);
   laser["pose"] = pose_json(mount.X_BM * transducer.mount.pose);
   laser["height"] = height_of(height_m);
   laser["size"] = Json::array({neat(body.size_m[0]), neat(body.size_m[1])});
@@ -125,13 +142,22 @@ void add_scanner(const std::string& stage_type, const Transducer& transducer, co
   add(robot, stage_type, "laser", std::move(laser));
 }
 
-/// Transducers with one ray each: a sonar.
+/// Direction of a transducer's first sample, which is its only one in a ring.
+Pose first_ray(const Transducer& transducer) {
+  Pose X_MS = transducer.mount.pose;
+  if (transducer.samples > 1) {
+    X_MS.yaw_rad = normalize_angle(X_MS.yaw_rad - 0.5 * transducer.view_rad);
+  }
+  return X_MS;
+}
+
+/// Transducers with one ray each, or none: a sonar. Programs see the settings of the first one.
 void add_ring(const std::vector<Transducer>& transducers, const Mount& mount, double frequency_hz,
               const Context& context, RobotDraft& robot) {
   constexpr std::size_t kMost = 64;
-  const Transducer& first = transducers.front();
+  const Transducer first = transducers.empty() ? Transducer{} : transducers.front();
   Json sonar;
-  double range_max_m = 0.0;
+  double range_max_m = transducers.empty() ? first.range_max_m : 0.0;
   double variance = 0.0;
   double share = 0.0;
   Json mounts = Json::array();
@@ -145,15 +171,21 @@ void add_ring(const std::vector<Transducer>& transducers, const Mount& mount, do
       context.report.note("ranges", transducer.place,
                           "the transducers of a ring have one range, the longest of them");
     }
+    if (transducer.mount.z_m != first.mount.z_m || transducer.size_z_m != first.size_z_m) {
+      context.report.note("heights of transducers", transducer.place,
+                          "the transducers of a ring have one height, that of the first one");
+    }
     range_max_m = std::max(range_max_m, transducer.range_max_m);
     variance = std::max(variance, transducer.noise_variance);
     share = std::max(share, transducer.noise_share);
-    mounts.push_back(pose_json(mount.X_BM * transducer.mount.pose));
+    mounts.push_back(pose_json(mount.X_BM * first_ray(transducer)));
   }
   const double height_m = mount.z_m + first.mount.z_m + 0.5 * first.size_z_m;
   sonar["frequency"] = neat(frequency_hz);
   sonar["range_max"] = range_of(range_max_m);
-  sonar["field_of_view_deg"] = 0.01;  // a single ray, as in Stage
+  sonar["field_of_view_deg"] = view_deg(first.view_rad, 180.0);
+  sonar["single_ray"] = true;
+  add_reports(first, sonar);
   sonar["height"] = height_of(height_m);
   if (variance > 0.0) sonar["noise"] = neat(std::sqrt(variance));
   if (share > 0.0) sonar["noise_share"] = neat(std::min(1.0, share / std::sqrt(3.0)));
@@ -172,21 +204,12 @@ void add_ranger(const Properties& ranger, const Mount& mount, const Body& body,
     }
   }
   if (transducers.empty() && ranger.has("scount")) transducers = read_old_sensors(ranger, context);
-  if (transducers.empty()) {
-    context.report.note("empty ranger", ranger.entity().place,
-                        "a ranger without a sensor measures nothing; it is left out");
-    return;
+  // As InterfaceRanger::Publish() of libstageplugin/p_ranger.cc: all samples of a single sensor,
+  // the first sample of each of several.
+  if (transducers.size() == 1 && transducers.front().samples != 1) {
+    return add_scanner("ranger", transducers.front(), mount, frequency_hz, body, context, robot);
   }
-  const bool single_rays = std::all_of(transducers.begin(), transducers.end(),
-                                       [](const Transducer& t) { return t.samples == 1; });
-  if (single_rays) return add_ring(transducers, mount, frequency_hz, context, robot);
-  if (transducers.size() > 1) {
-    context.report.note("scanners", ranger.entity().place,
-                        "a ranger with several scanners becomes a laser for each of them");
-  }
-  for (const Transducer& transducer : transducers) {
-    add_scanner("ranger", transducer, mount, frequency_hz, body, context, robot);
-  }
+  add_ring(transducers, mount, frequency_hz, context, robot);
 }
 
 /// The laser of Stage 2 and 3.
@@ -194,11 +217,11 @@ void add_laser(const Properties& laser, const Mount& mount, const Body& body,
                const Context& context, RobotDraft& robot) {
   Transducer transducer;
   transducer.place = laser.entity().place;
+  transducer.range_min_m = laser.length_m("range_min", 0.0);
   transducer.range_max_m = laser.length_m("range_max", 8.0);
   transducer.view_rad = laser.angle_rad("fov", std::numbers::pi);
   transducer.samples = laser.integer("samples", 180);
   transducer.size_z_m = body.size_m[2];
-  static_cast<void>(laser.has("range_min"));
   static_cast<void>(laser.has("resolution"));
   for (const Entity& child : laser.entity().children) {
     if (child.type != "sensor") continue;

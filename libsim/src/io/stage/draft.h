@@ -33,6 +33,7 @@ struct RobotDraft {
   Place place;
   Pose X_WB;
   double foot_m = 0.0;  ///< height of its foot above the floor
+  bool flat = false;    ///< in a world without heights, see Units
   Colour colour;
   Json model;  ///< of a robot model's file, without its name and its devices
   Json devices = Json::object();

@@ -48,11 +48,15 @@ Json odometry_of(const Properties& model, const Context& context, const RobotDra
   const double x_error = draw(kLengths);
   const double y_error = draw(kLengths);
   const double turn_error = draw(kTurns);
-  const auto error = model.tuple<4>("odom_error", "llla", {x_error, y_error, 0.0, turn_error});
-  odometry["scale"] = neat(std::clamp(1.0 + error[0], 0.01, 10.0));
-  // Turns are measured from scaled lengths.
-  odometry["wheelbase_ratio"] =
-      neat(std::clamp((1.0 + error[3]) / std::max(0.01, 1.0 + error[0]), 0.5, 2.0));
+  // Shares of the speeds along x, along y and of turning, as in ModelPosition::Update(); Stage
+  // reads the last one as an angle.
+  const Pose3 error = model.pose("odom_error", {{x_error, y_error, turn_error}});
+  const double scale = std::clamp(1.0 + error.pose.x_m, 0.01, 10.0);
+  odometry["scale"] = neat(scale);
+  odometry["wheelbase_ratio"] = neat(std::clamp(1.0 + error.pose.yaw_rad, 0.5, 2.0));
+  if (robot.model["drive"]["kind"] == "omnidirectional") {
+    odometry["side_scale"] = neat(std::clamp((1.0 + error.pose.y_m) / scale, 0.0, 1000.0));
+  }
   Pose3 origin;
   origin.pose = robot.X_WB;
   origin = model.pose("localization_origin", origin);

@@ -57,6 +57,7 @@ struct Units {
   double length_m = 1.0;
   double angle_rad = 0.017453292519943295;
   bool three_number_poses_turn = false;  ///< as in Stage 2: pose [x y heading]
+  bool flat = false;                     ///< as in Stage 2: nothing has a height
 };
 
 /// A pose in three dimensions, as world files have them: x, y and z, and a heading.

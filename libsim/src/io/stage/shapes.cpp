@@ -192,6 +192,8 @@ void stretch(std::vector<Block>& blocks, const std::array<double, 3>& size_m) {
 
 }  // namespace
 
+bool lasers_see(const Properties& model) { return model.flag("laser_return", true); }
+
 Body read_body(const Properties& model, const Units& units, Report& report,
                const std::array<double, 3>& size_m, bool has_block) {
   Body body;
@@ -213,6 +215,11 @@ Body read_body(const Properties& model, const Units& units, Report& report,
     body.blocks.push_back(std::move(whole));
   }
   body.boundary = model.flag("boundary", false);
+  if (units.flat) {
+    body.size_m[2] = lasers_see(model) ? kFlatTop_m : kFlatTopWithoutLaser_m;
+    for (Block& block : body.blocks) block.z_min_m = 0.0;
+    for (Block& block : body.blocks) block.z_max_m = 1.0;  // stretched to the size
+  }
   if (!body.blocks.empty()) stretch(body.blocks, body.size_m);
   return body;
 }

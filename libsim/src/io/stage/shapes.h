@@ -38,6 +38,15 @@ struct Body {
 /// Thickness of the walls of a boundary [m], as in libstage/model.cc.
 inline constexpr double kBoundaryThickness_m = 0.01;
 
+/// Heights in a flat world (Units::flat) [m].
+inline constexpr double kFlatTop_m = 0.3;
+inline constexpr double kFlatTopWithoutLaser_m = 0.15;  ///< of what only sonars see
+inline constexpr double kFlatSonar_m = 0.1;
+inline constexpr double kFlatSensor_m = 0.2;  ///< of all other sensors
+
+/// Whether lasers of Stage 2 and 3 see a model: `laser_return`.
+[[nodiscard]] bool lasers_see(const Properties& model);
+
 /// Reads the body of a model: `size`, `block` entities or the polygons of Stage 2, `bitmap`,
 /// `boundary`, `noblocks`.
 ///

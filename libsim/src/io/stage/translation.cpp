@@ -86,8 +86,7 @@ class Translator {
   };
 
   void read_world(const std::string& name) {
-    // Stage 2 has poses [x y heading], later versions [x y z heading].
-    units_.three_number_poses_turn = has_turning_poses();
+    read_version();
     const Properties world(root_, units_, report_);
     constexpr double kLengths[] = {1.0, 0.01, 0.001};
     units_.length_m = kLengths[world.choice("unit_length", 0, {"m", "cm", "mm"})];
@@ -104,32 +103,61 @@ class Translator {
     out_.world["simulation"] = std::move(simulation);
   }
 
-  /// Whether poses of three numbers have a heading: in the user's files no pose has four numbers,
-  /// and one has three whose last one is not 0.
-  [[nodiscard]] bool has_turning_poses() {
-    bool four = false;
-    const Property* turning = nullptr;
-    const auto look = [&](const auto& self, const Entity& entity) -> void {
-      for (const Property& property : entity.properties) {
-        if (property.name != "pose" || property.place.file->starts_with(kShippedFolder)) continue;
-        four = four || property.values.size() >= 4;
-        if (property.values.size() == 3 && property.values[2].number != 0.0 && turning == nullptr) {
-          turning = &property;
-        }
-      }
-      for (const Entity& child : entity.children) self(self, child);
+  /// Properties in the user's files that differ between the versions of Stage; the first of each.
+  struct Signs {
+    const Property* pose_of_four = nullptr;
+    const Property* turning_pose = nullptr;  ///< of three numbers, the last of which is not 0
+    const Property* size_of_two = nullptr;
+    const Property* size_of_three = nullptr;
+    const Property* old_device = nullptr;  ///< what only models of Stage 2 and early 3 have
+  };
+
+  static void look_for(const Entity& entity, Signs& signs) {
+    if (is_window(entity.type)) return;
+    const auto first = [](const Property*& sign, const Property& property) {
+      if (sign == nullptr) sign = &property;
     };
-    look(look, root_);
-    if (four || turning == nullptr) return false;
-    report_.note("poses", turning->place,
-                 "poses of three numbers are read as [x y heading], as in Stage 2");
-    return true;
+    for (const Property& property : entity.properties) {
+      if (property.place.file->starts_with(kShippedFolder)) continue;
+      const std::size_t count = property.values.size();
+      if (property.name == "pose" && count >= 4) first(signs.pose_of_four, property);
+      if (property.name == "pose" && count == 3 && property.values[2].number != 0.0) {
+        first(signs.turning_pose, property);
+      }
+      if (property.name == "size" && count == 2) first(signs.size_of_two, property);
+      if (property.name.starts_with("size") && count == 3) first(signs.size_of_three, property);
+      if (property.name == "laser_return" || property.name == "scount" || entity.type == "laser") {
+        first(signs.old_device, property);
+      }
+    }
+    for (const Entity& child : entity.children) look_for(child, signs);
+  }
+
+  /// Stage 2 is flat: sizes [x y], poses [x y heading]. Later versions have sizes [x y z], poses
+  /// [x y z heading], and refuse a size of two numbers (Worldfile::ReadTuple() of
+  /// libstage/worldfile.cc).
+  void read_version() {
+    Signs signs;
+    look_for(root_, signs);
+    if (signs.pose_of_four == nullptr && signs.turning_pose != nullptr) {
+      units_.three_number_poses_turn = true;
+      report_.note("poses", signs.turning_pose->place,
+                   "poses of three numbers are read as [x y heading], as in Stage 2");
+    }
+    const Property* flat = signs.size_of_two;
+    if (flat == nullptr && signs.size_of_three == nullptr && signs.pose_of_four == nullptr) {
+      flat = signs.old_device;
+    }
+    if (flat == nullptr) return;
+    units_.flat = true;
+    report_.note("flat", flat->place,
+                 "a world of Stage 2 is flat: all sensors see all models, at any height");
   }
 
   [[nodiscard]] Context context() { return {units_, report_, interval_s_}; }
 
   void top_level(const Entity& entity) {
-    if (entity.type == "window" || entity.type == "gui") {
+    if (is_window(entity.type)) {
       report_.look("window", entity.place);
       window_.insert(&entity);
       return;
@@ -171,6 +199,13 @@ class Translator {
         near.empty() ? "is an include missing?" : "did you mean " + in_quotes(near) + "?");
   }
 
+  static bool is_window(const std::string& type) { return type == "window" || type == "gui"; }
+
+  /// Height of what stands on a model above the model's foot.
+  [[nodiscard]] double stacked_height_m(const Properties& model, const Body& body) const {
+    return model.flag("stack_children", true) && !units_.flat ? body.size_m[2] : 0.0;
+  }
+
   /// A model that is not on a robot.
   void model(const Entity& entity, const Frame& parent, const std::string& parent_name,
              bool on_model) {
@@ -195,8 +230,7 @@ class Translator {
     const Body body = read_body(properties, units_, report_, size, true);
     if (entity.type == "position") return robot(properties, body, frame, name);
     add_body(properties, body, frame, name);
-    const bool stacked = properties.flag("stack_children", true);
-    const Frame base{frame.X, frame.foot_m + (stacked ? body.size_m[2] : 0.0)};
+    const Frame base{frame.X, frame.foot_m + stacked_height_m(properties, body)};
     for (const Entity& child : entity.children) model(child, base, name, true);
   }
 
@@ -222,10 +256,22 @@ class Translator {
   Returns read_returns(const Properties& model) {
     Returns returns;
     returns.obstacle = model.flag("obstacle_return", true);
-    returns.ranger = model.number("ranger_return", 1.0) >= 0.0;
-    // In Stage 2 and 3: 0 or "invisible" are transparent to lasers.
-    if (model.has("laser_return") && !model.has("ranger_return")) {
-      returns.ranger = model.flag("laser_return", true);
+    const double echo = model.number("ranger_return", 1.0);
+    returns.ranger = echo >= 0.0;
+    if (returns.ranger && echo != 1.0 && !units_.flat) {
+      report_.note("intensity", model.place_of("ranger_return"),
+                   "rangers state the intensity 1 for all models (ranger_return is left out)");
+    }
+    // In Stage 2 and 3: 0 or "invisible" are transparent to lasers; "ranger_return" is for sonars.
+    if (units_.flat) {
+      const bool sonars_see = echo > 0.0;
+      returns.ranger = lasers_see(model) || sonars_see;
+      if (lasers_see(model) && !sonars_see) {
+        report_.note("seen by lasers", model.place_of("ranger_return"),
+                     "sonars see all that lasers see (ranger_return 0 is left out)");
+      }
+    } else if (model.has("laser_return") && !model.has("ranger_return")) {
+      returns.ranger = lasers_see(model);
     }
     returns.blob = model.flag("blob_return", true);
     returns.gripper = model.flag("gripper_return", false);
@@ -433,6 +479,7 @@ class Translator {
     draft.place = model.entity().place;
     draft.X_WB = frame.X;
     draft.foot_m = frame.foot_m;
+    draft.flat = units_.flat;
     draft.colour = read_colour(model, {255, 0, 0, 255}, report_);
     const Returns returns = read_returns(model);
     tell_charging(model);
@@ -448,8 +495,7 @@ class Translator {
     const Pose3 origin = model.pose("origin");
     add_part(body, {origin.pose, frame.foot_m + origin.z_m}, returns.obstacle, returns.ranger,
              draft);
-    const bool stacked = model.flag("stack_children", true);
-    const Mount base{{}, frame.foot_m + (stacked ? body.size_m[2] : 0.0)};
+    const Mount base{{}, frame.foot_m + stacked_height_m(model, body)};
     for (const Entity& child : model.entity().children) part(child, base, stage_name, draft);
     add_position(model, body, context(), draft);
     order_rangers(draft);
@@ -509,8 +555,7 @@ class Translator {
       draft.robot["fiducial"] = returns.fiducial;
     }
     static_cast<void>(add_device(entity, mount, body, shared, draft));
-    const bool stacked = properties.flag("stack_children", true);
-    const Mount base{frame.X_BM, frame.z_m + (stacked ? body.size_m[2] : 0.0)};
+    const Mount base{frame.X_BM, frame.z_m + stacked_height_m(properties, body)};
     for (const Entity& child : entity.children) {
       if (child.type != "sensor") part(child, base, name, draft);
     }
