@@ -20,6 +20,8 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"PLAYPEN_OUT", "The folder for results.", true},
       {"PLAYPEN_PLAYER_PORT",
        "The first port of Player's protocol, by which other programs look on at the run.", true},
+      {"PLAYPEN_PORT", "The Player port of the first robot; others keep their distance to it.",
+       true},
       {"PLAYPEN_PROGRESS", "If it is 1, a line on the terminal shows the progress.", true},
       {"PLAYPEN_REAL", "The real robots that robots of the world mirror.", true},
       {"PLAYPEN_REALISM", "The level of realism: ideal, course or real.", true},

@@ -82,6 +82,19 @@ void add_picture_options(CommandLine& line, CLI::App& command,
   line.takes(colour_by, {"world", "robot", "none"});
 }
 
+void add_robot_port(CLI::App& command, playerlike::RunSettings& settings,
+                    const std::string& expected) {
+  add_parsed(command, "--port",
+             "Player port of the first robot, the one with the lowest port; others keep their "
+             "distance to it [the world's]",
+             "PORT", expected, [&settings](const std::string& text) {
+               int port = 0;
+               const bool good = playerlike::parse_robot_port(text, port);
+               if (good) settings.robot_port = port;
+               return good;
+             });
+}
+
 void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSettings& settings,
                       const std::string& default_time) {
   add_parsed(command, "--duration", "Simulated seconds after which the run ends", "S",
@@ -183,6 +196,7 @@ void add_run(CommandLine& line) {
                if (good) request->settings.clients = clients;
                return good;
              });
+  add_robot_port(command, request->settings, playerlike::kRobotPortExpected);
   add_port(command, "--player-port",
            "Let Player's clients watch: first port of Player's protocol, one for each robot; 0: "
            "any [none]",

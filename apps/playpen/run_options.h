@@ -18,6 +18,11 @@ namespace playpen {
 void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSettings& settings,
                       const std::string& default_time);
 
+/// Adds --port.
+/// @param expected  description of its values, for messages.
+void add_robot_port(CLI::App& command, playerlike::RunSettings& settings,
+                    const std::string& expected);
+
 /// Adds the options for the contents of pictures and films: --follow, --crop, --hide and
 /// --colour-by.
 void add_picture_options(CommandLine& line, CLI::App& command,

@@ -125,6 +125,10 @@ int serve(ServeRequest request) {
     settings.time_mode = sim::TimeMode::kPaced;
     settings.time_factor = 1.0;
   }
+  // As `player -p`: each robot is also served on its port, as for a lowest port of kPlayerPort.
+  if (settings.robot_port && !request.server.player_port) {
+    request.server.player_port = playerlike::kPlayerPort;
+  }
   settings.apply_to(world);
   if (request.own_sensors_only) world.simulation.own_sensors_only = true;
   if (request.clients) {

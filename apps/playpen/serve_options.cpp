@@ -74,10 +74,15 @@ void add_serve(CommandLine& line) {
   CLI::App& command = line.add_command("serve", "Offer a world to client programs over TCP");
   command.footer(
       "Clients connect with PLAYPEN_WORLD=tcp://HOST:PORT, or as MORSE's do: see\n"
-      "'playpen doc remote'.\n"
+      "'playpen doc remote'. With --port 6665, Player's clients find each robot on its\n"
+      "own port.\n"
       "Ends on Ctrl-C (SIGINT) or SIGTERM, with reports and pictures written.");
   add_world(line, command, request->world);
-  add_port(command, "--port", "TCP port; 0: any free one [4000]", server.port);
+  add_robot_port(command, request->settings,
+                 std::string(playerlike::kRobotPortExpected) +
+                     "; --tcp-port sets the port of Playpen's and MORSE's clients");
+  add_port(command, "--tcp-port",
+           "TCP port of Playpen's and MORSE's clients; 0: any free one [4000]", server.port);
   command
       .add_option("--bind", server.bind,
                   "Address to listen on, or a name of this machine [127.0.0.1]")
@@ -108,9 +113,10 @@ void add_serve(CommandLine& line) {
                    "Open the ports of all streams at the start, for clients that do not ask");
   add_port(command, "--sync-port", "Port of MORSE's clock synchronisation; 0: any [none]",
            server.sync_port);
-  add_port(command, "--player-port",
-           "First port of Player's protocol, one for each robot; 0: any [none]",
-           server.player_port);
+  add_port(
+      command, "--player-port",
+      "First port of Player's protocol, one for each robot; 0: any [with --port 6665, else none]",
+      server.player_port);
   add_limits(command, server.limits);
   CLI::Option* const log_level = add_parsed(
       command, "--log-level", "debug, info, warning or error [info]", "LEVEL",

@@ -61,7 +61,7 @@ run worlds/examples/moving.json moving --duration 7 --hide fans -- "$bin/docs_mo
 take moving/scene.png moving
 
 # A server plays the real robot.
-"$bin/playpen" serve "$images/mirror_real.json" --seed 4 --port 0 --quiet --out "$out/mirror_real" \
+"$bin/playpen" serve "$images/mirror_real.json" --seed 4 --tcp-port 0 --quiet --out "$out/mirror_real" \
   >"$out/mirror_server.log" &
 server=$!
 trap 'kill "$server" 2>/dev/null || true' EXIT

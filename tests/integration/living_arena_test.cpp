@@ -70,7 +70,7 @@ class LivingArena : public testing::Test {
                      kWorld,
                      "--time",
                      "lockstep",
-                     "--port",
+                     "--tcp-port",
                      "0",
                      "--clients",
                      std::to_string(programs.size())};

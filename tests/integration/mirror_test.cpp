@@ -40,7 +40,7 @@ class Mirror : public testing::Test {
         json::array({{{"name", "box"}, {"center", {1.6, 1.0}}, {"size", {0.2, 0.2}}}});
     const std::string file = folder_.write("real.json", world.dump());
     server_.emplace(std::vector<std::string>{PLAYPEN_COMMAND, "serve", file, "--out",
-                                             folder_ / "real", "--port", "0", "--player-port",
+                                             folder_ / "real", "--tcp-port", "0", "--player-port",
                                              "0"});
     ASSERT_TRUE(server_->read_until(": r1\n")) << server_->finish().err;
     server_name_ = "tcp://" + address_after("listening on ");

@@ -127,6 +127,23 @@ TEST_F(PlaypenRun, TwiceGivesTheSameToTheBitButForWallTime) {
   }
 }
 
+TEST_F(PlaypenRun, PortIsThatOfTheFirstRobot) {
+  const std::vector<std::string> program = {WALL_PROGRAM, "--port", "7000"};
+  const ProcessResult result = run({"--duration", "1", "--port", "7000"}, program);
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(report().at("run").at("sim_time"), 1.0);
+  EXPECT_EQ(report().at("run").at("repeatable"), true);
+  const ProcessResult unset = run({"--duration", "1"}, program);
+  EXPECT_NE(unset.status, 0);
+  EXPECT_THAT(unset.err, AllOf(HasSubstr("port 7000"), HasSubstr("--port 7000")));
+  for (const std::string port : {"0", "4000", "65536", "http"}) {
+    const ProcessResult bad = run({"--port", port}, program);
+    EXPECT_EQ(bad.status, 2) << port;
+    EXPECT_THAT(bad.err, AllOf(HasSubstr("--port"), HasSubstr("1 to 65535 except for 4000"),
+                               HasSubstr('\'' + port + '\'')));
+  }
+}
+
 TEST_F(PlaypenRun, AnotherSeedGivesAnotherWayIfThereIsNoise) {
   world_ = folder_.write("noisy.json", room_world(0.01));
   ASSERT_EQ(run({"--duration", "10", "--seed", "1"}, {WALL_PROGRAM}).status, 0);

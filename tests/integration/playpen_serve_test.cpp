@@ -2,6 +2,8 @@
 // `playpen serve` as a user runs it; the library's tests cover its answers to clients.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <libplayerc++/playerc++.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -45,8 +47,8 @@ class PlaypenServe : public testing::Test {
   }
   /// Starts a server on any free port (unless the options name one) and waits until it listens.
   void start(std::vector<std::string> options, const ProcessOptions& process = {}) {
-    if (std::find(options.begin(), options.end(), "--port") == options.end()) {
-      options.insert(options.end(), {"--port", "0"});
+    if (std::find(options.begin(), options.end(), "--tcp-port") == options.end()) {
+      options.insert(options.end(), {"--tcp-port", "0"});
     }
     options = arguments(options);
     options.insert(options.begin(), PLAYPEN_COMMAND);
@@ -156,7 +158,7 @@ TEST_F(PlaypenServe, EndsAlthoughAClientStaysWhenTheRunIsOver) {
 TEST_F(PlaypenServe, APortThatIsTakenIsToldBeforeResultsAreRemoved) {
   start({"--time", "lockstep"});
   ASSERT_TRUE(fs::exists(result("trajectory.csv")));
-  const ProcessResult second = playpen(arguments({"--port", std::to_string(port_)}));
+  const ProcessResult second = playpen(arguments({"--tcp-port", std::to_string(port_)}));
   EXPECT_EQ(second.status, 2);
   EXPECT_THAT(second.err, AllOf(HasSubstr("server/port-taken"), HasSubstr("port 0 takes any"),
                                 HasSubstr(std::to_string(port_))));
@@ -210,7 +212,7 @@ TEST_F(PlaypenServe, WithATokenFileTheRobotObeysItsHolder) {
 }
 
 TEST_F(PlaypenServe, OtherMachinesNeedATokenOrAnOpenDoor) {
-  const ProcessResult refused = playpen(arguments({"--bind", "0.0.0.0", "--port", "0"}));
+  const ProcessResult refused = playpen(arguments({"--bind", "0.0.0.0", "--tcp-port", "0"}));
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, AllOf(HasSubstr("server/token-needed"), HasSubstr("--open")));
   start({"--bind", "0.0.0.0", "--open"});
@@ -244,6 +246,27 @@ TEST_F(PlaypenServe, PlayersClientsFindEachRobotOnItsOwnPort) {
   EXPECT_THAT(client.bytes(32), testing::StartsWith("Player v.3."));
 }
 
+// A free port may be taken again before the server opens it.
+TEST_F(PlaypenServe, PortIsThatOfTheFirstRobotInBothProtocols) {
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    const std::string port = std::to_string(20'000 + (getpid() * 7 + attempt * 1009) % 30'000);
+    server_.emplace(std::vector<std::string>{PLAYPEN_COMMAND, "serve", world_, "--out", out_,
+                                             "--time", "lockstep", "--tcp-port", "0", "--port",
+                                             port});
+    if (!server_->read_until("Player's protocol on 127.0.0.1:" + port + ": r1\n")) continue;
+    RawClient client("127.0.0.1", std::stoi(port));
+    EXPECT_THAT(client.bytes(32), testing::StartsWith("Player v.3."));
+    const std::string& line = server_->output();
+    const std::string server =
+        "tcp://127.0.0.1" + line.substr(line.find(':'), line.find('\n') - line.find(':'));
+    PlayerCc::PlayerClient robot(server, std::stoi(port));
+    PlayerCc::Position2dProxy position(&robot, 0);
+    EXPECT_THROW(PlayerCc::PlayerClient(server, 6665), PlayerCc::PlayerError);
+    return;
+  }
+  FAIL() << "no free port";
+}
+
 TEST_F(PlaypenServe, TheShellsSettingsOfRunsDoNotCount) {
   ProcessOptions process;
   process.environment = {{"PLAYPEN_SEED", "no number"}, {"PLAYPEN_DURATION", "1"}};
@@ -258,8 +281,10 @@ TEST_F(PlaypenServe, BadOptionsAreRefusedByNameAndValue) {
     const char* option;
     const char* value;
   };
-  for (const Case& c : std::vector<Case>{{"--port", "65536"},
-                                         {"--port", "http"},
+  for (const Case& c : std::vector<Case>{{"--tcp-port", "65536"},
+                                         {"--tcp-port", "http"},
+                                         {"--port", "4000"},
+                                         {"--port", "0"},
                                          {"--stream-port", "70000"},
                                          {"--sync-port", "x"},
                                          {"--player-port", "65536"},

@@ -45,7 +45,7 @@ class Server:
             with open(path, "w", encoding="utf-8") as file:
                 json.dump(world, file)
         self.process = subprocess.Popen(
-            [PLAYPEN, "serve", path, "--port", "0", "--stream-port", str(stream_port),
+            [PLAYPEN, "serve", path, "--tcp-port", "0", "--stream-port", str(stream_port),
              "--out", self.folder.name, *options],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1)
         self.log = ""

@@ -62,7 +62,7 @@ class RemotePrograms : public testing::Test {
                                                  const std::string& encoding = "cbor") {
     const std::string out = folder_ / "serve";
     options.insert(options.begin(), {PLAYPEN_COMMAND, "serve", world, "--time", "lockstep",
-                                     "--port", "0", "--quiet", "--out", out});
+                                     "--tcp-port", "0", "--quiet", "--out", out});
     Process server(options);
     ProcessOptions remote;
     remote.environment["PLAYPEN_WORLD"] = address_of(server);

@@ -64,7 +64,7 @@ trap stop_server EXIT
 # serve WORLD TIME: starts the server and waits until it listens.
 serve() {
   stop_server
-  "$playpen" serve "$root/worlds/$1" --time "$2" --port 0 --player-port "$port" \
+  "$playpen" serve "$root/worlds/$1" --time "$2" --tcp-port 0 --player-port "$port" \
     --out "$out/serve" >"$out/serve.log" 2>&1 &
   server=$!
   local try

@@ -61,7 +61,7 @@ trap 'stop_server; rm -rf "$work"' EXIT
 # serve: starts a server of the cave on a free port, and sets `port`.
 serve() {
   stop_server
-  "$playpen" serve "$here/../../worlds/cave.json" --time lockstep --port 0 --player-port 0 \
+  "$playpen" serve "$here/../../worlds/cave.json" --time lockstep --tcp-port 0 --player-port 0 \
     --out "$work/serve" >"$work/serve.log" 2>&1 &
   server=$!
   local try

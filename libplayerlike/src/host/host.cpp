@@ -27,9 +27,10 @@ void Host::require_port(int port) const {
     for (const RobotInfo& robot : robots) {
       ports += ", " + std::to_string(robot.port) + " (" + robot.name + ')';
     }
-    throw SessionError(
-        SessionError::Code::kNoSuchDevice,
-        "no robot of this world has port " + std::to_string(port) + "; ports it has: " + ports);
+    throw SessionError(SessionError::Code::kNoSuchDevice,
+                       "no robot of this world has port " + std::to_string(port) +
+                           "; ports it has: " + ports + "; `playpen run --port " +
+                           std::to_string(port) + "` gives the first robot this port");
   }
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "playerlike/messages/messages.h"
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"
 #include "sim/core/time.h"
@@ -163,6 +164,13 @@ bool parse_clients(const std::string& text, int& clients) {
   int read = 0;
   if (!parse_whole(text, read) || read < 1 || read > 1000) return false;
   clients = read;
+  return true;
+}
+
+bool parse_robot_port(const std::string& text, int& port) {
+  int read = 0;
+  if (!parse_tcp_port(text, read) || read == 0 || read == kMorsePort) return false;
+  port = read;
   return true;
 }
 
@@ -361,6 +369,8 @@ RunSettings RunSettings::from_environment() {
                settings.interfaces);
   read_choices(variables, "PLAYPEN_REAL", kRealRobotChoicesExpected, parse_real_robot,
                settings.real_robots);
+  variables.read("PLAYPEN_PORT", kRobotPortExpected,
+                 into<int>(settings.robot_port, parse_robot_port));
   variables.read("PLAYPEN_PLAYER_PORT", kTcpPortExpected,
                  into<int>(settings.player_port, parse_tcp_port));
   settings.progress = is_set("PLAYPEN_PROGRESS");
@@ -428,6 +438,37 @@ void bind_real_robots(sim::WorldDescription& world, const std::vector<RealRobotC
   if (!issues.empty()) throw sim::ConfigError(std::move(issues));
 }
 
+// Moves the ports of all robots, so that the lowest one becomes the given one.
+// @throws sim::ConfigError run/port.
+void move_ports(sim::WorldDescription& world, int lowest) {
+  if (world.robots.empty()) return;
+  const auto by_port = [](const sim::RobotDescription& a, const sim::RobotDescription& b) {
+    return a.port < b.port;
+  };
+  const auto [first, last] = std::minmax_element(world.robots.begin(), world.robots.end(), by_port);
+  const int shift = lowest - first->port;
+  const int highest = 65535 - (last->port - first->port);
+  std::string forbidden;
+  for (const sim::RobotDescription& robot : world.robots) {
+    if (robot.port + shift == kMorsePort) forbidden = robot.name;
+  }
+  if (lowest > highest || !forbidden.empty()) {
+    throw sim::ConfigError(std::vector<sim::ConfigIssue>{
+        {"run/port", "--port " + std::to_string(lowest), "",
+         forbidden.empty()
+             ? "a port up to " + std::to_string(highest) + ", since other robots have higher ones"
+             : "ports without 4000, the port of all robots, which robot " + forbidden +
+                   " would get",
+         std::to_string(lowest), ""}});
+  }
+  if (world.robots_on_port != 0) world.robots_on_port += shift;
+  for (sim::RobotDescription& robot : world.robots) {
+    // The real one at its server keeps its port.
+    if (robot.real && robot.real->port == 0) robot.real->port = robot.port;
+    robot.port += shift;
+  }
+}
+
 // A real robot lives in real time.
 // @throws sim::ConfigError run/real-time.
 void require_real_time(sim::WorldDescription& world) {
@@ -477,6 +518,7 @@ void RunSettings::apply_to(sim::WorldDescription& world) const {
   }
   apply_interface_choices(world, interfaces);
   bind_real_robots(world, real_robots);
+  if (robot_port) move_ports(world, *robot_port);
   require_real_time(world);
 }
 

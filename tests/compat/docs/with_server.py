@@ -42,7 +42,7 @@ def main(playpen, world, file, *arguments):
     # results.
     results = tempfile.TemporaryDirectory()
     server = subprocess.Popen(
-        [playpen, "serve", world, "--port", "0", "--time", "lockstep", "--out", results.name],
+        [playpen, "serve", world, "--tcp-port", "0", "--time", "lockstep", "--out", results.name],
         stdout=subprocess.PIPE, text=True)
     try:
         line = server.stdout.readline()

@@ -3,6 +3,7 @@
 // the robot, and a second one on the same port reads the blobfinder.
 #include <libplayerc++/playerc++.h>
 #include <iostream>
+#define CENTRE 160  // of the 320 columns
 using namespace PlayerCc;
 
 int main(int argc, char *argv[])
@@ -24,11 +25,11 @@ int main(int argc, char *argv[])
     for (unsigned i = 0; i < bf.GetCount(); i++)
     {
       player_blobfinder_blob_t blob = bf.GetBlob(i);
-      if (blob.color != 0xd02010) continue;
+      if (blob.color != 0xff0000) continue;
       seen++;
-      double off = (double)bf.GetWidth() / 2 - blob.x;
-      turnrate = 0.01 * off;
-      speed = fabs(off) < 20 ? 0.4 : 0;
+      double off = CENTRE - (double)blob.x;
+      turnrate = 0.005 * off;
+      speed = fabs(off) < 40 ? 0.4 : 0;
     }
     pp.SetSpeed(speed, turnrate);
   }

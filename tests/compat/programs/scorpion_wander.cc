@@ -1,11 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Wanders with a ring of sixteen infrared rangers. Ranger 0 points ahead; the numbers increase
-// anticlockwise.
+// Wanders with the thirteen infrared rangers of a Scorpion, by their names in its driver's header.
 #include <iostream>
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 
-#define IRS 16
+enum { BN_ENE, BN_WNW, BN_N, BN_NE, BN_NW, TE_NNW, TE_NNE, TW_NNW, TW_NNE, BS_W, BS_E, BW_S, BE_S };
 
 int main(int argc, char **argv)
 {
@@ -16,29 +15,32 @@ int main(int argc, char **argv)
   pos.SetMotorEnable(true);
   int turns = 0;
   bool turning = false;
+  double turnrate = 0;
   for (int t = 0; t < 590; t++) {
     client.Read();
-    // the five rangers that point forward
-    double front = 10, left = 0, right = 0;
-    for (int i = -2; i <= 2; i++) {
-      double r = ir[(i + IRS) % IRS];
+    // those that look ahead, and those in the bumper, which cross one another
+    double front = 10;
+    const int ahead[] = {BN_N, BN_NE, BN_NW, TE_NNW, TE_NNE, TW_NNW, TW_NNE};
+    for (int i = 0; i < 7; i++) {
+      double r = ir[ahead[i]];
       if (r < front) front = r;
     }
-    for (int i = 1; i <= 4; i++) {
-      left += ir[i];
-      right += ir[IRS - i];
-    }
-    if (front < 0.3) {
-      if (!turning) turns++;
+    double left = ir[BS_W] + ir[BN_WNW] + ir[TW_NNW] + ir[BN_NW];
+    double right = ir[BS_E] + ir[BN_ENE] + ir[TE_NNE] + ir[BN_NE];
+    if (front < 0.4) {
+      if (!turning) {
+        turns++;
+        turnrate = left > right ? 0.9 : -0.9;
+      }
       turning = true;
-      pos.SetSpeed(0, left > right ? 0.9 : -0.9);
-    } else if (front > 0.45 || !turning) {
+      pos.SetSpeed(0, turnrate);
+    } else if (front > 0.55 || !turning) {
       turning = false;
       pos.SetSpeed(0.25, 0.2 * (left - right));
     }
   }
   pos.SetSpeed(0, 0);
-  std::cout << ir.GetCount() << " infra-reds, turned " << turns << " times, the last looks to "
-            << rtod(ir.GetPose(15).pyaw) << " degrees" << std::endl;
+  std::cout << ir.GetCount() << " infra-reds, turned " << turns << " times, the left one looks to "
+            << rtod(ir.GetPose(BS_W).pyaw) << " degrees" << std::endl;
   return 0;
 }

@@ -47,7 +47,7 @@ class MorseTestCase(unittest.TestCase):
         self.setUpMw()
         self.setUpEnv()
         world = builder.write_world(scene, self.folder.name)
-        command = [PLAYPEN, "serve", world, "--port", "4000", "--stream-port", "60000",
+        command = [PLAYPEN, "serve", world, "--tcp-port", "4000", "--stream-port", "60000",
                    "--out", os.path.join(self.folder.name, "out")]
         if "MORSE_SUITE_TIME" in os.environ:
             command += ["--time", os.environ["MORSE_SUITE_TIME"]]

@@ -45,7 +45,8 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
           Pair("PLAYPEN_CLIENTS", std::nullopt), Pair("PLAYPEN_INTERFACES", std::nullopt),
           Pair("PLAYPEN_GRADE", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt),
           Pair("PLAYPEN_STATE", std::nullopt), Pair("PLAYPEN_REALISM", std::nullopt),
-          Pair("PLAYPEN_REAL", std::nullopt), Pair("PLAYPEN_PLAYER_PORT", std::nullopt)));
+          Pair("PLAYPEN_REAL", std::nullopt), Pair("PLAYPEN_PLAYER_PORT", std::nullopt),
+          Pair("PLAYPEN_PORT", std::nullopt)));
 }
 
 TEST(RunEnvironment, MakesPathsAbsolute) {
@@ -102,6 +103,7 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   settings.quiet_end = true;
   settings.virtual_time = true;
   settings.clients = 12;
+  settings.robot_port = 7000;
   settings.interfaces = {{"", "ranger", 0, "sonar"}, {"r.1", "position2d", 1, "pose"}};
   const ScopedEnvironment environment(run_environment("/world.json", settings));
   const RunSettings read = RunSettings::from_environment();
@@ -120,6 +122,7 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   EXPECT_EQ(read.quiet_end, settings.quiet_end);
   EXPECT_EQ(read.virtual_time, settings.virtual_time);
   EXPECT_EQ(read.clients, settings.clients);
+  EXPECT_EQ(read.robot_port, settings.robot_port);
   ASSERT_EQ(read.interfaces.size(), 2U);
   EXPECT_EQ(read.interfaces[0].text(), "ranger:0=sonar");
   EXPECT_EQ(read.interfaces[1].text(), "r.1.position2d:1=pose");
@@ -228,6 +231,57 @@ TEST(RunSettings, PicturesMustShowWhatTheWorldHas) {
                   AllOf(HasSubstr("run/crop"), HasSubstr("to 2, 1"), HasSubstr("2,0,1,1"))));
   EXPECT_TRUE(parse_crop("1.9,0,1,1", settings.pictures));
   settings.apply_to(world);
+}
+
+// --- --port
+
+std::vector<int> ports_from(int lowest, const std::string& world) {
+  sim::WorldDescription description = sim::load_world_text(world);
+  RunSettings settings;
+  settings.robot_port = lowest;
+  settings.apply_to(description);
+  settings.apply_to(description);  // as a server does
+  std::vector<int> ports;
+  for (const sim::RobotDescription& robot : description.robots) ports.push_back(robot.port);
+  return ports;
+}
+
+TEST(RunSettings, PortMovesAllRobotsByTheSameNumber) {
+  using testing::ElementsAre;
+  // By default 6665 and 6666.
+  EXPECT_THAT(ports_from(7000, R"({"arena": {"size": [4, 4]}, "robots": [
+                {"pose": {"x": 1, "y": 1}}, {"pose": {"x": 3, "y": 3}}]})"),
+              ElementsAre(7000, 7001));
+  // The lowest one is the first: 7000 - 6665 = 335, and 6668 + 335 = 7003.
+  EXPECT_THAT(ports_from(7000, R"({"arena": {"size": [4, 4]}, "robots": [
+                {"pose": {"x": 1, "y": 1}, "port": 6668},
+                {"pose": {"x": 3, "y": 3}, "port": 6665}]})"),
+              ElementsAre(7003, 7000));
+  EXPECT_THAT(ports_from(7000, R"({"arena": {"size": [4, 4]}, "robots_on_port": 6665, "robots": [
+                {"pose": {"x": 1, "y": 1}}, {"pose": {"x": 3, "y": 3}}]})"),
+              ElementsAre(7000, 7000));
+}
+
+TEST(RunSettings, PortOfARealRobotStaysThatOfItsServer) {
+  sim::WorldDescription world = sim::load_world_text(
+      R"({"arena": {"size": [4, 4]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}}]})");
+  RunSettings settings;
+  settings.real_robots = {{"r1", "tcp://lab"}};
+  settings.robot_port = 7000;
+  settings.apply_to(world);
+  EXPECT_EQ(world.robots[0].port, 7000);
+  EXPECT_EQ(world.robots[0].real->port, 6665);
+}
+
+TEST(RunSettings, PortsThatRobotsCannotHaveAreRefused) {
+  const std::string world = R"({"arena": {"size": [4, 4]}, "robots": [
+      {"name": "r1", "pose": {"x": 1, "y": 1}}, {"name": "r2", "pose": {"x": 3, "y": 3}}]})";
+  EXPECT_THAT([&] { ports_from(65535, world); },
+              ThrowsMessage<sim::ConfigError>(
+                  AllOf(HasSubstr("run/port"), HasSubstr("up to 65534"), HasSubstr("65535"))));
+  EXPECT_THAT([&] { ports_from(3999, world); },
+              ThrowsMessage<sim::ConfigError>(
+                  AllOf(HasSubstr("run/port"), HasSubstr("4000"), HasSubstr("robot r2"))));
 }
 
 TEST(RunSettings, SnapshotsNeedAnOutputFolder) {

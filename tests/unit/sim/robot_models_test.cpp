@@ -183,6 +183,27 @@ TEST(Roomba, HasALaserOf361BeamsAcrossAHalfCircle) {
 }
 
 // A file cannot refer to s1r and change parts of it, so the repeated parts must stay equal.
+// The poses that the Scorpion's driver for Player ("ersp") reports, in the order of its header
+// scorpion.h; its angles in radians are -1.134, 1.134, 0, -0.611, 0.611, 0.175, -0.262, ...
+TEST(Scorpion, HasThe13RangersOfItsPlayerDriver) {
+  const WorldDescription world = world_with("scorpion");
+  const auto rangers = settings_of<InfraredParams>(world, "infrared");
+  const std::vector<Pose> expected = {
+      {0.126, 0.092, -1.134},   {0.126, -0.092, 1.134},   {0.049, 0.0, 0.0},
+      {0.092, 0.064, -0.611},   {0.092, -0.064, 0.611},   {0.016, -0.173, 0.175},
+      {-0.065, -0.169, -0.262}, {-0.065, 0.169, 0.262},   {0.016, 0.173, -0.175},
+      {-0.172, 0.019, 1.571},   {-0.172, -0.019, -1.571}, {-0.077, 0.069, 3.054},
+      {-0.077, -0.069, -3.054}};
+  ASSERT_EQ(rangers.X_BS.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_DOUBLE_EQ(rangers.X_BS[i].x_m, expected[i].x_m) << i;
+    EXPECT_DOUBLE_EQ(rangers.X_BS[i].y_m, expected[i].y_m) << i;
+    EXPECT_NEAR(rangers.X_BS[i].yaw_rad, expected[i].yaw_rad, 0.001) << i;  // its rounding
+    EXPECT_TRUE(lies_within(model_of(world).footprint, rangers.X_BS[i].position())) << i;
+  }
+  EXPECT_DOUBLE_EQ(rangers.range_max_m, 0.8);
+}
+
 TEST(S1rModels, DifferFromTheS1rInWhatTheyCarryOnly) {
   const RobotModel s1r = s1r_model();
   for (const char* name : {"s1r_full", "s1r_sonar"}) {

@@ -65,8 +65,10 @@ struct RunSettings {
                                             ///< folder's snapshots/ [s], 0.001..1e9
   std::optional<int> clients;  ///< start gate, 1..1000: time starts when this number of clients has
                                ///< joined
-  std::optional<sim::ViewMode> view_mode;    ///< initial view mode; overrides the world's
-  std::optional<sim::Realism> realism;       ///< level of realism; overrides the world's
+  std::optional<sim::ViewMode> view_mode;  ///< initial view mode; overrides the world's
+  std::optional<sim::Realism> realism;     ///< level of realism; overrides the world's
+  std::optional<int> robot_port;  ///< the lowest Player port of a robot, see parse_robot_port();
+                                  ///< the others keep their distance to it
   std::vector<InterfaceChoice> interfaces;   ///< override the world's order of devices
   std::vector<RealRobotChoice> real_robots;  ///< override the world's "real"
   /// Connects to the real robots of the world; empty: a world with real robots is refused.
@@ -103,17 +105,18 @@ struct RunSettings {
   /// PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground,
   /// mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
   /// descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
-  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_INTERFACES and PLAYPEN_REAL
-  /// (choices, separated by commas).
+  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_INTERFACES
+  /// and PLAYPEN_REAL (choices, separated by commas).
   /// @throws sim::ConfigError naming the variable, the expected value and the actual value.
   [[nodiscard]] static RunSettings from_environment();
 
-  /// Applies seed, duration, time mode, clients, view mode, realism, interfaces and real robots to
-  /// the world. A world with real robots gets real time.
+  /// Applies seed, duration, time mode, clients, view mode, realism, interfaces, real robots and
+  /// port to the world. A world with real robots gets real time.
   /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode; run/follow
   ///         if the world does not contain the robot to follow; run/crop if the part to show does
   ///         not overlap the floor; run/interface for each choice of an interface that does not
   ///         match the world's robots;
+  ///         run/port if a robot's port would be above 65535 or kMorsePort;
   ///         run/real for each choice of a real robot that does not; run/real-time if a world with
   ///         real robots is to run in another time than real time.
   void apply_to(sim::WorldDescription& world) const;
@@ -129,6 +132,10 @@ struct RunSettings {
 
 /// Parses a TCP port, 0..65535. @return whether the text is valid.
 [[nodiscard]] bool parse_tcp_port(const std::string& text, int& port);
+
+/// Parses the Player port of a robot, 1..65535 except for kMorsePort.
+/// @return whether the text is valid.
+[[nodiscard]] bool parse_robot_port(const std::string& text, int& port);
 
 /// Parses "[ROBOT.]INTERFACE:INDEX=DEVICE". @return whether the text has this form.
 [[nodiscard]] bool parse_interface_choice(const std::string& text, InterfaceChoice& choice);
@@ -175,6 +182,9 @@ void apply_interface_choices(sim::WorldDescription& world,
 inline constexpr const char* kClientsExpected = "a whole number from 1 to 1000";
 /// Description of the values that parse_tcp_port() accepts, for messages.
 inline constexpr const char* kTcpPortExpected = "a whole number from 0 to 65535";
+/// Description of the values that parse_robot_port() accepts, for messages.
+inline constexpr const char* kRobotPortExpected =
+    "a whole number from 1 to 65535 except for 4000, the port of all robots";
 /// Description of the values that parse_interface_choice() accepts, for messages.
 inline constexpr const char* kInterfaceChoiceExpected =
     "[ROBOT.]INTERFACE:INDEX=DEVICE, such as ranger:0=laser or r1.ranger:0=laser";
