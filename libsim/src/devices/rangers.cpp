@@ -2,6 +2,7 @@
 #include "sim/devices/rangers.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -9,8 +10,10 @@
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
 #include "sim/core/degrees.h"
+#include "sim/core/number_text.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/robot_snapshot.h"
+#include "sim/io/reader.h"
 #include "sim/world/outline.h"
 
 namespace sim {
@@ -74,12 +77,9 @@ Ranger::Ranger(std::string name, std::string type, const RangerParams& params, b
   first.field_of_view_rad = params.field_of_view_rad;
 }
 
-void Ranger::measure(const StepContext& context) {
-  auto& reading = next(context);
-  const Pose& X_WB = context.body.X_WB;
-  context.physics.collect_edges(X_WB.position(), params_.range_max_m + reach_m_, params_.height_m,
-                                context.robot, false, edges_);
-  reading.X_WB = X_WB;
+void Ranger::look_around(const StepContext& context, double height_m) {
+  context.physics.collect_edges(context.body.X_WB.position(), params_.range_max_m + reach_m_,
+                                height_m, context.robot, false, edges_);
   for (scan::EdgeColumns& shell : shells_) shell.clear();
   for (const scan::Edge& edge : edges_.edges()) {
     const auto distance2 = distance2_if_seen(edge, reach_m_, params_.range_max_m);
@@ -89,31 +89,43 @@ void Ranger::measure(const StepContext& context) {
                       [&](double limit_m) { return *distance2 >= limit_m * limit_m; });
     shells_[static_cast<std::size_t>(shell)].add(edge);
   }
+}
+
+void Ranger::measure(const StepContext& context) {
+  auto& reading = next(context);
+  const Pose& X_WB = context.body.X_WB;
+  reading.X_WB = X_WB;
+  if (params_.heights_m.empty()) look_around(context, params_.height_m);
+  double height_m = params_.height_m;
+  double range_max_m = params_.range_max_m;
   const double view_rad = params_.single_ray ? 0.0 : params_.field_of_view_rad;
   for (std::size_t i = 0; i < params_.X_BS.size(); ++i) {
     const Pose X_WS = X_WB * params_.X_BS[i];
     const Vec2 p_BS_W = X_WS.position() - X_WB.position();
+    if (!params_.heights_m.empty() && (i == 0 || params_.heights_m[i] != height_m)) {
+      height_m = params_.heights_m[i];
+      look_around(context, height_m);
+    }
+    if (!params_.ranges_max_m.empty()) range_max_m = params_.ranges_max_m[i];
     double range_m = 0.0;
     if (!may_be_inside_ ||
-        !context.physics.is_inside_solid(X_WS.position(), params_.height_m, context.robot)) {
-      range_m = least_range_m({p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, view_rad});
+        !context.physics.is_inside_solid(X_WS.position(), height_m, context.robot)) {
+      range_m = least_range_m({p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, view_rad}, range_max_m);
     }
     // As for the laser: without an echo there is no noise.
     const double sigma_m = range_deviation_m(range_m, params_.noise_m, params_.noise_share);
-    if (sigma_m > 0.0 && range_m < params_.range_max_m) {
-      range_m = std::clamp(range_m + noise_.gaussian(sigma_m), 0.0, params_.range_max_m);
+    if (sigma_m > 0.0 && range_m < range_max_m) {
+      range_m = std::clamp(range_m + noise_.gaussian(sigma_m), 0.0, range_max_m);
     }
-    if (params_.dropouts > 0.0 && noise_.uniform() < params_.dropouts) {
-      range_m = params_.range_max_m;
-    }
+    if (params_.dropouts > 0.0 && noise_.uniform() < params_.dropouts) range_m = range_max_m;
     reading.ranges_m[i] = range_m;
   }
 }
 
-double Ranger::least_range_m(const scan::Cone& cone) {
+double Ranger::least_range_m(const scan::Cone& cone, double range_max_m) {
   // Far above rounding errors.
   constexpr double kSlack_m = 1e-6;
-  double least_m = params_.range_max_m;
+  double least_m = range_max_m;
   for (std::size_t i = 0; i < shells_.size(); ++i) {
     if (i > 0 && least_m < kShellLimits_m[i - 1] - reach_m_ - kSlack_m) break;
     if (shells_[i].size() > 0) least_m = shells_[i].least_range_in_cone_m(cone, least_m);
@@ -126,8 +138,10 @@ void Ranger::show(SimTime, RobotSnapshot& shot) const {
   const RangerReading& round = reading();
   if (round.sequence == 0) return;
   for (std::size_t i = 0; i < round.ranges_m.size(); ++i) {
+    const double range_max_m =
+        params_.ranges_max_m.empty() ? params_.range_max_m : params_.ranges_max_m[i];
     shot.cones.push_back({round.X_WB * round.X_BS[i], round.ranges_m[i], round.field_of_view_rad,
-                          round.ranges_m[i] < round.range_max_m});
+                          round.ranges_m[i] < range_max_m});
   }
 }
 
@@ -146,10 +160,47 @@ void Ranger::archive_reading(StateArchive& archive, RangerReading& reading) {
 
 namespace {
 
+constexpr double kMostMetres = 1000.0;
+
 std::optional<FieldError> check_mountings(const void* object) {
   const auto& reading = *static_cast<const RangerReading*>(object);
   if (reading.X_BS.size() == reading.ranges_m.size()) return std::nullopt;
   return FieldError{"", "as many as there are ranges", "", "", "mountings"};
+}
+
+bool read_metres(const io::Reader& value, void* into) {
+  double& metres = *static_cast<double*>(into);
+  const std::optional<std::string> text = value.is_number() ? value.scalar_text() : std::nullopt;
+  if (!text) return false;
+  std::from_chars(text->data(), text->data() + text->size(), metres);
+  return metres >= 0.0 && metres <= kMostMetres;
+}
+
+constexpr ElementType kMetres{
+    read_metres,
+    [](const void* metres) { return shortest_text(*static_cast<const double*>(metres)); },
+    R"("type": "number", "minimum": 0, "maximum": 1000)"};
+
+std::optional<FieldError> check_transducers(const RangerParams& params) {
+  const std::size_t count = params.X_BS.size();
+  for (const auto& [list, what] :
+       {std::pair(&params.ranges_max_m, "ranges_max"), std::pair(&params.heights_m, "heights")}) {
+    if (list->empty() || list->size() == count) continue;
+    return FieldError{"device/transducers", "as many as there are mounts: " + std::to_string(count),
+                      "a list of " + std::to_string(list->size()), "", what};
+  }
+  if (params.intensity > 0.0 && !params.ranges_max_m.empty()) {
+    return FieldError{"device/transducers",
+                      "no ranges_max together with intensity: programs know one range, so they "
+                      "cannot tell what has an echo",
+                      "both", "", "ranges_max"};
+  }
+  const auto over = std::ranges::find_if(
+      params.ranges_max_m, [&](double range_m) { return range_m > params.range_max_m; });
+  if (over == params.ranges_max_m.end()) return std::nullopt;
+  return FieldError{"device/transducers",
+                    "ranges up to range_max, " + shortest_text(params.range_max_m) + " m",
+                    shortest_text(*over) + " m", "", "ranges_max"};
 }
 
 constexpr auto kMakeRanger = [](const DeviceConstruction& construction,
@@ -176,6 +227,16 @@ constexpr Field kRangerSettings[] = {
         .counting(0, RangerParams::kMaxTransducers)
         .property_name("mount")
         .listing_elements(),
+    field<&RangerParams::ranges_max_m>(
+        "ranges_max", "m", "maximum range of each transducer; an empty list: `range_max` of all")
+        .of(kMetres)
+        .with_issue("world/out-of-range", "a length in [0, 1000] m")
+        .not_property(),
+    field<&RangerParams::heights_m>("heights", "m",
+                                    "height of each transducer; an empty list: `height` of all")
+        .of(kMetres)
+        .with_issue("world/out-of-range", "a length in [0, 1000] m")
+        .not_property(),
     range_min_field<&RangerParams::range_min_m>(),
     intensity_field<&RangerParams::intensity>(),
 };
@@ -192,7 +253,9 @@ constexpr Field kInfrared[] = {
     field<&InfraredParams::voltage_shift_m>("voltage_shift", "m", "of the sensor curve")
         .above(0.0, 10.0),
 };
-SIM_FIELDS(InfraredParams, kInfrared)
+SIM_FIELDS(InfraredParams, kInfrared, [](const void* params) {
+  return check_transducers(*static_cast<const InfraredParams*>(params));
+})
 
 constexpr Field kSonar[] = {
     include<SonarParams, RangerParams>(),
@@ -203,7 +266,9 @@ constexpr Field kSonar[] = {
         "single_ray", "", "it measures along the axis of the cone only, as sonars of Stage do")
         .not_property(),
 };
-SIM_FIELDS(SonarParams, kSonar)
+SIM_FIELDS(SonarParams, kSonar, [](const void* params) {
+  return check_transducers(*static_cast<const SonarParams*>(params));
+})
 
 constexpr Field kRangerReading[] = {
     field<&RangerReading::ranges_m>("ranges", "m"),

@@ -142,6 +142,22 @@ position ( size [0.2 0.2 0.2]
   EXPECT_EQ(sonar.intensity, 1.0);
 }
 
+// Each sensor has its own range and height. The wall of 0.25 m is 3 - 0.1 m away. The first sensor
+// is at 0.2 + 0.01 m and reaches only 2 m, the second one reaches it, the third one at 0.31 looks
+// over it.
+TEST(StageRangers, EachSensorHasItsRangeAndHeight) {
+  StageRun world(R"(
+model ( size [0.2 20 0.25] pose [3 0 0 0] )
+position ( size [0.2 0.2 0.2]
+  ranger ( sensor ( range [0 2] ) sensor ( range [0 4] ) sensor ( range [0 8] pose [0 0 0.1 0] ) )
+  ))");
+  const std::vector<double> ranges = world.ranges("sonar");
+  ASSERT_THAT(ranges, SizeIs(3));
+  EXPECT_EQ(ranges[0], 2.0);
+  EXPECT_NEAR(ranges[1], 2.9, 1e-5);
+  EXPECT_EQ(ranges[2], 8.0);
+}
+
 // A ray has no width, whatever fov says: it passes 0.1 m beside the post, which a cone of 30
 // degrees would meet.
 TEST(StageRangers, ASensorOfOneSampleIsARay) {

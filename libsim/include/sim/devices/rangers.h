@@ -24,8 +24,11 @@ struct RangerParams {
   double field_of_view_rad = 0.0;  ///< full angle of a transducer's cone, [0, pi]; 0: a single ray
   bool single_ray = false;         ///< measures along a single ray, and states the cone to clients
   std::vector<Pose> X_BS;          ///< mountings of the transducers on the body, at most 64
-  double range_min_m = 0.0;        ///< least range, for clients, [0, 1000]; ranges are not changed
-  double intensity = 0.0;          ///< of each echo, for clients, [0, 1e6]; 0: none is measured
+  std::vector<double>
+      ranges_max_m;               ///< of each transducer, at most range_max_m; empty: range_max_m
+  std::vector<double> heights_m;  ///< of each transducer; empty: height_m
+  double range_min_m = 0.0;       ///< least range, for clients, [0, 1000]; ranges are not changed
+  double intensity = 0.0;         ///< of each echo, for clients, [0, 1e6]; 0: none is measured
 
   /// Maximum number of transducers of a ranger.
   static constexpr int kMaxTransducers = 64;
@@ -92,8 +95,10 @@ class Ranger final : public SensorOf<RangerReading> {
   /// Inner radius of each shell except the innermost [m].
   static constexpr std::array<double, 3> kShellLimits_m = {0.5, 1.0, 2.0};
 
-  /// Least range over the edges of all shells, at most the configured range.
-  [[nodiscard]] double least_range_m(const scan::Cone& cone);
+  /// Collects the edges that transducers at a height may see.
+  void look_around(const StepContext& context, double height_m);
+  /// Least range over the edges of all shells, at most the given one.
+  [[nodiscard]] double least_range_m(const scan::Cone& cone, double range_max_m);
 
   RangerParams params_;
   bool may_be_inside_;

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -161,36 +162,41 @@ void add_ring(const std::vector<Transducer>& transducers, const Mount& mount, do
   double variance = 0.0;
   double share = 0.0;
   Json mounts = Json::array();
+  std::vector<double> ranges_m;
+  std::vector<double> heights_m;
   for (const Transducer& transducer : transducers) {
     if (mounts.size() == kMost) {
       context.report.note("transducers", transducer.place,
                           "a ring of at most 64 transducers; further ones are left out");
       break;
     }
-    if (transducer.range_max_m != first.range_max_m) {
-      context.report.note("ranges", transducer.place,
-                          "the transducers of a ring have one range, the longest of them");
-    }
-    if (transducer.mount.z_m != first.mount.z_m || transducer.size_z_m != first.size_z_m) {
-      context.report.note("heights of transducers", transducer.place,
-                          "the transducers of a ring have one height, that of the first one");
-    }
+    ranges_m.push_back(range_of(transducer.range_max_m));
+    heights_m.push_back(height_of(mount.z_m + transducer.mount.z_m + 0.5 * transducer.size_z_m));
+    robot.sensor_heights_m.push_back(heights_m.back());
     range_max_m = std::max(range_max_m, transducer.range_max_m);
     variance = std::max(variance, transducer.noise_variance);
     share = std::max(share, transducer.noise_share);
     mounts.push_back(pose_json(mount.X_BM * first_ray(transducer)));
   }
-  const double height_m = mount.z_m + first.mount.z_m + 0.5 * first.size_z_m;
+  const auto differ = [](const std::vector<double>& list) {
+    return std::adjacent_find(list.begin(), list.end(), std::not_equal_to<>()) != list.end();
+  };
   sonar["frequency"] = neat(frequency_hz);
   sonar["range_max"] = range_of(range_max_m);
   sonar["field_of_view_deg"] = view_deg(first.view_rad, 180.0);
   sonar["single_ray"] = true;
   add_reports(first, sonar);
-  sonar["height"] = height_of(height_m);
+  sonar["height"] = heights_m.empty() ? height_of(mount.z_m) : heights_m.front();
+  if (differ(ranges_m)) {
+    sonar["ranges_max"] = ranges_m;
+    sonar.erase("intensity");  // programs know one range, so they cannot tell what has an echo
+    context.report.note("intensities", transducers.front().place,
+                        "a ranger whose sensors have different ranges states no intensities");
+  }
+  if (differ(heights_m) && !robot.flat) sonar["heights"] = heights_m;
   if (variance > 0.0) sonar["noise"] = neat(std::sqrt(variance));
   if (share > 0.0) sonar["noise_share"] = neat(std::min(1.0, share / std::sqrt(3.0)));
   sonar["mounts"] = std::move(mounts);
-  robot.sensor_heights_m.push_back(height_m);
   add(robot, "ranger", "sonar", std::move(sonar));
 }
 
