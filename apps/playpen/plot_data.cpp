@@ -226,12 +226,14 @@ std::vector<Outline> solids_of(const sim::ArenaDescription& arena) {
     solids.emplace_back(std::vector<Vec2>{low, {high.x(), low.y()}, high, {low.x(), high.y()}});
   }
   for (const auto& box : arena.obstacles) {
-    if (box.state == sim::ObstacleState::kExtended) {
+    if (box.solid && box.state == sim::ObstacleState::kExtended) {
       solids.emplace_back(sim::outline_of(box, kRoundness_m));
     }
   }
   for (const auto& box : arena.dock_separators) solids.emplace_back(sim::box_corners(box));
-  for (const sim::WallLoop& loop : arena.walls) solids.emplace_back(loop.vertices);
+  for (const sim::WallLoop& loop : arena.walls) {
+    if (loop.solid) solids.emplace_back(loop.vertices);
+  }
   return solids;
 }
 

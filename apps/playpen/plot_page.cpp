@@ -212,6 +212,7 @@ sim::SceneSnapshot scene_of(const std::vector<RunData>& runs, const std::vector<
       }
     }
     robot.footprint = model->footprint;
+    robot.parts = model->parts;
     for (const sim::Superstructure& part : model->superstructures) {
       robot.superstructures.push_back(part.outline);
     }

@@ -54,14 +54,16 @@ void Sensor::archive(StateArchive& archive) {
   archive.time(next_due_ns_);
 }
 
-bool is_safely_inside(const Polygon& footprint, const Pose& X_BL) {
-  for (std::size_t i = 0; i < footprint.size(); ++i) {
-    const Vec2& a = footprint[i];
-    const Vec2 edge = footprint[(i + 1) % footprint.size()] - a;
-    const Vec2 inward = Vec2(-edge.y(), edge.x()).normalized();
-    if (inward.dot(X_BL.position() - a) < 0.005) return false;
-  }
-  return true;
+bool is_safely_inside(const RobotModel& model, const Pose& X_BL) {
+  return std::ranges::any_of(body_parts(model), [&X_BL](const Polygon& part) {
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const Vec2& a = part[i];
+      const Vec2 edge = part[(i + 1) % part.size()] - a;
+      const Vec2 inward = Vec2(-edge.y(), edge.x()).normalized();
+      if (inward.dot(X_BL.position() - a) < 0.005) return false;
+    }
+    return true;
+  });
 }
 
 }  // namespace sim

@@ -99,9 +99,9 @@ template <typename Params, typename Complete>
   return row;
 }
 
-/// Whether a mounting is so far within the footprint that no solid reaches it; robots penetrate
-/// solids by less than 2 mm.
-[[nodiscard]] bool is_safely_inside(const Polygon& footprint, const Pose& X_BL);
+/// Whether a mounting is so far within a part of the body that no solid reaches it; robots
+/// penetrate solids by less than 2 mm.
+[[nodiscard]] bool is_safely_inside(const RobotModel& model, const Pose& X_BL);
 
 /// @name Fields common to many devices
 /// @{

@@ -173,7 +173,7 @@ DeviceKind laser_kind() {
       "laser", {{"laser"}, {"ranger"}},
       [](const DeviceConstruction& construction, const LaserParams& params) {
         return std::make_unique<Laser>(construction.name(), params,
-                                       !is_safely_inside(construction.model.footprint, params.X_BL),
+                                       !is_safely_inside(construction.model, params.X_BL),
                                        construction.noise());
       });
 }

@@ -206,7 +206,7 @@ std::optional<FieldError> check_transducers(const RangerParams& params) {
 constexpr auto kMakeRanger = [](const DeviceConstruction& construction,
                                 const RangerParams& params) {
   const bool may_be_inside = !std::ranges::all_of(params.X_BS, [&construction](const Pose& X_BS) {
-    return is_safely_inside(construction.model.footprint, X_BS);
+    return is_safely_inside(construction.model, X_BS);
   });
   return std::make_unique<Ranger>(construction.name(), construction.device.type, params,
                                   may_be_inside, construction.noise());

@@ -44,7 +44,7 @@ struct NamedSolid {
 std::vector<NamedSolid> standing_solids(const ArenaDescription& arena) {
   std::vector<NamedSolid> solids;
   for (const ObstacleDescription& obstacle : arena.obstacles) {
-    if (obstacle.state == ObstacleState::kExtended && obstacle.carried_by < 0) {
+    if (obstacle.solid && obstacle.state == ObstacleState::kExtended && obstacle.carried_by < 0) {
       solids.push_back({&obstacle, false, solids_of(obstacle)});
     }
   }
@@ -69,10 +69,11 @@ struct Blockage {
 };
 
 /// All obstructions of a robot or an obstacle that consists of the solids `body`.
+/// @param solid  false: only the edge of the floor obstructs it.
 std::vector<Blockage> blockages(const ArenaDescription& arena,
                                 const std::vector<NamedSolid>& solids,
                                 const std::vector<StandingRobot>& robots,
-                                const std::vector<Solid>& body) {
+                                const std::vector<Solid>& body, bool solid) {
   std::vector<Blockage> found;
   const auto note = [&found](Blockage::Kind kind, double depth_m) -> Blockage& {
     found.push_back({kind, depth_m});
@@ -80,6 +81,7 @@ std::vector<Blockage> blockages(const ArenaDescription& arena,
   };
   const auto [side, beyond_m] = beyond_floor(arena, body);
   if (beyond_m > 0.0) note(Blockage::Kind::kOutside, beyond_m).side = side;
+  if (!solid) return found;
   for (const NamedSolid& other : solids) {
     const double depth_m = overlap_m(body, other.parts);
     if (depth_m > 0.0) note(Blockage::Kind::kObstacle, depth_m).solid = &other;
@@ -300,7 +302,7 @@ class Checker {
     const std::vector<NamedSolid> solids = standing_solids(arena);
     for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
       const ObstacleDescription& obstacle = arena.obstacles[i];
-      if (!is_movable(obstacle)) continue;
+      if (!is_movable(obstacle) || !obstacle.solid) continue;
       const std::vector<Solid> body = solids_of(obstacle);
       const auto add_overlap = [&](const std::string& expected, const std::string& found) {
         add("world/obstacles-overlap", obstacle_pointer(i) + "/center",
@@ -343,8 +345,8 @@ class Checker {
         continue;
       }
       const std::string who = "robot " + robot.name + " at " + place(robot.pose.position());
-      std::vector<Solid> body{Solid(placed(model->footprint, robot.pose))};
-      for (const Blockage& b : blockages(world_.arena, solids, before, body)) {
+      std::vector<Solid> body = solids_of(*model, robot.pose);
+      for (const Blockage& b : blockages(world_.arena, solids, before, body, model->solid)) {
         switch (b.kind) {
           case Blockage::Kind::kOutside:
             add("world/robot-outside", pointer, "a place on " + floor_text(world_.arena),
@@ -376,7 +378,7 @@ class Checker {
             break;
         }
       }
-      before.emplace_back(i, std::move(body));
+      if (model->solid) before.emplace_back(i, std::move(body));
     }
   }
 
@@ -420,15 +422,15 @@ namespace {
 /// The first obstruction of solids, in words, where the robot itself does not count.
 std::optional<std::string> first_blockage(const WorldDescription& world,
                                           const std::vector<Pose>& poses, std::size_t robot,
-                                          const std::vector<Solid>& body) {
+                                          const std::vector<Solid>& body, bool solid) {
   std::vector<StandingRobot> others;
   for (std::size_t i = 0; i < world.robots.size(); ++i) {
     const RobotModel* model = find_robot_model(world, world.robots[i].model);
-    if (i == robot || model == nullptr) continue;
-    others.emplace_back(i, std::vector{Solid(placed(model->footprint, poses.at(i)))});
+    if (i == robot || model == nullptr || !model->solid) continue;
+    others.emplace_back(i, solids_of(*model, poses.at(i)));
   }
   const std::vector<NamedSolid> solids = standing_solids(world.arena);
-  const std::vector<Blockage> found = blockages(world.arena, solids, others, body);
+  const std::vector<Blockage> found = blockages(world.arena, solids, others, body, solid);
   if (found.empty()) return std::nullopt;
   const Blockage& first = found.front();
   switch (first.kind) {
@@ -454,13 +456,13 @@ std::optional<std::string> blocked_by(const WorldDescription& world, const std::
                                       std::size_t robot, const Pose& X_WB) {
   const RobotModel* own = find_robot_model(world, world.robots.at(robot).model);
   SIM_ASSERT(own != nullptr);
-  return first_blockage(world, poses, robot, {Solid(placed(own->footprint, X_WB))});
+  return first_blockage(world, poses, robot, solids_of(*own, X_WB), own->solid);
 }
 
 std::optional<std::string> put_down_blocked_by(const WorldDescription& world,
                                                const std::vector<Pose>& poses, std::size_t robot,
                                                const ObstacleDescription& obstacle) {
-  return first_blockage(world, poses, robot, solids_of(obstacle));
+  return first_blockage(world, poses, robot, solids_of(obstacle), obstacle.solid);
 }
 
 std::optional<std::string> outside_floor(const ArenaDescription& arena,
@@ -482,7 +484,8 @@ std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon&
   const std::vector<NamedSolid> solids = standing_solids(arena);
   std::vector<Solid> robots;
   for (const RobotDescription& robot : world.robots) {
-    if (const RobotModel* model = find_robot_model(world, robot.model)) {
+    const RobotModel* model = find_robot_model(world, robot.model);
+    if (model != nullptr && model->solid) {
       robots.emplace_back(placed(model->footprint, robot.pose));
     }
   }

@@ -116,6 +116,7 @@ void read_blocks(Reader& arena, const char* key, const char* prefix, bool separa
         block.fiducial = read_fiducial(reader);
         block.tags = read_tags(reader);
         block.portable = reader.boolean("portable", block.portable);
+        block.solid = reader.boolean("solid", block.solid);
         if (reader.has("colour")) block.colour = reader.colour("colour", {});
         read_motion(reader, block);
       }

@@ -65,31 +65,56 @@ void read_device(Reader& settings, const std::string& name,
   devices[name] = {name, type_name, std::move(params), {given.begin(), given.end()}};
 }
 
-// Reads a list of points; in the result they are counter-clockwise. nullopt if it is none.
+// Reads points; in the result they are counter-clockwise. nullopt if one is none.
+std::optional<Polygon> read_points(std::vector<Reader> vertices) {
+  Polygon outline;
+  const Vec2 not_read = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (Reader& vertex : vertices) {
+    outline.push_back(vertex.as_vec2(not_read, kVertex));
+    if (!outline.back().allFinite()) return std::nullopt;
+  }
+  if (area_m2(outline) < 0.0) std::reverse(outline.begin(), outline.end());
+  return outline;
+}
+
 std::optional<Polygon> read_points(Reader& owner, const char* key) {
   if (!owner.require(key, "the outline: a list of points [x, y] round it, in m")) {
     return std::nullopt;
   }
   const Reader list = *owner.child(key);
-  Polygon outline;
-  const Vec2 not_read = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
-  for (Reader& vertex : owner.array(key)) {
-    outline.push_back(vertex.as_vec2(not_read, kVertex));
-    if (!outline.back().allFinite()) return std::nullopt;
-  }
-  if (!list.is_array()) return std::nullopt;
-  if (area_m2(outline) < 0.0) std::reverse(outline.begin(), outline.end());
-  return outline;
+  std::optional<Polygon> outline = read_points(owner.array(key));
+  return list.is_array() ? outline : std::nullopt;
 }
 
-Polygon read_footprint(Reader& model) {
-  const std::optional<Polygon> outline = read_points(model, "footprint");
-  if (!outline) return {};
-  if (auto error = check_footprint(*outline)) {
-    model.issue("world/bad-footprint", std::move(error->expected), std::move(error->found),
-                std::move(error->hint), "footprint");
+// Whether a footprint is a list of parts, each a list of points.
+bool has_parts(Reader& model) {
+  const std::optional<Reader> footprint = model.child("footprint");
+  if (!footprint) return false;
+  const std::vector<Reader> parts = footprint->elements();
+  if (parts.empty()) return false;
+  const std::vector<Reader> points = parts.front().elements();
+  return !points.empty() && points.front().is_array();
+}
+
+void read_footprint(Reader& reader, RobotModel& model) {
+  std::optional<SolidError> error;
+  if (has_parts(reader)) {
+    std::vector<Vec2> corners;
+    for (const Reader& part : reader.array("footprint")) {
+      std::optional<Polygon> outline = read_points(part.elements());
+      if (!outline) return;
+      corners.insert(corners.end(), outline->begin(), outline->end());
+      model.parts.push_back(*std::move(outline));
+    }
+    error = check_parts(model);
+    if (!error) model.footprint = convex_outline(std::move(corners));
+  } else if (std::optional<Polygon> outline = read_points(reader, "footprint")) {
+    error = check_footprint(*outline);
+    model.footprint = *std::move(outline);
   }
-  return *outline;
+  if (!error) return;
+  reader.issue("world/bad-footprint", std::move(error->expected), std::move(error->found),
+               std::move(error->hint), "footprint");
 }
 
 std::vector<Superstructure> read_superstructures(Reader& model, double body_height_m) {
@@ -143,7 +168,8 @@ RobotModel read_model_document(Reader& root, const std::vector<DeviceType>& type
   static_cast<void>(root.string("$schema", ""));
   if (root.require("name", "what to call the model")) model.name = root.name("name", "");
   model.description = root.string("description", "");
-  model.footprint = read_footprint(root);
+  read_footprint(root, model);
+  model.solid = root.boolean("solid", model.solid);
   model.height_m =
       root.number("height", model.height_m, {kLeastLength_m, kGreatestRobotHeight_m, false, "m"});
   model.superstructures = read_superstructures(root, model.height_m);

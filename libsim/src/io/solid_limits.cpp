@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMostVertices = 8;
 // A smaller robot is within the tolerances of the contact solver.
 constexpr double kLeastArea_m2 = 1e-4;
-constexpr double kLeastSuperstructureArea_m2 = 1e-6;
+constexpr double kLeastPartArea_m2 = 1e-6;
 // Distance of a vertex from the centre of the axle.
 constexpr double kFarthestVertex_m = 100.0;
 
@@ -171,7 +171,7 @@ std::optional<SolidError> check_convex(const char* key, const Polygon& outline, 
   if (!is_convex(outline)) {
     return SolidError{key, "the corners of a convex outline, in order",
                       "an outline with a notch, a straight corner or a crossing",
-                      "take the convex outline round the robot"};
+                      "take the convex outline round the robot, or a list of convex parts"};
   }
   if (area_m2(outline) < least_m2) {
     return SolidError{key, std::string("an outline of at least ") + least_text,
@@ -327,8 +327,23 @@ std::optional<SolidError> check_footprint(const Polygon& outline) {
   return check_convex("/footprint", outline, kLeastArea_m2, "1 cm^2");
 }
 
+std::optional<SolidError> check_parts(const RobotModel& model) {
+  const std::size_t count = model.parts.size();
+  if (count < 2 || count > kMostBodyParts) {
+    return SolidError{"/footprint", "2 to " + std::to_string(kMostBodyParts) + " convex parts",
+                      std::to_string(count), "a list of corners is a footprint of one part"};
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    auto error = check_convex("/footprint", model.parts[i], kLeastPartArea_m2, "1 mm^2");
+    if (!error) continue;
+    error->found += " in part " + std::to_string(i);
+    return error;
+  }
+  return std::nullopt;
+}
+
 std::optional<SolidError> check_superstructure(const Superstructure& part, double body_height_m) {
-  if (auto error = check_convex("/outline", part.outline, kLeastSuperstructureArea_m2, "1 mm^2")) {
+  if (auto error = check_convex("/outline", part.outline, kLeastPartArea_m2, "1 mm^2")) {
     return error;
   }
   if (part.height_m > body_height_m && part.height_m <= kGreatestRobotHeight_m) return std::nullopt;
@@ -340,7 +355,11 @@ std::optional<SolidError> check_superstructure(const Superstructure& part, doubl
 
 std::optional<SolidError> check_model(const RobotModel& model) {
   constexpr double kGreatestRobot_m = 100.0;
-  if (auto error = check_footprint(model.footprint)) return error;
+  if (model.parts.empty()) {
+    if (auto error = check_footprint(model.footprint)) return error;
+  } else if (auto error = check_parts(model)) {
+    return error;
+  }
   const DriveDescription& drive = model.drive;
   using Length = std::pair<const char*, double>;
   for (const auto& [key, value_m] :

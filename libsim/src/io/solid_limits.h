@@ -46,6 +46,8 @@ struct SolidError {
 /// Checks a robot's outline: 3 to 8 vertices, convex, counter-clockwise, at least 1 cm^2 large and
 /// kLeastLength_m across, no side shorter than that.
 [[nodiscard]] std::optional<SolidError> check_footprint(const Polygon& outline);
+/// Checks the parts of a body that has several.
+[[nodiscard]] std::optional<SolidError> check_parts(const RobotModel& model);
 
 /// Checks a superstructure of a robot: 3 to 8 vertices, convex, counter-clockwise, at least 1 mm^2
 /// large and kLeastLength_m across, no side shorter than that; higher than the body, at most 10 m.

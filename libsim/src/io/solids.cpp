@@ -70,8 +70,9 @@ bool crosses(const Solid& solid, const Vec2& from, const Vec2& to) {
 
 /// Whether the point lies in the solid of the walls: inside an odd number of loops.
 bool in_solid(const std::vector<WallLoop>& walls, const Vec2& p) {
-  return std::count_if(walls.begin(), walls.end(),
-                       [&p](const WallLoop& loop) { return is_inside(loop.vertices, p); }) %
+  return std::count_if(
+             walls.begin(), walls.end(),
+             [&p](const WallLoop& loop) { return loop.solid && is_inside(loop.vertices, p); }) %
              2 ==
          1;
 }
@@ -92,6 +93,12 @@ Polygon placed(const Polygon& footprint, const Pose& X_WB, double scale) {
   outline.reserve(footprint.size());
   for (const Vec2& p : footprint) outline.push_back(X_WB * Vec2(p * scale));
   return outline;
+}
+
+std::vector<Solid> solids_of(const RobotModel& model, const Pose& X_WB) {
+  std::vector<Solid> solids;
+  for (const Polygon& part : body_parts(model)) solids.emplace_back(placed(part, X_WB));
+  return solids;
 }
 
 std::vector<Solid> solids_of(const ObstacleDescription& obstacle) {
@@ -139,6 +146,7 @@ double overlap_m(const std::vector<Solid>& a, const std::vector<Solid>& b) {
 
 std::optional<Vec2> wall_within(const std::vector<WallLoop>& walls, const Solid& solid) {
   for (const WallLoop& loop : walls) {
+    if (!loop.solid) continue;
     for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
       const Vec2& a = loop.vertices[i];
       const Vec2& b = loop.vertices[(i + 1) % loop.vertices.size()];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/world/description.h"
+#include "sim/world/robot_model.h"
 
 /// Overlaps of solids that stand on the floor, in double precision.
 namespace sim::io {
@@ -28,6 +29,9 @@ struct Solid {
 
 /// A footprint at a pose in W, scaled about the body's origin.
 [[nodiscard]] Polygon placed(const Polygon& footprint, const Pose& X_WB, double scale = 1.0);
+
+/// Convex solids that together are the body of a robot at a pose in W.
+[[nodiscard]] std::vector<Solid> solids_of(const RobotModel& model, const Pose& X_WB);
 
 /// Convex solids that together are the obstacle.
 [[nodiscard]] std::vector<Solid> solids_of(const ObstacleDescription& obstacle);

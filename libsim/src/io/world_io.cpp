@@ -287,6 +287,7 @@ class WorldReader {
         reader.number("occupied_threshold", map.occupied_threshold, {0.0, 1.0, true, ""});
     map.simplify_m = reader.number("simplify", map.simplify_m, {0.0, 10.0, false, "m"});
     if (reader.has("height")) map.height_m = reader.number("height", 1.0, kHeight);
+    map.solid = reader.boolean("solid", map.solid);
     reader.finish();
     arena.maps.push_back(map);
     if (!named || document_.has_issue_at(reader.pointer())) return;
@@ -319,6 +320,7 @@ class WorldReader {
     if (map.simplify_m > 0.0) simplify_walls(*walls, map.simplify_m);
     for (WallLoop& loop : *walls) {
       if (map.height_m) loop.height_m = *map.height_m;
+      loop.solid = map.solid;
       arena.walls.push_back(std::move(loop));
     }
   }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "sim/core/assert.h"
@@ -86,6 +87,7 @@ void Bodies::attach(b2Body* body, const b2Shape& shape, FixtureInfo* info, float
   def.friction = 0.0F;
   def.restitution = 0.0F;
   def.userData.pointer = reinterpret_cast<uintptr_t>(info);
+  if (!info->solid) def.filter.maskBits = 0;
   body->CreateFixture(&def);
 }
 
@@ -101,25 +103,30 @@ void Bodies::append_outline(FixtureInfo& info, const std::vector<Vec2>& vertices
 
 void Bodies::add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int index) {
   const std::vector<Vec2> corners = corners_of(o);
+  const auto new_part = [&] {
+    FixtureInfo* info = new_info(kind, index, o.height_m);
+    info->solid = o.solid;
+    return info;
+  };
   b2BodyDef def;  // a separate body, so that it can be disabled
   b2Body* body = world_.CreateBody(&def);
   Parts parts{infos_.size(), 1, o.shape};
   if (is_movable(o)) {
     parts.count = 0;
   } else if (o.shape == ObstacleShape::kCircle) {
-    FixtureInfo* info = new_info(kind, index, o.height_m);
+    FixtureInfo* info = new_part();
     info->cylinder = static_cast<int>(cylinders_.size());
     cylinders_.push_back({o.center, radius_m(o), o.height_m, index});
     attach(body, circle_shape(o.center, radius_m(o)), info, 0.0F);
   } else if (o.shape == ObstacleShape::kBox || is_one_polygon(corners)) {
-    FixtureInfo* info = new_info(kind, index, o.height_m);
+    FixtureInfo* info = new_part();
     append_outline(*info, corners);
     attach(body, polygon_shape(corners), info, 0.0F);
   } else {
     parts.count = corners.size();
     edged_.push_back(obstacles_.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      FixtureInfo* info = new_info(kind, index, o.height_m);
+      FixtureInfo* info = new_part();
       const Vec2& a = corners[i];
       const Vec2& b = corners[(i + 1) % corners.size()];
       info->first_edge = edges_.edges.size();
@@ -179,6 +186,7 @@ void Bodies::add_wall(const WallLoop& loop) {
     const Vec2& a = loop.vertices[i];
     const Vec2& b = loop.vertices[(i + 1) % n];
     FixtureInfo* info = new_info(Contact::Kind::kWall, -1, loop.height_m);
+    info->solid = loop.solid;
     info->first_edge = edges_.edges.size();
     info->edge_count = 1;
     edges_.add({a.x(), a.y(), b.x(), b.y()}, info->height_m);
@@ -260,12 +268,16 @@ int Bodies::add_robot(const RobotModel& model, const Pose& X_WB) {
   Robot r;
   r.state = &states_.emplace_back();
   r.details = &details_.emplace_back();
-  r.details->shape = polygon_shape(model.footprint);
-  r.details->reaching_shape = r.details->shape;
-  r.details->reaching_shape.m_radius = static_cast<float>(3.0 * kMaxTravel_m) * kScaleF;
+  const std::span<const Polygon> parts = body_parts(model);
+  r.details->shape = polygon_shape(parts.front());
+  for (const Polygon& part : parts.subspan(1)) {
+    r.details->further.push_back(polygon_shape(part));
+  }
   r.drive = model.drive.kind;
   r.details->height_m = model.height_m;
-  for (const Vec2& v : model.footprint) r.radius_m = std::max(r.radius_m, v.norm());
+  for (const Polygon& part : parts) {
+    for (const Vec2& v : part) r.radius_m = std::max(r.radius_m, v.norm());
+  }
   r.details->own_radius_m = r.radius_m;
   r.details->superstructures = model.superstructures;
   for (const Superstructure& part : model.superstructures) {
@@ -279,6 +291,15 @@ int Bodies::add_robot(const RobotModel& model, const Pose& X_WB) {
   r.details->traction_arm_m =
       r.drive == DriveKind::kDifferential ? 0.5 * model.drive.wheel_separation_m : r.radius_m;
   r.details->info = new_info(Contact::Kind::kRobot, index, model.height_m);
+  r.details->info->solid = model.solid;
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    FixtureInfo* info = new_info(Contact::Kind::kRobot, index, model.height_m);
+    info->body = index;
+    info->part = i;
+    info->solid = model.solid;
+    r.details->further_infos.push_back(info);
+  }
+  has_parts_ = has_parts_ || parts.size() > 1;
   r.details->mass_kg = model.mass_kg;
   ++robot_count_;
   return add_body(std::move(r));
@@ -308,9 +329,7 @@ int Bodies::add_moving_obstacle(int index, const ObstacleDescription& o) {
     }
     d.obstacle.p_BO = -middle;
     d.shape = polygon_shape(outline);
-    d.reaching_shape = d.shape;
   }
-  d.reaching_shape.m_radius = static_cast<float>(3.0 * kMaxTravel_m) * kScaleF;
   d.height_m = o.height_m;
   d.own_radius_m = r.radius_m;
   d.seen_radius_m = r.radius_m;
@@ -320,6 +339,7 @@ int Bodies::add_moving_obstacle(int index, const ObstacleDescription& o) {
   r.X_WB = {p_WB.x(), p_WB.y(), X_WO.yaw_rad};
   d.mass_kg = o.mass_kg.value_or(kMovingObstacleMass_kg);
   d.info = new_info(Contact::Kind::kObstacle, index, o.height_m);
+  d.info->solid = o.solid;
   if (d.round) {
     d.round_load.push_back({Vec2::Zero(), r.radius_m, d.height_m, index});
   }
@@ -403,29 +423,39 @@ void Bodies::set_suspended(Robot& r, bool suspended) {
 
 int Bodies::robot_within(const b2Shape& shape, const b2Transform& xf, int ignored) const {
   const auto it = std::find_if(robots_.begin(), robots_.end(), [&](const Robot& r) {
-    return r.details->info->body != ignored &&
-           b2TestOverlap(&shape, 0, &r.details->solid(), 0, xf, transform_of(r));
+    if (r.details->info->body == ignored || !r.details->info->solid) return false;
+    for (std::size_t i = 0; i < r.details->part_count(); ++i) {
+      if (b2TestOverlap(&shape, 0, &r.details->part(i), 0, xf, transform_of(r))) return true;
+    }
+    return false;
   });
   return it == robots_.end() ? -1 : static_cast<int>(it - robots_.begin());
 }
 
 int Bodies::robot_within(const std::vector<Vec2>& outline, int ignored) const {
   const auto overlaps = [&outline, ignored](const Robot& r) {
-    if (r.details->info->body == ignored) return false;
+    if (r.details->info->body == ignored || !r.details->info->solid) return false;
     const b2Transform xf = transform_of(r);
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const b2EdgeShape side = edge_shape(outline, i);
-      if (b2TestOverlap(&side, 0, &r.details->solid(), 0, identity_transform(), xf)) return true;
+      for (std::size_t k = 0; k < r.details->part_count(); ++k) {
+        if (b2TestOverlap(&side, 0, &r.details->part(k), 0, identity_transform(), xf)) return true;
+      }
     }
-    const b2Vec2 point =
-        b2Mul(xf, r.details->round ? b2Vec2(0.0F, 0.0F) : r.details->shape.m_vertices[0]);
-    return is_inside(outline, {metres(point.x), metres(point.y)});
+    const auto is_within = [&](const b2Vec2& p_B) {
+      const b2Vec2 point = b2Mul(xf, p_B);
+      return is_inside(outline, {metres(point.x), metres(point.y)});
+    };
+    return is_within(r.details->round ? b2Vec2(0.0F, 0.0F) : r.details->shape.m_vertices[0]) ||
+           std::any_of(r.details->further.begin(), r.details->further.end(),
+                       [&](const b2PolygonShape& part) { return is_within(part.m_vertices[0]); });
   };
   const auto it = std::find_if(robots_.begin(), robots_.end(), overlaps);
   return it == robots_.end() ? -1 : static_cast<int>(it - robots_.begin());
 }
 
 int Bodies::robot_within(const ObstacleDescription& solid, int ignored) const {
+  if (!solid.solid) return -1;
   if (solid.shape == ObstacleShape::kCircle) {
     return robot_within(circle_shape(solid.center, radius_m(solid)), identity_transform(), ignored);
   }
@@ -438,6 +468,7 @@ int Bodies::robot_within(const ObstacleDescription& solid, int ignored) const {
 
 int Bodies::robot_on(int index) const {
   const Parts& parts = parts_[static_cast<std::size_t>(index)];
+  if (parts.count > 0 && !infos_[parts.first_info]->solid) return -1;
   if (parts.count > 1) return robot_within(corners_of_parts(parts), -1);
   const b2Body& block = obstacle(index);
   return robot_within(*block.GetFixtureList()->GetShape(), block.GetTransform(), -1);
@@ -446,7 +477,8 @@ int Bodies::robot_on(int index) const {
 bool Bodies::is_inside_edged(const Vec2& p_W, double height_m) const {
   for (const std::size_t i : edged_) {
     if (!obstacles_[i]->IsEnabled()) continue;
-    if (!reaches_height(infos_[parts_[i].first_info]->height_m, height_m)) continue;
+    const FixtureInfo& info = *infos_[parts_[i].first_info];
+    if (!info.solid || !reaches_height(info.height_m, height_m)) continue;
     if (is_inside(corners_of_parts(parts_[i]), p_W)) return true;
   }
   return false;
@@ -460,10 +492,18 @@ void Bodies::create_box2d_body(Robot& r) {
   def.angle = static_cast<float>(r.X_WB.yaw_rad);
   r.body = world_.CreateBody(&def);
   ++in_box2d_;
-  b2MassData unit;
-  r.details->solid().ComputeMass(&unit, 1.0F);
-  attach(r.body, r.details->solid(), r.details->info,
-         static_cast<float>(r.details->mass_kg) / unit.mass);
+  RobotDetails& d = *r.details;
+  float area = 0.0F;
+  for (std::size_t i = 0; i < d.part_count(); ++i) {
+    b2MassData unit;
+    d.part(i).ComputeMass(&unit, 1.0F);
+    area += unit.mass;
+  }
+  const float density = static_cast<float>(d.mass_kg) / area;
+  attach(r.body, d.solid(), d.info, density);
+  for (std::size_t i = 0; i < d.further.size(); ++i) {
+    attach(r.body, d.further[i], d.further_infos[i], density);
+  }
   center_mass_on_axle(*r.body);
   if (r.suspended) make_heavy(*r.body);
   if (r.pushable) add_joint(r);

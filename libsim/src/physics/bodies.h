@@ -47,6 +47,8 @@ class Bodies {
   [[nodiscard]] int body_of(const Contact& target) const;
   /// Whether robots can push any obstacle.
   [[nodiscard]] bool has_pushable() const noexcept { return has_pushable_; }
+  /// Whether any robot has a body of several parts.
+  [[nodiscard]] bool has_parts() const noexcept { return has_parts_; }
   /// Pose X_WO of an obstacle that moves.
   [[nodiscard]] static Pose obstacle_pose(const Robot& r);
   [[nodiscard]] std::vector<Robot>& robots() noexcept { return robots_; }
@@ -162,6 +164,7 @@ class Bodies {
   std::vector<Robot> robots_;  // robots, then obstacles that move
   std::size_t robot_count_ = 0;
   bool has_pushable_ = false;
+  bool has_parts_ = false;
   std::deque<BodyState> states_;      // of `robots_`
   std::deque<RobotDetails> details_;  // of `robots_`
   std::vector<int> with_superstructures_;

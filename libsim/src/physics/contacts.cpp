@@ -79,6 +79,27 @@ void Contacts::EndContact(b2Contact* contact) {
   count_contact(*contact, contact->GetFixtureB(), contact->GetFixtureA(), -1);
 }
 
+void Contacts::PreSolve(b2Contact* contact, const b2Manifold*) {
+  if (!bodies_.has_parts()) return;
+  b2WorldManifold points;
+  contact->GetWorldManifold(&points);
+  // The normal points from fixture A to B.
+  const auto is_inside = [&](const b2Fixture* fixture, float sign, const b2Vec2& point) {
+    const FixtureInfo& info = info_of(fixture);
+    if (info.kind != Contact::Kind::kRobot) return false;
+    const b2Transform& xf = fixture->GetBody()->GetTransform();
+    return is_between_parts(*bodies_.robot(info.index).details, info.part, b2MulT(xf, point),
+                            sign * b2MulT(xf.q, points.normal));
+  };
+  for (int32 i = 0; i < contact->GetManifold()->pointCount; ++i) {
+    if (!is_inside(contact->GetFixtureA(), 1.0F, points.points[i]) &&
+        !is_inside(contact->GetFixtureB(), -1.0F, points.points[i])) {
+      return;
+    }
+  }
+  contact->SetEnabled(false);
+}
+
 std::vector<Contact> Contacts::of(int robot) const {
   std::vector<Contact> contacts;
   const b2Body* body = bodies_.robot(robot).body;

@@ -28,6 +28,8 @@ class Contacts final : public b2ContactListener {
 
   void BeginContact(b2Contact* contact) override;
   void EndContact(b2Contact* contact) override;
+  /// Disables contacts between two parts of a body, see is_between_parts().
+  void PreSolve(b2Contact* contact, const b2Manifold* before) override;
 
  private:
   [[nodiscard]] std::size_t slot(const FixtureInfo& info) const;

@@ -40,6 +40,9 @@ constexpr double kTraction = 0.75;
 // velocity's error decays if the gain is below 1.
 constexpr double kPushGain = 0.2;
 
+// Skin of a robot's shape that finds contacts in advance.
+constexpr float kReach = static_cast<float>(3.0 * kMaxTravel_m) * kScaleF;
+
 constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
 
@@ -59,9 +62,9 @@ double advance_m(const Robot& r, const b2Transform& xf, const b2Vec2& direction,
   // About B, in the direction of the rotation.
   float lever = r.details->round ? 0.0F : -b2_maxFloat;
   const float sense = twist.omega_radps < 0.0 ? -1.0F : 1.0F;
-  for (int32 i = 0; i < r.details->shape.m_count; ++i) {
-    lever = std::max(lever, sense * b2Cross(r.details->shape.m_vertices[i], n));
-  }
+  for_each_corner(*r.details, [&](const b2Vec2& corner) {
+    lever = std::max(lever, sense * b2Cross(corner, n));
+  });
   return (static_cast<double>(n.x) * twist.v_mps + static_cast<double>(n.y) * twist.lateral_mps +
           metres(lever) * std::abs(twist.omega_radps)) *
          dt_s;
@@ -273,13 +276,14 @@ void Mover::substep(double dt_s, bool first, bool last) {
   bodies_.note_moved();
 }
 
-// Adds the limits of the closing speed towards a circle for robot `r`. All point in the direction
-// from the nearest point of the robot to the circle. Besides that point, each corner is limited by
-// the gap along this direction, so that a side beside a large circle cannot turn into it.
-void Mover::add_round_constraints(const Robot& r, const b2CircleShape& circle,
+// Adds the limits of the closing speed towards a circle for a part of robot `r`. All point in the
+// direction from the nearest point of the robot to the circle. Besides that point, each corner is
+// limited by the gap along this direction, so that a side beside a large circle cannot turn into
+// it.
+void Mover::add_round_constraints(const Robot& r, std::size_t part, const b2CircleShape& circle,
                                   const b2Transform& circle_xf, double share, double dt_s) {
   const b2Vec2 center = b2Mul(circle_xf, circle.m_p);
-  const b2PolygonShape& shape = r.details->shape;
+  const auto& shape = static_cast<const b2PolygonShape&>(r.details->part(part));
   const double radius_m = metres(core_radius(circle));
   const double c = std::cos(r.X_WB.yaw_rad);
   const double s = std::sin(r.X_WB.yaw_rad);
@@ -307,8 +311,12 @@ void Mover::add_round_constraints(const Robot& r, const b2CircleShape& circle,
     constraints_.push_back({normal.x(), p.x() * normal.y() - p.y() * normal.x(),
                             share * std::max(0.0, gap_m - kRestingGap_m) / dt_s, normal.y()});
   };
-  const double reach_m = metres(r.details->reaching_shape.m_radius);
+  const double reach_m = metres(kReach);
   if (distance_m - radius_m > reach_m) return;
+  if (is_between_parts(*r.details, part, to_box2d(nearest),
+                       {static_cast<float>(normal.x()), static_cast<float>(normal.y())})) {
+    return;
+  }
   add(nearest, distance_m - radius_m);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 off = p_BC - corners[i];
@@ -336,7 +344,7 @@ void Mover::add_disc_constraint(const Robot& r, const b2Shape& other, const b2Tr
   b2Distance(&found, &cache, &input);
   if (found.distance <= 0.0F) return;
   const double gap_m = metres(found.distance - core_radius(r.details->disc) - core_radius(other));
-  if (gap_m > metres(r.details->reaching_shape.m_radius)) return;
+  if (gap_m > metres(kReach)) return;
   const b2Vec2 normal = (1.0F / found.distance) * (found.pointB - found.pointA);
   const double nx = static_cast<double>(normal.x);
   const double ny = static_cast<double>(normal.y);
@@ -346,31 +354,40 @@ void Mover::add_disc_constraint(const Robot& r, const b2Shape& other, const b2Tr
       {nx * c + ny * s, 0.0, share * std::max(0.0, gap_m - kRestingGap_m) / dt_s, ny * c - nx * s});
 }
 
-// Adds the limits of the closing speed that a pair of shapes implies for robot `r` to constraints_.
-// `share` is the fraction of the gap that r may close in this step.
+// Adds the limits of the closing speed that a solid implies for all parts of robot `r`.
 void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
                             double share, double dt_s) {
+  for (std::size_t part = 0; part < r.details->part_count(); ++part) {
+    add_constraints(r, part, other, other_xf, share, dt_s);
+  }
+}
+
+// Adds the limits of the closing speed that a pair of shapes implies for robot `r` to constraints_.
+// `share` is the fraction of the gap that r may close in this step.
+void Mover::add_constraints(const Robot& r, std::size_t part, const b2Shape& other,
+                            const b2Transform& other_xf, double share, double dt_s) {
   if (r.details->round) {
     add_disc_constraint(r, other, other_xf, share, dt_s);
     return;
   }
   if (other.GetType() == b2Shape::e_circle) {
-    add_round_constraints(r, static_cast<const b2CircleShape&>(other), other_xf, share, dt_s);
+    add_round_constraints(r, part, static_cast<const b2CircleShape&>(other), other_xf, share, dt_s);
     return;
   }
+  b2PolygonShape reaching = static_cast<const b2PolygonShape&>(r.details->part(part));
+  reaching.m_radius = kReach;
   const b2Transform xf = transform_of(r);
   b2Manifold manifold;
   b2WorldManifold points;
   double sign = 1.0;  // the normal points from A to B
   if (other.GetType() == b2Shape::e_polygon) {
     const auto& polygon = static_cast<const b2PolygonShape&>(other);
-    b2CollidePolygons(&manifold, &r.details->reaching_shape, xf, &polygon, other_xf);
-    points.Initialize(&manifold, xf, r.details->reaching_shape.m_radius, other_xf,
-                      polygon.m_radius);
+    b2CollidePolygons(&manifold, &reaching, xf, &polygon, other_xf);
+    points.Initialize(&manifold, xf, reaching.m_radius, other_xf, polygon.m_radius);
   } else {
     const auto& edge = static_cast<const b2EdgeShape&>(other);
-    b2CollideEdgeAndPolygon(&manifold, &edge, other_xf, &r.details->reaching_shape, xf);
-    points.Initialize(&manifold, other_xf, edge.m_radius, xf, r.details->reaching_shape.m_radius);
+    b2CollideEdgeAndPolygon(&manifold, &edge, other_xf, &reaching, xf);
+    points.Initialize(&manifold, other_xf, edge.m_radius, xf, reaching.m_radius);
     sign = -1.0;
   }
   if (manifold.pointCount == 0) return;
@@ -378,8 +395,10 @@ void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transf
   const double ny = sign * static_cast<double>(points.normal.y);
   const double c = std::cos(r.X_WB.yaw_rad);
   const double s = std::sin(r.X_WB.yaw_rad);
-  const double skins = static_cast<double>(r.details->reaching_shape.m_radius + other.m_radius);
+  const double skins = static_cast<double>(reaching.m_radius + other.m_radius);
+  const b2Vec2 normal_B = static_cast<float>(sign) * b2MulT(xf.q, points.normal);
   for (int32 i = 0; i < manifold.pointCount; ++i) {
+    if (is_between_parts(*r.details, part, b2MulT(xf, points.points[i]), normal_B)) continue;
     const double gap_m = (static_cast<double>(points.separations[i]) + skins) / kScale;
     const double rx = metres(points.points[i].x) - r.X_WB.x_m;
     const double ry = metres(points.points[i].y) - r.X_WB.y_m;
@@ -416,13 +435,17 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
     const double apart_m = near.apart_m - r.moved_m - other.moved_m;
     const double mine_m = share * (apart_m - kTouchingGap_m);
     if (mine_m > way_m) continue;
-    if (apart_m > 0.0 &&
+    // A body of several parts may be around the other one, so that no direction separates them.
+    const bool convex = r.details->further.empty() && other.details->further.empty();
+    if (convex && apart_m > 0.0 &&
         advance_m(r, xf, near.direction, r.target, dt_s) + kSecondOrder_m <= mine_m) {
       continue;
     }
     // The robots push each other: Box2D's solver distributes the momentum.
     if (!other.suspended && (touches(r.body, other.body) || r.pushable || other.pushable)) continue;
-    add_constraints(r, other.details->solid(), transform_of(other), share, dt_s);
+    for (std::size_t part = 0; part < other.details->part_count(); ++part) {
+      add_constraints(r, other.details->part(part), transform_of(other), share, dt_s);
+    }
   }
   if (constraints_.empty()) return r.target;
   switch (r.drive) {

@@ -30,7 +30,9 @@ class Mover {
   void substep(double dt_s, bool first, bool last);
   void add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
                        double share, double dt_s);
-  void add_round_constraints(const Robot& r, const b2CircleShape& circle,
+  void add_constraints(const Robot& r, std::size_t part, const b2Shape& other,
+                       const b2Transform& other_xf, double share, double dt_s);
+  void add_round_constraints(const Robot& r, std::size_t part, const b2CircleShape& circle,
                              const b2Transform& circle_xf, double share, double dt_s);
   void add_disc_constraint(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
                            double share, double dt_s);

@@ -53,6 +53,7 @@ void Neighbours::list_pairs() {
       const double dx = b.x - a.x;
       const double dy = b.y - a.y;
       if (dx * dx + dy * dy >= reach * reach) continue;
+      if (!is_solid(a.robot) || !is_solid(b.robot)) continue;
       pairs_.push_back({std::min(a.robot, b.robot),
                         std::max(a.robot, b.robot),
                         0.0,
@@ -90,11 +91,10 @@ double Neighbours::distance_m(const Robot& a, const Robot& b, double enough_m, P
   }
   const b2Transform xf_a = transform_of(a);
   const b2Transform xf_b = transform_of(b);
-  const double along_m = metres(least_along(pair.direction, b.details->solid(), xf_b) +
-                                least_along(-pair.direction, a.details->solid(), xf_a));
+  const double along_m = metres(least_along(pair.direction, *b.details, xf_b) +
+                                least_along(-pair.direction, *a.details, xf_a));
   if (along_m > enough_m) return along_m;
-  const b2DistanceOutput found =
-      distance_between(a.details->solid(), xf_a, b.details->solid(), xf_b, pair.cache);
+  const b2DistanceOutput found = distance_between(*a.details, xf_a, *b.details, xf_b, pair.cache);
   if (found.distance > 0.0F) {
     pair.direction = (1.0F / found.distance) * (found.pointB - found.pointA);
   }
@@ -159,6 +159,10 @@ void Neighbours::look_for_walls(Robot& r, double dt_s) {
   const double reach_m = wall_reach_m();
   double apart_m = r.wall_until_m - r.cumulative_max_travel_m;
   if (apart_m > reach_m) return;
+  if (!r.details->info->solid) {
+    r.wall_until_m = std::numeric_limits<double>::infinity();
+    return;
+  }
   const bool was_near = r.wall_until_m - r.wall_at_travel_m <= reach_m;
   // The exact distance is not needed while the robot can follow its target.
   const double way_m = most_travel_m(r, dt_s) + kTouchingGap_m;
@@ -179,6 +183,7 @@ void Neighbours::collect_candidates(Robot& r, const b2AABB& box, double reach_m)
   r.details->candidates_reach_m = reach_m;
   r.details->candidates_at_travel_m = cumulative_max_travel_m_;
   visit_fixed(bodies_.world(), expanded(box, reach_m), [&](const b2Fixture& fixture) {
+    if (!info_of(&fixture).solid) return;
     r.details->candidates.push_back(
         {fixture.GetShape(), -1 - static_cast<int>(info_of(&fixture).id), fixture.GetAABB(0), {}});
   });
@@ -186,7 +191,7 @@ void Neighbours::collect_candidates(Robot& r, const b2AABB& box, double reach_m)
   const Vec2 reach(r.radius_m + reach_m, r.radius_m + reach_m);
   bodies_.for_robots_in(p_WB - reach, p_WB + reach, [&](const Bodies::Circle& circle) {
     const Robot& other = bodies_.robot(circle.robot);
-    if (&other == &r) return;
+    if (&other == &r || !other.details->info->solid) return;
     r.details->candidates.push_back({&other.details->solid(), circle.robot, {}, {}});
   });
 }
@@ -212,12 +217,12 @@ Wall Neighbours::wall_of(const b2Fixture& fixture) const {
 double Neighbours::distance_to_walls_m(Robot& r) {
   const b2Transform xf = transform_of(r);
   if (!(r.cumulative_max_travel_m < r.details->walls_until_m)) {
-    b2AABB box;
-    r.details->solid().ComputeAABB(&box, xf, 0);
+    const b2AABB box = box_of(*r.details, xf);
     r.details->walls.clear();
     r.details->walls_until_m = r.cumulative_max_travel_m + kWallSearch_m;
-    visit_fixed(bodies_.world(), expanded(box, 2.0 * kWallSearch_m),
-                [&](const b2Fixture& fixture) { r.details->walls.push_back(wall_of(fixture)); });
+    visit_fixed(bodies_.world(), expanded(box, 2.0 * kWallSearch_m), [&](const b2Fixture& fixture) {
+      if (info_of(&fixture).solid) r.details->walls.push_back(wall_of(fixture));
+    });
   }
   double least_m = kWallSearch_m;
   for (Wall& wall : r.details->walls) {
@@ -236,7 +241,7 @@ double Neighbours::distance_to_walls_m(Robot& r) {
       }
     }
     const b2DistanceOutput found =
-        distance_between(r.details->solid(), xf, *wall.shape, identity_transform(), wall.cache);
+        distance_between(*r.details, xf, *wall.shape, identity_transform(), wall.cache);
     least_m = std::min(least_m, metres(found.distance));
   }
   return least_m;
@@ -258,8 +263,10 @@ bool Neighbours::is_near_wall(const Robot& r, const b2Contact& contact) const {
   if (other->GetBody() == r.body) other = contact.GetFixtureB();
   if (info_of(other).body >= 0) return false;
   const b2Transform& xf = r.body->GetTransform();
+  b2SimplexCache none;
+  none.count = 0;
   const double apart_m = metres(
-      distance_between(r.details->solid(), xf, *other->GetShape(), identity_transform()).distance);
+      distance_between(*r.details, xf, *other->GetShape(), identity_transform(), none).distance);
   return apart_m <= wall_reach_m();
 }
 
@@ -276,8 +283,7 @@ bool Neighbours::may_be_pushed_into_others(std::size_t index) const {
 
 double Neighbours::clearance_m(Robot& r, double limit_m, double exact_below_m) {
   const b2Transform xf = transform_of(r);
-  b2AABB box;
-  r.details->shape.ComputeAABB(&box, xf, 0);
+  const b2AABB box = box_of(*r.details, xf);
   // The candidates for the nearest solid are kept in a list that stays valid for some distance
   // (Verlet neighbour lists, Phys. Rev. 159, 98, 1967). The nearest is usually the first of the
   // list. A list for a far larger limit is too long.
@@ -297,8 +303,10 @@ double Neighbours::clearance_m(Robot& r, double limit_m, double exact_below_m) {
         other == nullptr ? metres(gap_between(box, candidate.box)) : circles_apart_m(r, *other);
     if (boxes_apart_m >= least_m) continue;
     const b2Transform their_xf = other == nullptr ? identity_transform() : transform_of(*other);
-    const float apart = least_along(r.details->nearest_direction, *candidate.shape, their_xf) +
-                        least_along(-r.details->nearest_direction, r.details->shape, xf);
+    const b2Vec2& way = r.details->nearest_direction;
+    const float apart = (other == nullptr ? least_along(way, *candidate.shape, their_xf)
+                                          : least_along(way, *other->details, their_xf)) +
+                        least_along(-way, *r.details, xf);
     const double bound_m = std::max(boxes_apart_m, metres(apart));
     if (bound_m >= least_m) continue;
     if (bound_m >= exact_below_m) {
@@ -306,7 +314,9 @@ double Neighbours::clearance_m(Robot& r, double limit_m, double exact_below_m) {
       continue;
     }
     const b2DistanceOutput found =
-        distance_between(r.details->shape, xf, *candidate.shape, their_xf, candidate.cache);
+        other == nullptr
+            ? distance_between(*r.details, xf, *candidate.shape, their_xf, candidate.cache)
+            : distance_between(*r.details, xf, *other->details, their_xf, candidate.cache);
     if (metres(found.distance) >= least_m) continue;
     if (found.distance > 0.0F) {
       r.details->nearest_direction = (1.0F / found.distance) * (found.pointB - found.pointA);

@@ -74,6 +74,7 @@ class Neighbours {
   };
 
   static bool comes_before(const Pair& a, const Pair& b);
+  [[nodiscard]] bool is_solid(int robot) const { return bodies_.robot(robot).details->info->solid; }
   void list_pairs();
   [[nodiscard]] static double distance_m(const Robot& a, const Robot& b, double enough_m,
                                          Pair& pair);

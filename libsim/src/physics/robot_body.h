@@ -17,6 +17,9 @@
 
 namespace sim::physics {
 
+using sim::distance_between;
+using sim::least_along;
+
 /// Distance at which Box2D keeps the hulls of touching polygons: the sum of their skins minus the
 /// slop.
 inline constexpr double kRestingGap_m = (2.0 * b2_polygonRadius - b2_linearSlop) / kScale;
@@ -68,10 +71,11 @@ struct ObstacleBody {
 /// Data of a robot that is needed less often.
 struct RobotDetails {
   b2PolygonShape shape;
-  b2CircleShape disc;  ///< of a round obstacle, about B, instead of `shape`
+  std::vector<b2PolygonShape> further;  ///< of a body that is not convex: its parts after `shape`
+  b2CircleShape disc;                   ///< of a round obstacle, about B, instead of `shape`
   bool round = false;
-  b2PolygonShape reaching_shape;  ///< the shape with a wide skin, which finds contacts in advance
-  FixtureInfo* info = nullptr;
+  FixtureInfo* info = nullptr;  ///< of the first part
+  std::vector<FixtureInfo*> further_infos;
   double height_m = 0.0;
   double mass_kg = 0.0;
   double inertia_kgm2 = 0.0;
@@ -98,6 +102,11 @@ struct RobotDetails {
 
   [[nodiscard]] const b2Shape& solid() const {
     return round ? static_cast<const b2Shape&>(disc) : shape;
+  }
+  /// The convex parts of the body; solid() is the first one.
+  [[nodiscard]] std::size_t part_count() const { return 1 + further.size(); }
+  [[nodiscard]] const b2Shape& part(std::size_t i) const {
+    return i == 0 ? solid() : further[i - 1];
   }
 };
 
@@ -129,6 +138,43 @@ struct alignas(64) Robot {
   if (r.body != nullptr) return r.body->GetTransform();
   return {to_box2d(r.X_WB.position()), b2Rot(static_cast<float>(r.X_WB.yaw_rad))};
 }
+
+/// Calls visit(corner) for each corner of a body's polygons, in B.
+template <typename Visitor>
+void for_each_corner(const RobotDetails& d, Visitor visit) {
+  for (int32 i = 0; i < d.shape.m_count; ++i) visit(d.shape.m_vertices[i]);
+  for (const b2PolygonShape& part : d.further) {
+    for (int32 i = 0; i < part.m_count; ++i) visit(part.m_vertices[i]);
+  }
+}
+
+/// The least n . v over the points v of a body.
+[[nodiscard]] inline float least_along(const b2Vec2& n, const RobotDetails& d,
+                                       const b2Transform& xf) {
+  float least = least_along(n, d.solid(), xf);
+  for (const b2PolygonShape& part : d.further) least = std::min(least, least_along(n, part, xf));
+  return least;
+}
+
+/// The bounding box of a body.
+[[nodiscard]] b2AABB box_of(const RobotDetails& d, const b2Transform& xf);
+
+/// Distance of a body from a shape or another body; see distance_between().
+/// @param cache  of solid(), or of both solid(); is updated. Other parts have none.
+[[nodiscard]] b2DistanceOutput distance_between(const RobotDetails& a, const b2Transform& xf_a,
+                                                const b2Shape& b, const b2Transform& xf_b,
+                                                b2SimplexCache& cache);
+[[nodiscard]] b2DistanceOutput distance_between(const RobotDetails& a, const b2Transform& xf_a,
+                                                const RobotDetails& b, const b2Transform& xf_b,
+                                                b2SimplexCache& cache);
+
+/// Whether a contact of a part is inside the body, where that part meets another one: then the
+/// other part decides. Otherwise a corner that slides along a side of two parts would stop at the
+/// inner side of the second one.
+/// @param point   of the contact, near the part, in B [Box2D units].
+/// @param normal  out of the part, in B.
+[[nodiscard]] bool is_between_parts(const RobotDetails& d, std::size_t part, const b2Vec2& point,
+                                    const b2Vec2& normal);
 
 /// Distance between the bounding circles of two robots.
 [[nodiscard]] inline double circles_apart_m(const Robot& a, const Robot& b) {

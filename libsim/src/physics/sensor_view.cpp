@@ -160,7 +160,8 @@ void SensorView::rebuild_outlines() {
     const double c = std::cos(r.X_WB.yaw_rad);
     const double s = std::sin(r.X_WB.yaw_rad);
     Outline& outline = outlines_[k];
-    outline.count = r.details->round ? 0 : static_cast<std::size_t>(r.details->shape.m_count);
+    const bool one_polygon = !r.details->round && r.details->further.empty();
+    outline.count = one_polygon ? static_cast<std::size_t>(r.details->shape.m_count) : 0;
     for (std::size_t i = 0; i < outline.count; ++i) {
       const double x = metres(r.details->shape.m_vertices[i].x);
       const double y = metres(r.details->shape.m_vertices[i].y);
@@ -179,6 +180,15 @@ void SensorView::rebuild_outlines() {
                          height_m);
     };
     outline.first_upper = further_edges_.edges.size();
+    for (std::size_t part = 0; part < r.details->part_count() && !r.details->further.empty();
+         ++part) {
+      const auto& shape = static_cast<const b2PolygonShape&>(r.details->part(part));
+      for (int32 i = 0; i < shape.m_count; ++i) {
+        const b2Vec2& a = shape.m_vertices[i];
+        const b2Vec2& b = shape.m_vertices[(i + 1) % shape.m_count];
+        add(metres(a.x), metres(a.y), metres(b.x), metres(b.y), r.details->height_m);
+      }
+    }
     for (const Superstructure& part : r.details->superstructures) {
       for (std::size_t i = 0; i < part.outline.size(); ++i) {
         const Vec2& a = part.outline[i];
@@ -251,9 +261,13 @@ void SensorView::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, 
           if (share < 1.0) more = visit(static_cast<float>(share));
           return;
         }
-        b2RayCastOutput output;
-        if (!r.details->shape.RayCast(&output, input, transform_of(r), 0)) return;
-        more = visit(output.fraction);
+        float least = std::numeric_limits<float>::infinity();
+        for (std::size_t k = 0; k < r.details->part_count(); ++k) {
+          b2RayCastOutput output;
+          if (!r.details->part(k).RayCast(&output, input, transform_of(r), 0)) continue;
+          least = std::min(least, output.fraction);
+        }
+        if (least <= 1.0F) more = visit(least);
       });
 }
 
@@ -473,7 +487,7 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
   bool inside = false;
   visit_fixed(bodies_.world(), p_W, p_W, [&](const b2Fixture& fixture) {
     const FixtureInfo& info = info_of(&fixture);
-    if (!reaches_height(info.height_m, height_m)) return;
+    if (!info.solid || !reaches_height(info.height_m, height_m)) return;
     inside = inside ||
              (info.cylinder < 0
                   ? fixture.TestPoint(to_box2d(p_W))
@@ -482,10 +496,15 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
   inside = inside || bodies_.is_inside_edged(p_W, height_m);
   bodies_.for_robots_in(p_W, p_W, [&](const Bodies::Circle& circle) {
     const Robot& r = bodies_.robot(circle.robot);
-    if (inside || circle.robot == own_robot) return;
+    if (inside || circle.robot == own_robot || !r.details->info->solid) return;
     if (!reaches_height(r.details->height_m, height_m)) return;
-    inside = r.details->round ? is_within({{circle.x, circle.y}, circle.radius, 0.0, -1}, p_W)
-                              : r.details->shape.TestPoint(transform_of(r), to_box2d(p_W));
+    if (r.details->round) {
+      inside = is_within({{circle.x, circle.y}, circle.radius, 0.0, -1}, p_W);
+      return;
+    }
+    for (std::size_t k = 0; k < r.details->part_count() && !inside; ++k) {
+      inside = r.details->part(k).TestPoint(transform_of(r), to_box2d(p_W));
+    }
   });
   for (const int robot : bodies_.with_superstructures()) {
     if (inside || robot == own_robot) continue;
@@ -504,7 +523,7 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
   visit_fixed(bodies_.world(), p_W, {bodies_.wall_right_m(), p_W.y()},
               [&](const b2Fixture& fixture) {
                 const FixtureInfo& info = info_of(&fixture);
-                if (info.kind != Contact::Kind::kWall) return;
+                if (info.kind != Contact::Kind::kWall || !info.solid) return;
                 if (!reaches_height(info.height_m, height_m)) return;
                 const Edge& e = bodies_.edges().edges[info.first_edge];
                 if ((e.y0 > p_W.y()) == (e.y1 > p_W.y())) return;

@@ -57,12 +57,12 @@ class SensorView {
     double seen_radius_m;  // bounding radius of all of them
     std::array<Vec2, b2_maxPolygonVertices + 1>
         corners;        // of the robot; the first corner is repeated at the end
-    std::size_t count;  // number of the robot's edges
+    std::size_t count;  // number of the robot's edges here: 0 if its body has several parts
     double height_m;
     int robot;
     Contact::Kind kind;
     int index;                // of the robot or obstacle
-    std::size_t first_upper;  // range of the superstructures' edges in further_edges_
+    std::size_t first_upper;  // range of the parts' and superstructures' edges in further_edges_
     std::size_t first_load;   // range of the load's edges in further_edges_, which follow
     std::size_t end_load;
     std::size_t first_cylinder;  // range of the load's cylinders in load_cylinders_
@@ -92,7 +92,7 @@ class SensorView {
   EdgeList fixed_edges_;                   // static solids that exist now, if the world is small
   std::vector<Cylinder> fixed_cylinders_;  // round obstacles that exist now, if the world is small
   bool sweep_ = true;                      // the world is small
-  EdgeList further_edges_;                 // of superstructures and loads
+  EdgeList further_edges_;                 // of several parts, superstructures and loads
   std::vector<Cylinder> load_cylinders_;   // in W
   std::vector<Outline> outlines_;
   scan::DiscBuffer robot_discs_;                // bounding discs of `outlines_`

@@ -176,6 +176,7 @@ class SolidsPainter {
     Shape dynamics;
     Shape coloured;  // blocks with their own colour
     Shape walls;
+    Shape floor_walls;  // of maps that are not solid
     const double border_px = layout_.border_px;
     if (arena_.border) {
       borders.add_outline(rectangle_corners(layout_.floor, border_px));
@@ -187,14 +188,19 @@ class SolidsPainter {
       separators.add_piece(layout_(box_corners(box)));
     }
     for (const ObstacleDescription& box : arena_.obstacles) {
-      if (!is_standing(box)) continue;
+      if (!is_standing(box) || !box.solid) continue;
       Shape& alike = box.colour                           ? coloured
                      : box.type == ObstacleType::kDynamic ? dynamics
                                                           : statics;
       alike.add_piece(outline_px(box));
     }
-    for (const WallLoop& loop : arena_.walls) walls.add_outline(layout_(loop.vertices));
+    for (const WallLoop& loop : arena_.walls) {
+      (loop.solid ? walls : floor_walls).add_outline(layout_(loop.vertices));
+    }
 
+    // What robots drive through is drawn like a marking: beneath everything else, without a shadow.
+    painter_.fill(floor_walls, palette::kWall);
+    draw_blocks(false);
     draw_shadows({&separators, &statics, &dynamics, &coloured, &walls});
     if (arena_.border) {
       draw_border_shade();
@@ -217,21 +223,28 @@ class SolidsPainter {
     }
     painter_.fill(statics, palette::kStatic);
     painter_.fill(dynamics, palette::kDynamic);
+    draw_blocks(true);
+  }
+
+ private:
+  // The edges of blocks, and those blocks that are not filled with the others of their type.
+  void draw_blocks(bool solid) {
     for (const ObstacleDescription& box : arena_.obstacles) {
-      if (!is_standing(box)) continue;
-      if (box.colour) {
+      if (!is_standing(box) || box.solid != solid) continue;
+      const bool dynamic = box.type == ObstacleType::kDynamic;
+      const Colour of_type = dynamic ? palette::kDynamic : palette::kStatic;
+      if (box.colour || !solid) {
+        const Colour colour = box.colour ? opaque(*box.colour) : of_type;
         Shape block;
         block.add_piece(outline_px(box));
-        painter_.fill(block, opaque(*box.colour));
-        draw_block_edge(box, mix(opaque(*box.colour), palette::kInk, 0.4));
+        painter_.fill(block, colour);
+        draw_block_edge(box, mix(colour, palette::kInk, 0.4));
         continue;
       }
-      const bool dynamic = box.type == ObstacleType::kDynamic;
       draw_block_edge(box, dynamic ? palette::kDynamicEdge : palette::kStaticEdge);
     }
   }
 
- private:
   // Adds the dashed outline of a retracted block.
   void add_dashes(const ObstacleDescription& obstacle, Shape& into) {
     const double width_px = layout_.line_px(1.6);

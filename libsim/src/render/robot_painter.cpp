@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "render/robot_place.h"
+#include "sim/world/outline.h"
 
 namespace sim::render {
 namespace {
@@ -94,6 +96,22 @@ std::vector<Vec2> ellipse_of(const PoseHypothesis& hypothesis) {
     rim.push_back(X_WE * Vec2(major * std::cos(angle), minor * std::sin(angle)));
   }
   return rim;
+}
+
+// The convex parts of a robot's body.
+std::span<const Polygon> parts_of(const RobotSnapshot& robot) {
+  return robot.parts.empty() ? std::span(&robot.footprint, 1) : std::span(robot.parts);
+}
+
+// The part of a body that is drawn with wheels and a nose: the largest one around the axle's centre
+// if there is one.
+const Polygon& part_at_origin(const RobotSnapshot& robot) {
+  const Polygon* best = nullptr;
+  for (const Polygon& part : parts_of(robot)) {
+    if (!is_inside(part, Vec2::Zero())) continue;
+    if (best == nullptr || area_m2(part) > area_m2(*best)) best = &part;
+  }
+  return best != nullptr ? *best : robot.footprint;
 }
 
 class RobotPainter {
@@ -330,9 +348,10 @@ class RobotPainter {
     if (robot.stalled) draw_stall_ring(center, marked_radius_px(robot, layout_));
     if (robot.marked) draw_mark(center, marked_radius_px(robot, layout_));
 
-    Vec2 low = robot.footprint.front();
+    const Polygon& core = robot.parts.empty() ? robot.footprint : part_at_origin(robot);
+    Vec2 low = core.front();
     Vec2 high = low;
-    for (const Vec2& corner : robot.footprint) {
+    for (const Vec2& corner : core) {
       low = low.cwiseMin(corner);
       high = high.cwiseMax(corner);
     }
@@ -342,18 +361,27 @@ class RobotPainter {
       return on_body({x * (x >= 0.0 ? high.x() : -low.x()), y * (y >= 0.0 ? high.y() : -low.y())});
     };
 
-    std::vector<Vec2> body;
-    for (const Vec2& corner : robot.footprint) body.push_back(on_body(corner));
+    std::vector<std::vector<Vec2>> body;  // its parts
     Shape area;
-    area.add_piece(body);
+    for (const Polygon& part : parts_of(robot)) {
+      body.emplace_back();
+      for (const Vec2& corner : part) body.back().push_back(on_body(corner));
+      area.add_piece(body.back());
+    }
     for (const double distance : {1.0, 2.2, 3.4}) {
       Shape shadow;
       shadow.append(area, Vec2(0.8, 1.0) * distance * layout_.unit_px);
       painter_.fill(shadow, palette::kShadow, 0.09);
     }
+    const auto outline_body = [&](double width_px) {
+      for (const std::vector<Vec2>& part : body) outline(part, dark, width_px);
+    };
+    // Of several parts only the outer half of the lines is visible, none where parts meet.
+    const bool several = body.size() > 1;
+    if (several) outline_body(2.0 * layout_.line_px(1.5));
     painter_.fill(area, colour);
     if (small) {
-      outline(body, dark, layout_.line_px(1.0));
+      if (!several) outline_body(layout_.line_px(1.0));
       draw_lights(robot);
       return;  // the rest would be too small to recognise
     }
@@ -382,7 +410,7 @@ class RobotPainter {
       paddles.add_piece(piece);
     }
     painter_.fill(paddles, palette::kWheel);
-    outline(body, dark, layout_.line_px(1.5));
+    if (!several) outline_body(layout_.line_px(1.5));
     draw_bumpers(robot, dark);
     draw_lights(robot);
     draw_arms(robot);
@@ -394,16 +422,18 @@ class RobotPainter {
     const Colour colour = opaque(ghost.colour);
     const Colour dark = mix(colour, palette::kWheel, 0.5);
     double front_m = 0.0;
-    std::vector<Vec2> body;
-    for (const Vec2& corner : ghost.footprint) {
-      body.push_back(layout_(ghost.X_WB * corner));
-      front_m = std::max(front_m, corner.x());
-    }
     Shape area;
-    area.add_piece(body);
-    painter_.fill(area, colour, 0.3);
     Shape lines;
-    lines.add_line(body, layout_.line_px(1.5), true);
+    for (const Polygon& part : parts_of(ghost)) {
+      std::vector<Vec2> body;
+      for (const Vec2& corner : part) {
+        body.push_back(layout_(ghost.X_WB * corner));
+        front_m = std::max(front_m, corner.x());
+      }
+      area.add_piece(body);
+      lines.add_line(body, layout_.line_px(1.5), true);
+    }
+    painter_.fill(area, colour, 0.3);
     lines.add_line({layout_(ghost.X_WB.position()), layout_(ghost.X_WB * Vec2(front_m, 0.0))},
                    layout_.line_px(2.0));
     painter_.fill(lines, dark, 0.7);

@@ -55,6 +55,7 @@ struct ArenaKey {
         numbers.push_back(static_cast<double>(box.type));
         numbers.push_back(static_cast<double>(box.state));
         numbers.push_back(box.present_height_m ? 1.0 : 0.0);  // drawn anew in each picture
+        numbers.push_back(box.solid ? 1.0 : 0.0);
         const Colour colour = box.colour.value_or(Colour{0, 0, 0, 0});
         for (const int channel :
              {int{colour.r}, int{colour.g}, int{colour.b}, box.colour ? 1 : 0}) {
@@ -70,6 +71,7 @@ struct ArenaKey {
     }
     for (const WallLoop& loop : arena.walls) {
       numbers.push_back(static_cast<double>(loop.vertices.size()));
+      numbers.push_back(loop.solid ? 1.0 : 0.0);
       for (const Vec2& vertex : loop.vertices) add(vertex);
     }
   }

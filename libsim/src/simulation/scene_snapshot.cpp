@@ -18,6 +18,7 @@ RobotSnapshot Simulation::robot_snapshot(int number) const {
   shot.colour = impl_->world.robots[i].colour;
   shot.X_WB = body.X_WB;
   shot.footprint = robot.model->footprint;
+  shot.parts = robot.model->parts;
   for (const Superstructure& part : robot.model->superstructures) {
     shot.superstructures.push_back(part.outline);
   }

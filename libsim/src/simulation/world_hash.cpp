@@ -43,6 +43,7 @@ void add(StateHash& hash, const ObstacleDescription& box) {
   hash.add(box.colour.has_value() ? 1 : 0);
   if (box.colour) add(hash, *box.colour);
   hash.add(box.portable ? 1 : 0);
+  if (!box.solid) hash.add(1);
   if (box.rise_speed_mps != 0.0 || box.when_blocked != WhenBlocked::kRefuse) {
     hash.add(box.rise_speed_mps);
     hash.add(static_cast<int>(box.when_blocked));
@@ -88,6 +89,10 @@ void add(StateHash& hash, const RobotModel& model) {
   hash.add(model.name);
   hash.add(model.footprint.size());
   for (const Vec2& corner : model.footprint) add(hash, corner);
+  for (const Polygon& part : model.parts) {
+    hash.add(part.size());
+    for (const Vec2& corner : part) add(hash, corner);
+  }
   const DriveDescription& drive = model.drive;
   hash.add(static_cast<int>(drive.kind));
   for (const double value :
@@ -97,6 +102,7 @@ void add(StateHash& hash, const RobotModel& model) {
     hash.add(value);
   }
   if (drive.steering_commands) hash.add(1);
+  if (!model.solid) hash.add(1);
   for (const Superstructure& part : model.superstructures) {
     hash.add(part.height_m);
     hash.add(part.outline.size());
@@ -161,6 +167,7 @@ std::uint64_t world_hash(const WorldDescription& world) {
     hash.add(loop.vertices.size());
     for (const Vec2& vertex : loop.vertices) add(hash, vertex);
     if (std::isfinite(loop.height_m)) hash.add(loop.height_m);
+    if (!loop.solid) hash.add(1);
   }
   hash.add(world.simulation.step_ns);
   hash.add(world.simulation.start_gate_clients);

@@ -202,6 +202,7 @@ OccupancyMap true_map(const ArenaDescription& arena, const CanvasDescription& gr
     painter.add_convex(outline);
   };
   for (const ObstacleDescription& obstacle : arena.obstacles) {
+    if (!obstacle.solid) continue;
     if (obstacle.state == ObstacleState::kExtended && obstacle.carried_by < 0) add_solid(obstacle);
   }
   for (const ObstacleDescription& separator : arena.dock_separators) add_solid(separator);

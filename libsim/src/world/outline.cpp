@@ -48,6 +48,28 @@ bool is_ear(const Polygon& outline, std::size_t i) {
   });
 }
 
+// Two polygons as one, without straight angles, if they have a side in common; otherwise empty.
+Polygon joined_at_side(const Polygon& a, const Polygon& b) {
+  constexpr double kStraight_rad = 1e-6;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      if (a[i] != b[(k + 1) % b.size()] || a[(i + 1) % a.size()] != b[k]) continue;
+      Polygon joined;
+      for (std::size_t n = 1; n < a.size(); ++n) joined.push_back(a[(i + n) % a.size()]);
+      for (std::size_t n = 1; n < b.size(); ++n) joined.push_back(b[(k + n) % b.size()]);
+      std::erase_if(joined, [corners = joined](const Vec2& corner) {
+        const auto at = std::find(corners.begin(), corners.end(), corner) - corners.begin();
+        const auto n = static_cast<std::ptrdiff_t>(corners.size());
+        const Vec2 before = corner - corners[static_cast<std::size_t>((at + n - 1) % n)];
+        const Vec2 after = corners[static_cast<std::size_t>((at + 1) % n)] - corner;
+        return std::abs(std::atan2(cross(before, after), before.dot(after))) < kStraight_rad;
+      });
+      return joined;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 double area_m2(const Polygon& outline) {
@@ -136,6 +158,65 @@ std::vector<Polygon> triangles_of(const Polygon& outline) {
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
   }
   return triangles;
+}
+
+Polygon convex_outline(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  const auto turn = [](const Vec2& a, const Vec2& b, const Vec2& c) {
+    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+  };
+  Polygon outline;
+  const auto half = [&](auto begin, auto end) {
+    const std::size_t base = outline.size();
+    for (auto point = begin; point != end; ++point) {
+      while (outline.size() >= base + 2 &&
+             turn(outline[outline.size() - 2], outline.back(), *point) <= 1e-12) {
+        outline.pop_back();
+      }
+      outline.push_back(*point);
+    }
+    if (!outline.empty()) outline.pop_back();  // it begins the other half
+  };
+  half(points.begin(), points.end());
+  half(points.rbegin(), points.rend());
+  constexpr double kNear_m = 0.002;
+  for (bool changed = true; changed && outline.size() > 3;) {
+    changed = false;
+    for (std::size_t i = 0; i < outline.size() && outline.size() > 3; ++i) {
+      const std::size_t n = outline.size();
+      const Vec2& before = outline[(i + n - 1) % n];
+      const Vec2& after = outline[(i + 1) % n];
+      const bool near = (outline[i] - before).norm() < kNear_m;
+      const bool straight = turn(before, outline[i], after) <
+                            1e-4 * (outline[i] - before).norm() * (after - outline[i]).norm();
+      if (!near && !straight) continue;
+      outline.erase(outline.begin() + static_cast<std::ptrdiff_t>(i));
+      changed = true;
+      break;
+    }
+  }
+  return outline;
+}
+
+std::vector<Polygon> convex_parts_of(const Polygon& outline, std::size_t most_corners) {
+  std::vector<Polygon> parts = triangles_of(outline);
+  const auto join_two = [&] {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (std::size_t k = i + 1; k < parts.size(); ++k) {
+        Polygon joined = joined_at_side(parts[i], parts[k]);
+        if (joined.empty() || joined.size() > most_corners || !is_convex(joined)) continue;
+        parts[i] = std::move(joined);
+        parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(k));
+        return true;
+      }
+    }
+    return false;
+  };
+  while (join_two()) {
+  }
+  return parts;
 }
 
 void make_circle(ObstacleDescription& obstacle, double radius_m) {

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "sim/core/number_text.h"
+#include "sim/devices/gripper.h"
+#include "sim/devices/laser.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/outline.h"
 #include "sim/world/robot_model.h"
@@ -74,6 +76,86 @@ TEST(StageBodies, ALowPartBeforeTheBodyKeepsItsHeight) {
   ASSERT_THAT(model.superstructures, SizeIs(1));
   EXPECT_NEAR(model.superstructures[0].height_m, 0.6, 1e-9);
   EXPECT_NEAR(area_m2(model.superstructures[0].outline), 0.64, 1e-9);
+}
+
+// The robot of the Player/Stage manual (J. Owen, K. Nickels): a body of 1 x 1 m without its front
+// corners, and two teeth of 0.25 x 0.125 m before it, 0.25 m apart and half as high. `origin` moves
+// the middle of all to x = 0.125, so that the teeth are at x = 0.5 to 0.75.
+const char* const kBigbob =
+    "size [1.25 1 1] origin [0.125 0 0 0] "
+    "block ( points 6 point[5] [0 0] point[4] [0 1] point[3] [0.75 1] point[2] [1 0.75] "
+    "point[1] [1 0.25] point[0] [0.75 0] z [0 1] ) "
+    "block ( points 4 point[3] [1 0.75] point[2] [1.25 0.75] point[1] [1.25 0.625] "
+    "point[0] [1 0.625] z [0 0.5] ) "
+    "block ( points 4 point[3] [1 0.375] point[2] [1.25 0.375] point[1] [1.25 0.25] "
+    "point[0] [1 0.25] z [0 0.5] ) drive \"diff\" ";
+
+TEST(StageBodies, TeethArePartsOfTheirOwn) {
+  const RobotModel model = model_of(kBigbob);
+  ASSERT_THAT(model.parts, SizeIs(3));
+  EXPECT_NEAR(area_m2(model.parts[0]), 1.0 - 0.25 * 0.25, 1e-9);
+  EXPECT_NEAR(area_m2(model.parts[1]), 0.25 * 0.125, 1e-9);
+  EXPECT_NEAR(model.height_m, 0.5, 1e-9) << "up to which all parts reach";
+  ASSERT_THAT(model.superstructures, SizeIs(1));
+  EXPECT_NEAR(model.superstructures[0].height_m, 1.0, 1e-9);
+  const auto within = [&](const Vec2& p) {
+    return std::any_of(model.parts.begin(), model.parts.end(),
+                       [&](const Polygon& part) { return is_inside(part, p); });
+  };
+  EXPECT_TRUE(within({0.6, 0.18}));
+  EXPECT_FALSE(within({0.6, 0.0})) << "between the teeth";
+  EXPECT_TRUE(within({0.6, -0.18}));
+}
+
+// An L, as one concave block: 0.4 x 0.4 m without a quarter.
+TEST(StageBodies, AConcaveBlockIsDivided) {
+  const RobotModel model = model_of(
+      "size [0.4 0.4 0.2] block ( points 6 point[0] [0 0] point[1] [2 0] point[2] [2 1] "
+      "point[3] [1 1] point[4] [1 2] point[5] [0 2] z [0 1] )");
+  ASSERT_THAT(model.parts, SizeIs(2));
+  EXPECT_NEAR(area_m2(model.parts[0]) + area_m2(model.parts[1]), 0.12, 1e-9);
+  EXPECT_NEAR(model.height_m, 0.2, 1e-9);
+  EXPECT_THAT(model.superstructures, IsEmpty());
+}
+
+// Bigbob drives from x = 0 towards an orange at x = 1.5, 0.15 m wide, which fits between its teeth
+// and stops at its body. Its front is at 0.5 m then, and x = 1.425 - 0.5 = 0.925. The laser looks
+// across from one tooth to the other, 0.625 m ahead. A convex body would stop 0.25 m earlier. The
+// gripper's paddles reach from x = 0.55 to 0.75; they hold the orange, and carry it back.
+TEST(StageBodies, BigbobHoldsAnOrangeBetweenItsTeeth) {
+  test_support::TemporaryFolder folder;
+  Simulation simulation(load_world(folder.write(
+      "w.world",
+      std::string("define bigbob position ( ") + kBigbob +
+          "ranger ( sensor ( pose [0.625 0.125 -0.975 270] range [0 0.25] fov 20 samples 180 ) ) "
+          "gripper ( pose [0.55 0 -1 0] size [0.4 0.3 0.2] paddle_size [0.5 0.1 0.4] "
+          "obstacle_return 0 ) ) "
+          "bigbob ( name \"bob1\" pose [0 0 0 0] ) "
+          "model ( name \"orange\" size [0.15 0.15 0.15] pose [1.5 0 0 0] gripper_return 1 )")));
+  const auto reading = [&](const char* name) -> const Reading& {
+    return simulation.device(0, simulation.find_device(0, name).value()).sensor()->reading();
+  };
+  const auto nearest_m = [&] {
+    const auto& ranges = dynamic_cast<const LaserReading&>(reading("laser")).ranges_m;
+    return *std::min_element(ranges.begin(), ranges.end());
+  };
+  const auto drive = [&](double speed_mps, int steps) {
+    const int motion = simulation.find_device(0, "motion").value();
+    ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{speed_mps, 0.0, 0.0}}));
+    for (int i = 0; i < steps; ++i) simulation.step();
+  };
+  for (int i = 0; i < 20; ++i) simulation.step();
+  EXPECT_NEAR(nearest_m(), 0.25, 1e-6);
+  drive(0.4, 400);
+  EXPECT_NEAR(simulation.body(0).X_WB.x_m, 0.925, 0.005);
+  EXPECT_LT(nearest_m(), 0.1) << "the orange, 0.05 m from the tooth";
+  const Simulation::DeviceId gripper{0, simulation.find_device(0, "gripper").value()};
+  ASSERT_FALSE(simulation.apply(gripper, GripCommand{GripCommand::Action::kClose}));
+  drive(0.0, 300);
+  EXPECT_TRUE(dynamic_cast<const GripperReading&>(reading("gripper")).holding);
+  drive(-0.4, 200);
+  EXPECT_NEAR(simulation.find_object("orange").value().pose.x_m,
+              simulation.body(0).X_WB.x_m + 0.575, 0.005);
 }
 
 TEST(StageBodies, PartsThatRangersDoNotSeeAreSolidOnly) {

@@ -39,6 +39,7 @@ struct RobotSnapshot {
   Colour colour;
   Pose X_WB;
   Polygon footprint;                     ///< in B [m]
+  std::vector<Polygon> parts;            ///< as RobotModel::parts, in B [m]
   std::vector<Polygon> superstructures;  ///< outlines of what is higher than its body, in B [m]
   std::vector<Vec2> trail;               ///< its path, oldest point first, in W [m]
   std::vector<Vec2> scan_points;         ///< hits of its newest laser scan in W [m], beam by beam

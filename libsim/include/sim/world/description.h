@@ -69,6 +69,8 @@ struct ObstacleDescription {
                                        ///< stands fast, or has kMovingObstacleMass_kg if it moves
   double friction = kFloorFriction;    ///< coefficient of friction with the floor if robots can
                                        ///< push it, >= 0
+  bool solid = true;  ///< false: nothing collides with it, as with a marking on the floor. Sensors
+                      ///< see it up to its height from outside
 };
 
 /// Whether an obstacle has a drive or can be pushed, so that the physics moves it.
@@ -115,6 +117,7 @@ struct WallLoop {
   std::vector<Vec2> vertices;
   /// A sensor mounted above this height looks over it [m]; infinite by default.
   double height_m = std::numeric_limits<double>::infinity();
+  bool solid = true;  ///< false: robots drive through it
 };
 
 /// A picture of walls in an arena (the resulting loops are in ArenaDescription).
@@ -128,6 +131,7 @@ struct MapDescription {
   std::optional<Vec2> size = {};    ///< the picture is stretched to this size [m]
   Pose pose = {};                   ///< X_WP of the middle of a picture with a size
   std::optional<double> height_m = {};  ///< of the walls [m]; none: all sensors see them
+  bool solid = true;                    ///< of the walls: false: robots drive through them
 };
 
 /// The room: floor from `origin` to `origin + size`, with borders around it unless turned off.

@@ -56,6 +56,18 @@ namespace sim {
 /// O(n cubed).
 [[nodiscard]] std::vector<Polygon> triangles_of(const Polygon& outline);
 
+/// Corners of the convex outline around points, counter-clockwise. Corners that are less than 2 mm
+/// from their neighbour or on a straight line are left out.
+/// (A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", Information
+/// Processing Letters 9(5), 1979.)
+[[nodiscard]] Polygon convex_outline(std::vector<Vec2> points);
+
+/// Divides a simple, counter-clockwise polygon into convex ones of at most `most_corners` corners:
+/// triangles_of(), joined where that leaves them convex (S. Hertel and K. Mehlhorn, Fast
+/// Triangulation of Simple Polygons, Foundations of Computation Theory, LNCS 158, 1983).
+[[nodiscard]] std::vector<Polygon> convex_parts_of(const Polygon& outline,
+                                                   std::size_t most_corners);
+
 /// Makes an obstacle a circle of that radius [m].
 void make_circle(ObstacleDescription& obstacle, double radius_m);
 

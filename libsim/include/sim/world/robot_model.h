@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,10 +40,15 @@ struct Superstructure {
 struct RobotModel {
   std::string name;
   std::string description;  ///< for people, a sentence or two
-  Polygon footprint;        ///< in B, convex, counter-clockwise, 3 to 8 vertices [m]
-  double height_m = 0.18;   ///< of the body [m]
+  Polygon footprint;        ///< in B, convex, counter-clockwise, 3 to 8 vertices [m]; with parts:
+                            ///< the convex outline around them, of any number of vertices
+  /// Of a body that is not convex: at least two, each like a footprint; they may overlap. Empty:
+  /// the footprint is the body.
+  std::vector<Polygon> parts;
+  double height_m = 0.18;                       ///< of the body [m]
   std::vector<Superstructure> superstructures;  ///< what sensors see above `height_m`
-  double mass_kg = 2.0;                         ///< [kg]
+  bool solid = true;     ///< false: nothing collides with its body; sensors see it
+  double mass_kg = 2.0;  ///< [kg]
   DriveDescription drive;
   double max_speed_mps = 0.5;              ///< maximum speed of its drive [m/s]
   double max_turn_rate_radps = 3.0;        ///< maximum turn rate of its drive [rad/s]
@@ -51,6 +57,11 @@ struct RobotModel {
       interfaces;  ///< like RobotDescription::interfaces, for interfaces that the robot does not
                    ///< list
 };
+
+/// The convex outlines that together are the body of a model, in B [m].
+[[nodiscard]] inline std::span<const Polygon> body_parts(const RobotModel& model) {
+  return model.parts.empty() ? std::span(&model.footprint, 1) : std::span(model.parts);
+}
 
 /// The S1R of SyRoTek, without devices. Its footprint is an octagon around the axle's centre.
 [[nodiscard]] RobotModel s1r_model();

@@ -343,7 +343,8 @@ void add_gripper(const Properties& gripper, const Mount& mount, const Body& body
   settings["length"] = neat(clamped(length_m, 0.001, 10.0));
   settings["thickness"] = neat(clamped(thickness_m, 0.0, 10.0));
   settings["opening"] = neat(clamped(body.size_m[1] - 2.0 * thickness_m, 0.001, 10.0));
-  settings["height"] = height_of(mount.z_m + 0.5 * paddle[2] * body.size_m[2]);
+  // Stage's break beams start at the foot of the gripper (ModelGripper::UpdateBreakBeams).
+  settings["height"] = height_of(mount.z_m);
   if (gripper.flag("autosnatch", false)) {
     context.report.note("autosnatch", gripper.place_of("autosnatch"),
                         "a gripper does not close by itself (autosnatch)");

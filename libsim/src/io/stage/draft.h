@@ -100,7 +100,8 @@ struct Mount {
 void add_part(const Body& body, const Mount& mount, bool solid, bool seen, RobotDraft& robot);
 
 /// Sets footprint, height and superstructures of a robot's model from its parts. The footprint is
-/// the convex outline of all solid parts, and the height that up to which their outline is as wide.
+/// the convex outline of all solid parts, or a list of convex parts if these leave gaps in that
+/// outline. The height is that up to which all of the outline reaches.
 /// Each part that is higher becomes a superstructure with its own outline and height.
 void set_body(Report& report, RobotDraft& robot);
 

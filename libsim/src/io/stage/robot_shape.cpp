@@ -53,6 +53,14 @@ double height_of_body(const std::vector<RobotDraft::Part>& parts, const Polygon&
   return tops_m.empty() ? 0.0 : tops_m.back();
 }
 
+/// Whether the outline of a part is so much smaller than the convex outline around it that it is
+/// more exact to divide it.
+bool is_hollowed(const Polygon& points, const Polygon& convex) {
+  constexpr double kAsLarge = 0.98;  // as a share of the area
+  return points.size() > 3 && area_m2(points) < kAsLarge * area_m2(convex) &&
+         !crossing_sides(points);
+}
+
 /// Whether a convex outline contains all points of another.
 bool contains(const Polygon& outer, const Polygon& inner) {
   constexpr double kRounding_m2 = 1e-9;
@@ -66,6 +74,18 @@ bool contains(const Polygon& outer, const Polygon& inner) {
   return true;
 }
 
+/// The convex outlines that together are a part. Those that are no area for a robot are left out.
+std::vector<Polygon> convex_pieces(const RobotDraft::Part& part) {
+  Polygon outline = convex_outline(part.points);
+  if (!is_hollowed(part.points, outline)) {
+    reduce_corners(outline, kMostCorners);
+    return {outline};
+  }
+  std::vector<Polygon> pieces = convex_parts_of(part.points, kMostCorners);
+  std::erase_if(pieces, [](const Polygon& piece) { return !is_superstructure(piece); });
+  return pieces;
+}
+
 /// What is higher than the body, the largest parts first. Parts within others that are at least as
 /// high are left out.
 std::vector<std::pair<Polygon, double>> higher_parts(const std::vector<RobotDraft::Part>& parts,
@@ -75,9 +95,9 @@ std::vector<std::pair<Polygon, double>> higher_parts(const std::vector<RobotDraf
   for (const RobotDraft::Part& part : parts) {
     const double top_m = std::min(part.top_m, kGreatestRobotHeight_m);
     if (top_m < height_m + kHigher_m) continue;
-    Polygon outline = convex_outline(part.points);
-    reduce_corners(outline, kMostCorners);
-    if (is_superstructure(outline)) higher.emplace_back(std::move(outline), top_m);
+    for (Polygon& piece : convex_pieces(part)) {
+      if (is_superstructure(piece)) higher.emplace_back(std::move(piece), top_m);
+    }
   }
   std::stable_sort(higher.begin(), higher.end(), [](const auto& a, const auto& b) {
     return area_m2(a.first) > area_m2(b.first);
@@ -90,6 +110,61 @@ std::vector<std::pair<Polygon, double>> higher_parts(const std::vector<RobotDraf
     if (!hidden) seen.push_back(std::move(part));
   }
   return seen;
+}
+
+/// The convex parts of a body that is not convex, and up to which height all of them reach. Parts
+/// within others are left out, since they add nothing to the outline.
+struct SeveralParts {
+  std::vector<Polygon> outlines;
+  double height_m = kGreatestRobotHeight_m;
+};
+
+SeveralParts several_parts(const std::vector<RobotDraft::Part>& parts) {
+  std::vector<std::pair<Polygon, double>> pieces;
+  for (const RobotDraft::Part& part : parts) {
+    if (!part.solid) continue;
+    for (Polygon& piece : convex_pieces(part)) {
+      if (is_superstructure(piece)) pieces.emplace_back(std::move(piece), part.top_m);
+    }
+  }
+  std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
+    return area_m2(a.first) > area_m2(b.first);
+  });
+  SeveralParts several;
+  for (auto& [piece, top_m] : pieces) {
+    const bool hidden = std::any_of(several.outlines.begin(), several.outlines.end(),
+                                    [&](const Polygon& larger) { return contains(larger, piece); });
+    if (hidden) continue;
+    several.outlines.push_back(std::move(piece));
+    several.height_m = std::min(several.height_m, top_m);
+  }
+  return several;
+}
+
+/// The share of a convex outline that none of the parts covers.
+double uncovered_share(const Polygon& whole, const std::vector<Polygon>& parts) {
+  constexpr int kSamples = 100;  // along the longer side of the box around the outline
+  Vec2 low = whole.front();
+  Vec2 high = low;
+  for (const Vec2& corner : whole) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  const double spacing_m = (high - low).maxCoeff() / kSamples;
+  int within = 0;
+  int uncovered = 0;
+  for (double x = low.x() + 0.5 * spacing_m; x < high.x(); x += spacing_m) {
+    for (double y = low.y() + 0.5 * spacing_m; y < high.y(); y += spacing_m) {
+      if (!is_inside(whole, {x, y})) continue;
+      ++within;
+      if (std::none_of(parts.begin(), parts.end(), [&](const Polygon& part) {
+            return is_inside(part, {x, y});
+          })) {
+        ++uncovered;
+      }
+    }
+  }
+  return within == 0 ? 0.0 : static_cast<double>(uncovered) / within;
 }
 
 Json points_json(const Polygon& outline) {
@@ -111,22 +186,44 @@ void add_part(const Body& body, const Mount& mount, bool solid, bool seen, Robot
   };
   for (const Block& block : body.blocks) add(block.points, block.z_max_m);
   if (body.bitmap) {
-    add(extreme_points(*body.bitmap, {body.size_m[0], body.size_m[1]}), body.size_m[2]);
+    const Vec2 size_m(body.size_m[0], body.size_m[1]);
+    // Outlines of a concave body; corners that matter for the convex outline of others.
+    const Polygon around = convex_outline(extreme_points(*body.bitmap, size_m));
+    const auto outlines = outlines_of(*body.bitmap, size_m);
+    double area = 0.0;
+    if (outlines) {
+      for (const Polygon& outline : *outlines) area += area_m2(outline);
+    }
+    constexpr double kConcave = 0.9;  // pixels of a round body leave gaps, too
+    if (outlines && area < kConcave * area_m2(around)) {
+      for (const Polygon& outline : *outlines) add(outline, body.size_m[2]);
+    } else {
+      add(extreme_points(*body.bitmap, size_m), body.size_m[2]);
+    }
   }
 }
 
 void set_body(Report& report, RobotDraft& robot) {
+  // As in Stage, a robot without a solid part drives through everything, and others through it.
+  const bool solid = std::any_of(robot.parts.begin(), robot.parts.end(),
+                                 [](const RobotDraft::Part& part) { return part.solid; });
+  if (!solid) {
+    robot.model["solid"] = false;
+    for (RobotDraft::Part& part : robot.parts) part.solid = true;
+  }
   const Polygon whole = outline_above(robot.parts, 0.0);
   // Only superstructures may reach beyond the footprint, as what is not solid does.
   const bool overhangs = std::any_of(
       robot.parts.begin(), robot.parts.end(),
       [&](const RobotDraft::Part& part) { return !part.solid && !contains(whole, part.points); });
-  const double height_m = overhangs ? 0.0 : height_of_body(robot.parts, whole);
+  double height_m = overhangs ? 0.0 : height_of_body(robot.parts, whole);
   Polygon outline = whole;
   reduce_corners(outline, kMostCorners);
   if (!is_body(outline)) {
-    report.note("no body", robot.place,
-                "a robot with a body of less than 1 cm^2 gets one of 2 x 2 cm");
+    if (solid) {
+      report.note("no body", robot.place,
+                  "a robot with a body of less than 1 cm^2 gets one of 2 x 2 cm");
+    }
     outline = {{-0.01, -0.01}, {0.01, -0.01}, {0.01, 0.01}, {-0.01, 0.01}};
   }
   for (const Vec2& point : outline) {
@@ -138,6 +235,20 @@ void set_body(Report& report, RobotDraft& robot) {
     break;
   }
   robot.model["footprint"] = points_json(outline);
+  constexpr double kConvex = 0.02;  // a smaller share of the area does not matter
+  SeveralParts several = several_parts(robot.parts);
+  if (several.outlines.size() > 1 && uncovered_share(outline, several.outlines) > kConvex) {
+    if (several.outlines.size() > kMostBodyParts) {
+      report.note("body of many parts", robot.place,
+                  "a body has at most " + std::to_string(kMostBodyParts) +
+                      " convex parts; others become the convex outline around them");
+    } else {
+      Json parts = Json::array();
+      for (const Polygon& part : several.outlines) parts.push_back(points_json(part));
+      robot.model["footprint"] = std::move(parts);
+      if (!overhangs) height_m = several.height_m;
+    }
+  }
   robot.model["height"] = neat(std::clamp(height_m, kLeastLength_m, kGreatestRobotHeight_m));
   auto higher = higher_parts(robot.parts, std::max(height_m, kLeastLength_m));
   if (higher.size() > kMostSuperstructures) {

@@ -224,46 +224,6 @@ Body read_body(const Properties& model, const Units& units, Report& report,
   return body;
 }
 
-Polygon convex_outline(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  const auto turn = [](const Vec2& a, const Vec2& b, const Vec2& c) {
-    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-  };
-  Polygon outline;
-  const auto half = [&](auto begin, auto end) {
-    const std::size_t base = outline.size();
-    for (auto point = begin; point != end; ++point) {
-      while (outline.size() >= base + 2 &&
-             turn(outline[outline.size() - 2], outline.back(), *point) <= 1e-12) {
-        outline.pop_back();
-      }
-      outline.push_back(*point);
-    }
-    if (!outline.empty()) outline.pop_back();  // it begins the other half
-  };
-  half(points.begin(), points.end());
-  half(points.rbegin(), points.rend());
-  constexpr double kNear_m = 0.002;
-  for (bool changed = true; changed && outline.size() > 3;) {
-    changed = false;
-    for (std::size_t i = 0; i < outline.size() && outline.size() > 3; ++i) {
-      const std::size_t n = outline.size();
-      const Vec2& before = outline[(i + n - 1) % n];
-      const Vec2& after = outline[(i + 1) % n];
-      const bool near = (outline[i] - before).norm() < kNear_m;
-      const bool straight = turn(before, outline[i], after) <
-                            1e-4 * (outline[i] - before).norm() * (after - outline[i]).norm();
-      if (!near && !straight) continue;
-      outline.erase(outline.begin() + static_cast<std::ptrdiff_t>(i));
-      changed = true;
-      break;
-    }
-  }
-  return outline;
-}
-
 void reduce_corners(Polygon& outline, std::size_t most) {
   while (outline.size() > most) {
     std::size_t best = 0;

@@ -58,12 +58,6 @@ inline constexpr double kFlatSensor_m = 0.2;  ///< of all other sensors
 [[nodiscard]] Body read_body(const Properties& model, const Units& units, Report& report,
                              const std::array<double, 3>& size_m, bool has_block);
 
-/// Corners of the convex outline around points, counter-clockwise. Corners that are less than 2 mm
-/// from their neighbour or on a straight line are left out.
-/// (A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", Information
-/// Processing Letters 9(5), 1979.)
-[[nodiscard]] Polygon convex_outline(std::vector<Vec2> points);
-
 /// Removes the corners of a convex outline whose removal changes its area least, until at most
 /// `most` remain.
 void reduce_corners(Polygon& outline, std::size_t most);

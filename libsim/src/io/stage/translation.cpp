@@ -302,17 +302,8 @@ class Translator {
     }
     tell_charging(model);
     if (body.empty()) return;
-    if (!returns.obstacle && !returns.ranger) {
-      report_.note("neither solid nor seen", place,
-                   "models that are neither solid nor seen by rangers are left out");
-      return;
-    }
     const std::string name = obstacle_names_.unique(stage_name);
-    if (!returns.obstacle) {
-      report_.note("obstacle_return", model.place_of("obstacle_return"),
-                   "models with obstacle_return 0 are solid: robots do not drive through them");
-    }
-    if (!returns.ranger) {
+    if (returns.obstacle && !returns.ranger) {
       report_.note("ranger_return",
                    model.has("ranger_return") ? model.place_of("ranger_return")
                                               : model.place_of("laser_return"),
@@ -324,6 +315,7 @@ class Translator {
     const double foot_m = frame.foot_m + origin.z_m;
     const auto finish = [&](Json& json, double z_max_m) {
       json["height"] = returns.ranger ? neat(std::clamp(z_max_m, 0.001, 10.0)) : 0.001;
+      if (!returns.obstacle) json["solid"] = false;
     };
     std::vector<Block> blocks = body.blocks;
     if (body.bitmap && !returns.gripper) {
@@ -487,10 +479,6 @@ class Translator {
     if (returns.gripper) {
       report_.note("gripped robot", model.place_of("gripper_return"),
                    "grippers do not take robots (gripper_return is left out)");
-    }
-    if (!returns.obstacle) {
-      report_.note("obstacle_return", model.place_of("obstacle_return"),
-                   "models with obstacle_return 0 are solid: robots do not drive through them");
     }
     const Pose3 origin = model.pose("origin");
     add_part(body, {origin.pose, frame.foot_m + origin.z_m}, returns.obstacle, returns.ranger,
