@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Two controllers that need no map, and the question whether a stalled robot sees what it stalls at. Both
-// sides of blind_worlds.py, stage_drive.cc and playpen_drive.cc, use them.
+// Two controllers that need no map, and the question whether a stalled robot sees what it stalls
+// at. Both sides of blind_worlds.py, stage_drive.cc and playpen_drive.cc, use them.
 #pragma once
 
 #include <algorithm>
@@ -70,8 +70,8 @@ class WallFollower {
 /// What the beams tell about the space in front of a robot that has driven forwards and stalled.
 enum class Sight { kNoBeamAhead, kSeen, kBlind };
 
-/// The space ahead reaches from the middle of the body to 0.35 m before its front, and 0.1 m beyond its sides: a
-/// robot that drives forwards meets things there only.
+/// The space ahead reaches from the middle of the body to 0.35 m before its front, and 0.1 m beyond
+/// its sides: a robot that drives forwards meets things there only.
 [[nodiscard]] inline Sight sight_ahead(const Body& body, const std::vector<Beam>& beams) {
   const auto ahead = [&](double x_m, double y_m) {
     return x_m > 0.5 * (body.front_m + body.rear_m) - 0.05 && x_m < body.front_m + 0.35 &&
@@ -105,7 +105,8 @@ enum class Sight { kNoBeamAhead, kSeen, kBlind };
 ///   at TIME X Y YAW                               every 2 s
 ///   stall TIME X Y YAW seen|blind|no_beam AHEAD   where it stalled while it drove forwards
 ///   end X Y YAW PATH STALLS
-/// @tparam Robot  has pose() (with x, y, a), stalled(), beams(), body(), set_speed(Twist), advance() by 100 ms
+/// @tparam Robot  has pose() (with x, y, a), stalled(), beams(), body(), set_speed(Twist),
+/// advance() by 100 ms
 ///     and look(): stops, and measures from where it stands.
 template <typename Driver, typename Robot>
 void drive(Driver driver, Robot& robot, double seconds) {
@@ -137,10 +138,12 @@ void drive(Driver driver, Robot& robot, double seconds) {
     robot.set_speed(twist);
     robot.advance();
   }
-  std::cout << "end " << last.x << ' ' << last.y << ' ' << last.a << ' ' << path_m << ' ' << stalls << '\n';
+  std::cout << "end " << last.x << ' ' << last.y << ' ' << last.a << ' ' << path_m << ' ' << stalls
+            << '\n';
 }
 
-/// Drives blindly, then along walls from where that has ended; writes `controller blind|wall` before each.
+/// Drives blindly, then along walls from where that has ended; writes `controller blind|wall`
+/// before each.
 template <typename Robot>
 void drive(Robot& robot, double seconds) {
   std::cout << "controller blind\n";

@@ -1,14 +1,15 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Compares what Playpen measures with what stage_scans has written about Stage:
 //   compare_stage WORLD SCANS [--list N]
-// It prints a line for each ranger of each robot, one for the drives and one for the hits of each robot, and one for
-// all beams; with --list also the first N beams and hits that differ.
+// It prints a line for each ranger of each robot, one for the drives and one for the hits of each
+// robot, and one for all beams; with --list also the first N beams and hits that differ.
 //
-// A beam agrees if Playpen measures Stage's range, give or take two cells of Stage's raster. At the edges of
-// things that is not enough: Stage draws outlines into its raster, their corners are rounded to cells, and a beam
-// walks from cell to cell until one is drawn. So a beam agrees, too, if the outlines that Playpen's ranger sees
-// explain Stage's range: if Playpen measures it along a parallel line at most two cells aside, or if a walk over
-// a raster with these outlines ends at most one cell beside it.
+// A beam agrees if Playpen measures Stage's range, give or take two cells of Stage's raster. At the
+// edges of things that is not enough: Stage draws outlines into its raster, their corners are
+// rounded to cells, and a beam walks from cell to cell until one is drawn. So a beam agrees, too,
+// if the outlines that Playpen's ranger sees explain Stage's range: if Playpen measures it along a
+// parallel line at most two cells aside, or if a walk over a raster with these outlines ends at
+// most one cell beside it.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -57,7 +58,8 @@ std::vector<Side> sides_above(const sim::Simulation& simulation, int own, double
     if (loop.height_m >= height_m - 1e-6) add(sides, loop.vertices, {}, "map");
   }
   for (const sim::ObstacleDescription& obstacle : arena.obstacles) {
-    if (obstacle.height_m >= height_m - 1e-6) add(sides, sim::corners_of(obstacle), {}, obstacle.name);
+    if (obstacle.height_m >= height_m - 1e-6)
+      add(sides, sim::corners_of(obstacle), {}, obstacle.name);
   }
   for (int i = 0; i < simulation.robot_count(); ++i) {
     if (i == own) continue;
@@ -227,7 +229,8 @@ class Raster {
 /// Figures of one ranger.
 struct Figures {
   std::size_t beams = 0, agree = 0, two_cells = 0, missed = 0, extra = 0, farther = 0, nearer = 0;
-  std::size_t other_device = 0;  ///< of rangers that Playpen does not have, or with another number of beams
+  std::size_t other_device =
+      0;  ///< of rangers that Playpen does not have, or with another number of beams
   std::vector<double> errors_m;
 };
 
@@ -338,7 +341,8 @@ class Comparison {
     return pose;
   }
 
-  /// Playpen's robot of Stage's name is that which starts at the same place, or the nearest one of the others.
+  /// Playpen's robot of Stage's name is that which starts at the same place, or the nearest one of
+  /// the others.
   void find_robot(const std::string& name) {
     const Pose& start = starts_[name];
     int nearest = -1;
@@ -388,19 +392,18 @@ class Comparison {
       const std::vector<std::string> names = interop::rangers_of(simulation_, robot_);
       std::size_t next = 0;
       for (std::size_t ranger = 0; ranger < scans_.size(); ++ranger) {
-        // Transducers of one ray are one device, scanners one each.
+        // As Stage's plugin publishes them: all samples of a single sensor, the first one of each
+        // of several.
         const std::vector<Scan>& sensors = scans_[ranger];
-        const bool ring = std::all_of(sensors.begin(), sensors.end(),
-                                      [](const Scan& s) { return s.ranges_m.size() == 1; });
-        std::vector<Scan> devices = sensors;
-        if (ring) {
-          devices = {Scan{sensors.front().range_max_m, {}}};
-          for (const Scan& s : sensors) devices[0].ranges_m.push_back(s.ranges_m[0]);
+        Scan scan = sensors.front();
+        if (sensors.size() > 1) {
+          scan.ranges_m.clear();
+          for (const Scan& s : sensors) {
+            if (!s.ranges_m.empty()) scan.ranges_m.push_back(s.ranges_m.front());
+          }
         }
-        for (const Scan& scan : devices) {
-          compare(ranger, next < names.size() ? names[next] : "", scan);
-          ++next;
-        }
+        compare(ranger, next < names.size() ? names[next] : "", scan);
+        ++next;
       }
     }
     scans_.clear();
@@ -408,12 +411,12 @@ class Comparison {
 
   void compare(std::size_t ranger, const std::string& device, const Scan& stage) {
     Figures& figures = figures_[stage_name_ + " ranger:" + std::to_string(ranger)];
-    const Beams ours = beams_of(simulation_, robot_, device);
+    const Beams ours = device.empty() ? Beams() : beams_of(simulation_, robot_, device);
     if (ours.ranges_m.size() != stage.ranges_m.size()) {
       if (device_differs_.empty()) {
-        device_differs_ = stage_name_ + ' ' + device + ": " + std::to_string(stage.ranges_m.size()) +
-                          " ranges in Stage, " + std::to_string(ours.ranges_m.size()) +
-                          " in Playpen";
+        device_differs_ = stage_name_ + ' ' + device + ": " +
+                          std::to_string(stage.ranges_m.size()) + " ranges in Stage, " +
+                          std::to_string(ours.ranges_m.size()) + " in Playpen";
       }
       figures.beams += stage.ranges_m.size();
       figures.other_device += stage.ranges_m.size();
@@ -443,8 +446,8 @@ class Comparison {
       const Vec2 along(std::cos(X_WS.yaw_rad), std::sin(X_WS.yaw_rad));
       const double drawn_m = cast(sides, X_WS.position(), along, ours.range_max_m).range_m;
       const bool as_drawn = std::abs(drawn_m - ours.ranges_m[i]) <= 0.002 + 5.0 * ours.noise_m;
-      bool agrees = as_drawn && off_m(sides, X_WS.position(), X_WS.yaw_rad, theirs_m, ours.range_max_m,
-                                      2.0 * cell_m_) <= 2.0 * cell_m_;
+      bool agrees = as_drawn && off_m(sides, X_WS.position(), X_WS.yaw_rad, theirs_m,
+                                      ours.range_max_m, 2.0 * cell_m_) <= 2.0 * cell_m_;
       if (agrees) ++figures.two_cells;
       double walked_m = 0.0;
       for (const Raster& raster : rasters) {
@@ -541,7 +544,8 @@ class Comparison {
     };
     while (simulation_.now_ns() < until_ns && !touches()) simulation_.step();
     const Pose& at = simulation_.body(robot_).X_WB;
-    const double ours_m = std::hypot(at.x_m - x, at.y_m - y), theirs_m = std::hypot(to_x - x, to_y - y);
+    const double ours_m = std::hypot(at.x_m - x, at.y_m - y),
+                 theirs_m = std::hypot(to_x - x, to_y - y);
     Hits& hits = hits_[name];
     ++hits.count;
     // Stage moves in steps of 0.1 s, and does not take the one that would overlap something.
@@ -554,8 +558,9 @@ class Comparison {
         --list_;
         std::cout << "  " << name << " from (" << x << ", " << y << ", " << yaw << "): stops after "
                   << theirs_m << " m in Stage (" << end << "), " << ours_m << " m in Playpen at "
-                  << (touches() && !simulation_.collisions().empty() ? simulation_.collisions().back().partner
-                                                                    : "nothing")
+                  << (touches() && !simulation_.collisions().empty()
+                          ? simulation_.collisions().back().partner
+                          : "nothing")
                   << '\n';
       }
     }
@@ -573,8 +578,8 @@ class Comparison {
     std::cout << name << ": " << f.beams << " beams, " << share(f.agree) << " % agree, "
               << share(f.two_cells) << " % without a raster, median difference " << 1000.0 * *middle
               << " mm; others: " << f.missed << " only in Stage, " << f.extra
-              << " only in Playpen, " << f.farther << " farther, " << f.nearer << " nearer, " << f.other_device
-              << " of other devices\n";
+              << " only in Playpen, " << f.farther << " farther, " << f.nearer << " nearer, "
+              << f.other_device << " of other devices\n";
   }
 
   sim::Simulation simulation_;

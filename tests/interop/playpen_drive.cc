@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Lets the first robot of a world drive in Playpen by the controllers of blind_driver.h, for blind_worlds.py:
+// Lets the first robot of a world drive in Playpen by the controllers of blind_driver.h, for
+// blind_worlds.py:
 //   playpen_drive WORLD SECONDS
 // It writes the lines of stage_drive.cc.
 #include <cstdlib>
@@ -97,7 +98,8 @@ int main(int argc, char** argv) {
     std::cout << "robots " << simulation.robot_count() << '\n';
     if (simulation.robot_count() == 0) return 0;
     int first = 0;
-    while (first < simulation.robot_count() && interop::rangers_of(simulation, first).empty()) ++first;
+    while (first < simulation.robot_count() && interop::rangers_of(simulation, first).empty())
+      ++first;
     if (first == simulation.robot_count()) first = 0;
     PlaypenRobot robot(simulation, first);
     robot.look();

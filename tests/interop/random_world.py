@@ -79,7 +79,7 @@ class World:
         for _ in range(self.random.randint(2, 3)):
             dx, dy = self.between(-3, 3), self.between(-3, 3)
             points = [(round(x + dx, 3), round(y + dy, 3)) for x, y in self.polygon()]
-            low = self.random.choice([0, 0, 0, 0.3])
+            low = 0.3 if self.chance(0.05) else 0
             rows += self.block(points, low, low + self.random.choice([0.3, 0.5, 1]))
         return rows
 
@@ -122,8 +122,8 @@ class World:
                                chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
         return name
 
-    def sensor(self, samples):
-        rows = ["sensor( range %s" % tuple_of(self.random.choice([0, 0, 0.1]), self.random.choice([3, 5, 8])),
+    def sensor(self, samples, range_max):
+        rows = ["sensor( range %s" % tuple_of(self.random.choice([0, 0, 0.1]), range_max),
                 "  fov %s samples %d" % (number(self.random.choice([30, 90, 180, 270]) if samples > 1 else 20), samples)]
         rows.append("  pose %s" % tuple_of(self.between(-0.1, 0.1), self.between(-0.1, 0.1),
                                            self.random.choice([0, 0, 0.05]), self.random.randrange(-180, 180, 15)))
@@ -135,9 +135,11 @@ class World:
         rows = ["ranger("]
         kind = self.random.choice(["laser", "laser", "ring", "several"])
         count = {"laser": 1, "ring": self.random.randint(2, 8), "several": self.random.randint(2, 3)}[kind]
+        range_max = self.random.choice([3, 5, 8])
         for _ in range(count):
             samples = {"laser": self.random.choice([19, 45, 91]), "ring": 1, "several": self.random.choice([3, 5])}[kind]
-            rows += ["  " + row for row in self.sensor(samples)]
+            rows += ["  " + row for row in self.sensor(
+                samples, range_max if self.chance(0.97) else 4)]
         if self.chance(0.7):
             rows.append("  size %s" % tuple_of(self.random.choice([0.05, 0.15]), 0.15, self.random.choice([0.1, 0.2])))
         # Mostly on the body, sometimes within it.
@@ -172,7 +174,7 @@ class World:
         at = self.place(0.75 * math.hypot(size[0], size[1]))
         if at is None:
             return []
-        z = self.random.choice([0, 0, 0, 0, 0, 0.1, 0.25])
+        z = self.random.choice([0.1, 0.25]) if self.chance(0.03) else 0
         rows = ["model( pose %s size %s color \"blue\"" % (
             tuple_of(at[0], at[1], z, self.random.choice([0, 0, 90, self.random.randrange(0, 360, 15)])), tuple_of(*size))]
         body = self.returns(True) + self.origin(size)

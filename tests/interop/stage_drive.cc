@@ -1,9 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Lets the first robot of a world drive in real Stage by the controllers of blind_driver.h, for blind_worlds.py. It links
-// libstage and needs no display:
+// Lets the first robot of a world drive in real Stage by the controllers of blind_driver.h, for
+// blind_worlds.py. It links libstage and needs no display:
 //   stage_drive WORLD SECONDS
-// It writes `robot NAME X Y YAW`, the lines of interop::drive(), and what the rangers measure at some of the
-// places where the robot has been, in the format of stage_scans.cc.
+// It writes `robot NAME X Y YAW`, the lines of interop::drive(), and what the rangers measure at
+// some of the places where the robot has been, in the format of stage_scans.cc.
 #include <cstdlib>
 #include <iostream>
 #include <string>
@@ -64,12 +64,14 @@ class StageRobot {
   }
 
  private:
-  /// Adds the bounding box of a model and of those on it; a turned part counts with its greater side.
+  /// Adds the bounding box of a model and of those on it; a turned part counts with its greater
+  /// side.
   static void extend(interop::Body& body, Stg::Model* model, double x, double y) {
     const Stg::Geom geom = model->GetGeom();
     const bool turned = std::abs(std::sin(geom.pose.a)) > 0.01;
     const double greater = std::max(geom.size.x, geom.size.y);
-    const double half_x = 0.5 * (turned ? greater : geom.size.x), half_y = 0.5 * (turned ? greater : geom.size.y);
+    const double half_x = 0.5 * (turned ? greater : geom.size.x),
+                 half_y = 0.5 * (turned ? greater : geom.size.y);
     body.front_m = std::max(body.front_m, x + geom.pose.x + half_x);
     body.rear_m = std::min(body.rear_m, x + geom.pose.x - half_x);
     body.side_m = std::max(body.side_m, std::abs(y + geom.pose.y) + half_y);
@@ -111,7 +113,8 @@ int main(int argc, char** argv) {
   interop::switch_on(robot);
   interop::measure(world);
   const Stg::Pose start = robot.body->GetGlobalPose();
-  std::cout << "robot " << robot.body->Token() << ' ' << start.x << ' ' << start.y << ' ' << start.a << '\n';
+  std::cout << "robot " << robot.body->Token() << ' ' << start.x << ' ' << start.y << ' ' << start.a
+            << '\n';
   StageRobot driven(world, robot);
   interop::drive(driven, std::atof(argv[2]));
   std::cout.flush();

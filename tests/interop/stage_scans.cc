@@ -116,7 +116,7 @@ int main(int argc, char** argv) {
     const Robot& robot = robots[i];
     measure(world);
     const int count = wanted / static_cast<int>(robots.size());
-    for (int done = 0, tries = 0; done < count && tries < 100 * count; ++tries) {
+    for (int done = 0, tries = 0; done < count && tries < 20 * count; ++tries) {
       const Pose before = robot.body->GetGlobalPose();
       robot.body->SetPose(wander(robot, random));
       measure(world);
