@@ -1,17 +1,16 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Compares what Playpen measures with what stage_scans has written about Stage:
-//   compare_stage WORLD SCANS [--list N] NAME=PLAYPENS_NAME...
-// It prints a line for each ranger of each robot, one for the drives of each robot, and one for all
-// beams; with --list also the first N beams that differ.
+//   compare_stage WORLD SCANS [--list N]
+// It prints a line for each ranger of each robot, one for the drives and one for the hits of each
+// robot, and one for all beams; with --list also the first N beams and hits that differ.
 //
-// Stage draws outlines into a raster: their corners are rounded to cells, and a beam walks from
-// cell to cell until one is drawn. So outlines are compared in Stage's way, too: Playpen's
-// outlines, as the sensor sees them at its height, are drawn into such a raster, and a beam agrees
-// if a walk over it ends at most one cell beside Stage's. Besides, the exact ranges that Playpen
-// measures are compared: a beam is near if Playpen measures Stage's range, give or take two cells,
-// along the same line or along a parallel one at most two cells aside.
+// A beam agrees if Playpen measures Stage's range, give or take two cells of Stage's raster. At the
+// edges of things that is not enough: Stage draws outlines into its raster, their corners are
+// rounded to cells, and a beam walks from cell to cell until one is drawn. So a beam agrees, too,
+// if the outlines that Playpen's ranger sees explain Stage's range: if Playpen measures it along a
+// parallel line at most two cells aside, or if a walk over a raster with these outlines ends at
+// most one cell beside it.
 #include <algorithm>
-#include <any>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -20,19 +19,19 @@
 #include <map>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <unordered_set>
 #include <vector>
 
+#include "playpen_beams.h"
 #include "sim/core/error.h"
-#include "sim/devices/laser.h"
-#include "sim/devices/rangers.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/outline.h"
 
 namespace {
 
+using interop::Beams;
+using interop::beams_of;
 using sim::Pose;
 using sim::Vec2;
 
@@ -56,19 +55,20 @@ std::vector<Side> sides_above(const sim::Simulation& simulation, int own, double
   std::vector<Side> sides;
   const sim::ArenaDescription& arena = simulation.world().arena;
   for (const sim::WallLoop& loop : arena.walls) {
-    if (loop.height_m > height_m) add(sides, loop.vertices, {}, "map");
+    if (loop.height_m >= height_m - 1e-6) add(sides, loop.vertices, {}, "map");
   }
   for (const sim::ObstacleDescription& obstacle : arena.obstacles) {
-    if (obstacle.height_m > height_m) add(sides, sim::corners_of(obstacle), {}, obstacle.name);
+    if (obstacle.height_m >= height_m - 1e-6)
+      add(sides, sim::corners_of(obstacle), {}, obstacle.name);
   }
   for (int i = 0; i < simulation.robot_count(); ++i) {
     if (i == own) continue;
     const sim::RobotModel& model = simulation.model(i);
     const Pose& X_WB = simulation.body(i).X_WB;
     const std::string& name = simulation.world().robots[static_cast<std::size_t>(i)].name;
-    if (model.height_m > height_m) add(sides, model.footprint, X_WB, name);
+    if (model.height_m >= height_m - 1e-6) add(sides, model.footprint, X_WB, name);
     for (const sim::Superstructure& part : model.superstructures) {
-      if (part.height_m > height_m) add(sides, part.outline, X_WB, name);
+      if (part.height_m >= height_m - 1e-6) add(sides, part.outline, X_WB, name);
     }
   }
   return sides;
@@ -229,6 +229,8 @@ class Raster {
 /// Figures of one ranger.
 struct Figures {
   std::size_t beams = 0, agree = 0, two_cells = 0, missed = 0, extra = 0, farther = 0, nearer = 0;
+  std::size_t other_device =
+      0;  ///< of rangers that Playpen does not have, or with another number of beams
   std::vector<double> errors_m;
 };
 
@@ -239,54 +241,22 @@ struct Drives {
   double greatest_turn_rad = 0.0;
 };
 
+/// Where robots stop that drive into something.
+struct Hits {
+  int count = 0, agree = 0, farther = 0, nearer = 0;
+};
+
 /// A sensor of Stage: its ranges at a pose.
 struct Scan {
   double range_max_m = 0.0;
   std::vector<double> ranges_m;
 };
 
-/// A ranger of Playpen: where its beams start and what they measure.
-struct Beams {
-  std::vector<Pose> X_BS;
-  std::vector<double> ranges_m;
-  double height_m = 0.0;
-  double range_max_m = 0.0;
-};
-
-Beams beams_of(const sim::Simulation& simulation, int robot, const std::string& name) {
-  Beams beams;
-  const sim::Device& device = simulation.device(robot, simulation.find_device(robot, name).value());
-  if (const auto* laser = dynamic_cast<const sim::Laser*>(&device)) {
-    const sim::LaserParams& params = laser->params();
-    for (int i = 0; i < params.beam_count; ++i) {
-      const double angle_rad = params.resolution_rad * (i - 0.5 * (params.beam_count - 1));
-      beams.X_BS.push_back(params.X_BL * Pose{0.0, 0.0, angle_rad});
-    }
-    beams.ranges_m = laser->reading().ranges_m;
-    beams.height_m = params.height_m;
-    beams.range_max_m = params.range_max_m;
-  } else if (const auto* ring = dynamic_cast<const sim::Ranger*>(&device)) {
-    beams.X_BS = ring->reading().X_BS;
-    beams.ranges_m = ring->reading().ranges_m;
-    beams.range_max_m = ring->reading().range_max_m;
-    for (const sim::DeviceDescription& d :
-         simulation.world().robots[static_cast<std::size_t>(robot)].devices) {
-      if (d.name == name)
-        beams.height_m = std::any_cast<const sim::SonarParams&>(d.params).height_m;
-    }
-  }
-  return beams;
-}
-
 class Comparison {
  public:
   Comparison(const std::string& world, std::size_t list)
       : simulation_(sim::load_world(world)), list_(list) {
     for (int i = 0; i < simulation_.robot_count(); ++i) X_WB_.push_back(simulation_.body(i).X_WB);
-  }
-
-  void name(const std::string& stage, const std::string& own) {
-    if (const auto robot = simulation_.find_robot(own)) robots_[stage] = *robot;
   }
 
   void run(std::istream& in) {
@@ -300,6 +270,7 @@ class Comparison {
       } else if (what == "robot") {
         words >> name;
         starts_[name] = read_pose(words);
+        find_robot(name);
         place(name, starts_[name]);  // Playpen moves robots that overlap something
       } else if (what == "pose") {
         compare_scans();
@@ -318,6 +289,10 @@ class Comparison {
         double range_m = 0.0;
         while (words >> range_m) scan.ranges_m.push_back(range_m);
         scans_.back().push_back(std::move(scan));
+      } else if (what == "hit") {
+        compare_scans();
+        words >> name;
+        hit(name, words);
       } else if (what == "drive") {
         compare_scans();
         words >> name;
@@ -340,6 +315,7 @@ class Comparison {
       all.extra += figures.extra;
       all.farther += figures.farther;
       all.nearer += figures.nearer;
+      all.other_device += figures.other_device;
       all.errors_m.insert(all.errors_m.end(), figures.errors_m.begin(), figures.errors_m.end());
     }
     for (const auto& [name, drives] : drives_) {
@@ -347,6 +323,11 @@ class Comparison {
                 << 1000.0 * drives.farthest_m << " mm and "
                 << drives.greatest_turn_rad * 57.29577951308232 << " degrees from Stage's\n";
     }
+    for (const auto& [name, hits] : hits_) {
+      std::cout << name << " hits: " << hits.count << ", " << hits.agree << " agree, "
+                << hits.farther << " farther, " << hits.nearer << " nearer\n";
+    }
+    if (!device_differs_.empty()) std::cout << "other device: " << device_differs_ << '\n';
     if (refused_ > 0) {
       std::cout << refused_ << " poses at which Playpen's robot would overlap something\n";
     }
@@ -358,6 +339,24 @@ class Comparison {
     Pose pose;
     in >> pose.x_m >> pose.y_m >> pose.yaw_rad;
     return pose;
+  }
+
+  /// Playpen's robot of Stage's name is that which starts at the same place, or the nearest one of
+  /// the others.
+  void find_robot(const std::string& name) {
+    const Pose& start = starts_[name];
+    int nearest = -1;
+    double least_m = 1e9;
+    for (std::size_t i = 0; i < X_WB_.size(); ++i) {
+      const int robot = static_cast<int>(i);
+      const bool taken = std::any_of(robots_.begin(), robots_.end(),
+                                     [&](const auto& known) { return known.second == robot; });
+      const double off_m = std::hypot(X_WB_[i].x_m - start.x_m, X_WB_[i].y_m - start.y_m);
+      if (taken || off_m >= least_m) continue;
+      nearest = robot;
+      least_m = off_m;
+    }
+    if (nearest >= 0) robots_[name] = nearest;
   }
 
   void place(const std::string& name, const Pose& pose) {
@@ -387,31 +386,24 @@ class Comparison {
     }
   }
 
-  /// Rangers of the robot, in the order of their indices.
-  [[nodiscard]] std::vector<std::string> rangers() const {
-    const auto& robot = simulation_.world().robots[static_cast<std::size_t>(robot_)];
-    const auto found = robot.interfaces.find("ranger");
-    return found == robot.interfaces.end() ? std::vector<std::string>() : found->second;
-  }
-
   void compare_scans() {
     if (robot_ >= 0 && !scans_.empty()) {
       for (int i = 0; i < 21; ++i) simulation_.step();  // each sensor measures
-      const std::vector<std::string> names = rangers();
+      const std::vector<std::string> names = interop::rangers_of(simulation_, robot_);
       std::size_t next = 0;
       for (std::size_t ranger = 0; ranger < scans_.size(); ++ranger) {
-        // Transducers of one ray are one device, scanners one each.
+        // As Stage's plugin publishes them: all samples of a single sensor, the first one of each
+        // of several.
         const std::vector<Scan>& sensors = scans_[ranger];
-        const bool ring = std::all_of(sensors.begin(), sensors.end(),
-                                      [](const Scan& s) { return s.ranges_m.size() == 1; });
-        std::vector<Scan> devices = sensors;
-        if (ring) {
-          devices = {Scan{sensors.front().range_max_m, {}}};
-          for (const Scan& s : sensors) devices[0].ranges_m.push_back(s.ranges_m[0]);
+        Scan scan = sensors.front();
+        if (sensors.size() > 1) {
+          scan.ranges_m.clear();
+          for (const Scan& s : sensors) {
+            if (!s.ranges_m.empty()) scan.ranges_m.push_back(s.ranges_m.front());
+          }
         }
-        for (const Scan& scan : devices) {
-          if (next < names.size()) compare(ranger, names[next++], scan);
-        }
+        compare(ranger, next < names.size() ? names[next] : "", scan);
+        ++next;
       }
     }
     scans_.clear();
@@ -419,48 +411,48 @@ class Comparison {
 
   void compare(std::size_t ranger, const std::string& device, const Scan& stage) {
     Figures& figures = figures_[stage_name_ + " ranger:" + std::to_string(ranger)];
-    const Beams ours = beams_of(simulation_, robot_, device);
+    const Beams ours = device.empty() ? Beams() : beams_of(simulation_, robot_, device);
     if (ours.ranges_m.size() != stage.ranges_m.size()) {
-      throw std::runtime_error(device + ": " + std::to_string(stage.ranges_m.size()) +
-                               " ranges in Stage, " + std::to_string(ours.ranges_m.size()) +
-                               " in Playpen");
+      if (device_differs_.empty()) {
+        device_differs_ = stage_name_ + ' ' + device + ": " +
+                          std::to_string(stage.ranges_m.size()) + " ranges in Stage, " +
+                          std::to_string(ours.ranges_m.size()) + " in Playpen";
+      }
+      figures.beams += stage.ranges_m.size();
+      figures.other_device += stage.ranges_m.size();
+      figures.errors_m.resize(figures.beams, stage.range_max_m);
+      return;
     }
     const Pose X_WB = simulation_.body(robot_).X_WB;
-    const std::vector<Side> sides = sides_above(simulation_, robot_, ours.height_m);
-    // Stage draws lines in the order of a block's points, which Playpen does not keep.
+    std::vector<Side> sides;  // drawn when a beam needs them
     Raster rasters[2] = {Raster(cell_m_), Raster(cell_m_)};
-    for (const Side& side : sides_above(simulation_, -1, -1.0)) rasters[0].draw(side, false);
-    // Paddles of grippers, which Playpen's rangers do not see.
-    for (int i = 0; i < simulation_.robot_count(); ++i) {
-      std::vector<Side> paddles;
-      for (const sim::Polygon& paddle : simulation_.robot_snapshot(i).paddles) {
-        add(paddles, paddle, simulation_.body(i).X_WB, "paddle");
-      }
-      for (const Side& side : paddles) rasters[0].draw(side, false);
-    }
-    rasters[1] = rasters[0];
-    for (const Side& side : sides) {
-      rasters[0].draw(side, true);
-      rasters[1].draw({side.b, side.a, side.solid}, true);
-    }
     for (std::size_t i = 0; i < ours.ranges_m.size(); ++i) {
       const double theirs_m = std::min(stage.ranges_m[i], stage.range_max_m);
       const double error_m = ours.ranges_m[i] - theirs_m;
       const Pose X_WS = X_WB * ours.X_BS[i];
-      const double off =
-          off_m(sides, X_WS.position(), X_WS.yaw_rad, theirs_m, ours.range_max_m, 2.0 * cell_m_);
       ++figures.beams;
       figures.errors_m.push_back(std::abs(error_m));
-      if (off <= 2.0 * cell_m_) ++figures.two_cells;
       // One cell along x or y.
       const double cell_along_m =
           1.0001 * cell_m_ /
           std::max(std::abs(std::cos(X_WS.yaw_rad)), std::abs(std::sin(X_WS.yaw_rad)));
+      if (std::abs(error_m) <= 2.0 * cell_along_m) {
+        ++figures.agree;
+        ++figures.two_cells;
+        continue;
+      }
+      if (sides.empty()) draw(ours.height_m, sides, rasters);
+      // Only the outlines that Playpen's ranger really sees explain a difference.
+      const Vec2 along(std::cos(X_WS.yaw_rad), std::sin(X_WS.yaw_rad));
+      const double drawn_m = cast(sides, X_WS.position(), along, ours.range_max_m).range_m;
+      const bool as_drawn = std::abs(drawn_m - ours.ranges_m[i]) <= 0.002 + 5.0 * ours.noise_m;
+      bool agrees = as_drawn && off_m(sides, X_WS.position(), X_WS.yaw_rad, theirs_m,
+                                      ours.range_max_m, 2.0 * cell_m_) <= 2.0 * cell_m_;
+      if (agrees) ++figures.two_cells;
       double walked_m = 0.0;
-      bool agrees = false;
       for (const Raster& raster : rasters) {
         walked_m = raster.cast_m(X_WS.position(), X_WS.yaw_rad, ours.range_max_m);
-        agrees = agrees || std::abs(walked_m - theirs_m) <= cell_along_m;
+        agrees = agrees || (as_drawn && std::abs(walked_m - theirs_m) <= cell_along_m);
       }
       if (agrees) {
         ++figures.agree;
@@ -474,6 +466,26 @@ class Comparison {
       } else {
         ++(error_m > 0.0 ? figures.farther : figures.nearer);
       }
+    }
+  }
+
+  /// The outlines that a ranger at a height sees, and two rasters of them.
+  void draw(double height_m, std::vector<Side>& sides, Raster (&rasters)[2]) {
+    sides = sides_above(simulation_, robot_, height_m);
+    // Stage draws lines in the order of a block's points, which Playpen does not keep.
+    for (const Side& side : sides_above(simulation_, -1, -1.0)) rasters[0].draw(side, false);
+    // Paddles of grippers, which Playpen's rangers do not see.
+    for (int i = 0; i < simulation_.robot_count(); ++i) {
+      std::vector<Side> paddles;
+      for (const sim::Polygon& paddle : simulation_.robot_snapshot(i).paddles) {
+        add(paddles, paddle, simulation_.body(i).X_WB, "paddle");
+      }
+      for (const Side& side : paddles) rasters[0].draw(side, false);
+    }
+    rasters[1] = rasters[0];
+    for (const Side& side : sides) {
+      rasters[0].draw(side, true);
+      rasters[1].draw({side.b, side.a, side.solid}, true);
     }
   }
 
@@ -513,6 +525,49 @@ class Comparison {
     simulation_.step();
   }
 
+  /// Drives until the robot touches something, as Stage's has done.
+  void hit(const std::string& name, std::istream& in) {
+    double x, y, yaw, v, seconds, to_x, to_y;
+    std::string end;
+    if (!(in >> x >> y >> yaw >> v >> seconds >> to_x >> to_y >> end)) return;
+    return_others(name);
+    place(name, {x, y, yaw});
+    if (robot_ < 0) return;
+    const auto motion = simulation_.find_device(robot_, "motion");
+    if (!motion) return;
+    simulation_.step();
+    const int before = simulation_.statistics(robot_).collisions;
+    static_cast<void>(simulation_.apply({robot_, *motion}, sim::TwistCommand{{v, 0.0}}));
+    const sim::SimTime until_ns = simulation_.now_ns() + sim::from_seconds(seconds);
+    const auto touches = [&] {
+      return simulation_.statistics(robot_).collisions > before || simulation_.body(robot_).stalled;
+    };
+    while (simulation_.now_ns() < until_ns && !touches()) simulation_.step();
+    const Pose& at = simulation_.body(robot_).X_WB;
+    const double ours_m = std::hypot(at.x_m - x, at.y_m - y),
+                 theirs_m = std::hypot(to_x - x, to_y - y);
+    Hits& hits = hits_[name];
+    ++hits.count;
+    // Stage moves in steps of 0.1 s, and does not take the one that would overlap something.
+    const double tolerance_m = std::abs(v) * 0.1 + 3.0 * cell_m_;
+    if (std::abs(ours_m - theirs_m) <= tolerance_m) {
+      ++hits.agree;
+    } else {
+      ++(ours_m > theirs_m ? hits.farther : hits.nearer);
+      if (list_ > 0) {
+        --list_;
+        std::cout << "  " << name << " from (" << x << ", " << y << ", " << yaw << "): stops after "
+                  << theirs_m << " m in Stage (" << end << "), " << ours_m << " m in Playpen at "
+                  << (touches() && !simulation_.collisions().empty()
+                          ? simulation_.collisions().back().partner
+                          : "nothing")
+                  << '\n';
+      }
+    }
+    static_cast<void>(simulation_.apply({robot_, *motion}, sim::TwistCommand{{0.0, 0.0}}));
+    simulation_.step();
+  }
+
   static void print_line(const std::string& name, Figures& f) {
     if (f.beams == 0) return;
     const auto share = [&](std::size_t some) {
@@ -521,9 +576,10 @@ class Comparison {
     const auto middle = f.errors_m.begin() + static_cast<std::ptrdiff_t>(f.errors_m.size() / 2);
     std::nth_element(f.errors_m.begin(), middle, f.errors_m.end());
     std::cout << name << ": " << f.beams << " beams, " << share(f.agree) << " % agree, "
-              << share(f.two_cells) << " % near, median difference " << 1000.0 * *middle
+              << share(f.two_cells) << " % without a raster, median difference " << 1000.0 * *middle
               << " mm; others: " << f.missed << " only in Stage, " << f.extra
-              << " only in Playpen, " << f.farther << " farther, " << f.nearer << " nearer\n";
+              << " only in Playpen, " << f.farther << " farther, " << f.nearer << " nearer, "
+              << f.other_device << " of other devices\n";
   }
 
   sim::Simulation simulation_;
@@ -537,31 +593,22 @@ class Comparison {
   std::vector<std::vector<Scan>> scans_;  // of the present pose, ranger by ranger
   std::map<std::string, Figures> figures_;
   std::map<std::string, Drives> drives_;
+  std::map<std::string, Hits> hits_;
+  std::string device_differs_;  // the first ranger with another number of beams
   int refused_ = 0;
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  std::size_t list = 0;
-  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
-    if (words[i] != "--list") continue;
-    list = static_cast<std::size_t>(std::atoi(words[i + 1].c_str()));
-    words.erase(words.begin() + static_cast<std::ptrdiff_t>(i),
-                words.begin() + static_cast<std::ptrdiff_t>(i) + 2);
-    break;
-  }
-  if (words.size() < 2) {
-    std::cerr << "usage: compare_stage WORLD SCANS [--list N] NAME=PLAYPENS_NAME...\n";
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() != 2 && (words.size() != 4 || words[2] != "--list")) {
+    std::cerr << "usage: compare_stage WORLD SCANS [--list N]\n";
     return 2;
   }
   try {
-    Comparison comparison(words[0], list);
-    for (std::size_t i = 2; i < words.size(); ++i) {
-      const std::size_t equals = words[i].find('=');
-      comparison.name(words[i].substr(0, equals), words[i].substr(equals + 1));
-    }
+    Comparison comparison(words[0],
+                          words.size() == 4 ? static_cast<std::size_t>(std::stoul(words[3])) : 0);
     std::ifstream in(words[1]);
     comparison.run(in);
     comparison.print();

@@ -8,60 +8,20 @@
 #include <cstdlib>
 #include <iostream>
 #include <random>
-#include <stage.hh>
 #include <string>
 #include <vector>
 
+#include "stage_robots.h"
+
 namespace {
 
-using Stg::Model;
+using interop::bearing;
+using interop::find_robots;
+using interop::measure;
+using interop::Robot;
 using Stg::ModelPosition;
 using Stg::ModelRanger;
 using Stg::Pose;
-
-/// A robot with its rangers, in the order in which Player gives them their indices.
-struct Robot {
-  ModelPosition* body;
-  std::vector<ModelRanger*> rangers;
-};
-
-void find_rangers(Model* model, std::vector<ModelRanger*>& found) {
-  for (Model* child : model->GetChildren()) {
-    auto* ranger = dynamic_cast<ModelRanger*>(child);
-    if (ranger != nullptr && !ranger->GetSensors().empty()) found.push_back(ranger);
-    find_rangers(child, found);
-  }
-}
-
-std::vector<Robot> find_robots(Stg::World& world) {
-  std::vector<Robot> robots;
-  for (Model* model : world.GetAllModels()) {
-    auto* body = dynamic_cast<ModelPosition*>(model);
-    if (body == nullptr || dynamic_cast<ModelPosition*>(body->Parent()) != nullptr) continue;
-    Robot robot{body, {}};
-    find_rangers(body, robot.rangers);
-    if (!robot.rangers.empty()) robots.push_back(robot);
-  }
-  // The set of models is ordered by address.
-  std::sort(robots.begin(), robots.end(),
-            [](const Robot& a, const Robot& b) { return a.body->GetId() < b.body->GetId(); });
-  return robots;
-}
-
-/// Advances simulated time until all rangers have measured from the present pose: they do so every
-/// 100 ms, unless the world says otherwise.
-void measure(Stg::World& world) {
-  const Stg::usec_t until = world.SimTimeNow() + 300000;
-  int updates = 0;
-  for (; updates < 4 || world.SimTimeNow() < until; ++updates) world.Update();
-}
-
-/// Angle of a beam from the middle of a sensor's field of view.
-double bearing(const ModelRanger::Sensor& sensor, std::size_t beam) {
-  if (sensor.ranges.size() < 2) return 0.0;
-  const double beams = static_cast<double>(sensor.ranges.size());
-  return sensor.fov * (static_cast<double>(beam) / (beams - 1.0) - 0.5);
-}
 
 /// A free place that a beam from here reaches, with any heading. Places in closed rooms or inside
 /// of obstacles are never found.
@@ -140,18 +100,11 @@ int main(int argc, char** argv) {
     std::cout.flush();
     std::_Exit(0);
   }
-  for (Robot& robot : robots) {
-    robot.body->Subscribe();
-    for (ModelRanger* ranger : robot.rangers) {
-      ranger->Subscribe();
-      for (auto& sensor : ranger->GetSensorsMutable()) {
-        sensor.angle_noise = sensor.range_noise = sensor.range_noise_const = 0.0;
-      }
-    }
-  }
+  for (Robot& robot : robots) interop::switch_on(robot);
   std::mt19937 random(static_cast<unsigned>(std::atoi(argv[3])));
   const int wanted = std::atoi(argv[2]);
   std::vector<std::vector<Pose>> wide(robots.size());  // places with room to drive
+  std::vector<std::vector<Pose>> places(robots.size());
   std::vector<Pose> starts;
   for (const Robot& robot : robots) {
     const Pose start = robot.body->GetGlobalPose();
@@ -163,7 +116,7 @@ int main(int argc, char** argv) {
     const Robot& robot = robots[i];
     measure(world);
     const int count = wanted / static_cast<int>(robots.size());
-    for (int done = 0, tries = 0; done < count && tries < 100 * count; ++tries) {
+    for (int done = 0, tries = 0; done < count && tries < 20 * count; ++tries) {
       const Pose before = robot.body->GetGlobalPose();
       robot.body->SetPose(wander(robot, random));
       measure(world);
@@ -173,6 +126,7 @@ int main(int argc, char** argv) {
         continue;
       }
       write_scan(robot);
+      if (places[i].size() < 10) places[i].push_back(robot.body->GetGlobalPose());
       if (least_range(robot) > 1.2) wide[i].push_back(robot.body->GetGlobalPose());
       ++done;
     }
@@ -206,6 +160,28 @@ int main(int argc, char** argv) {
                 << ' ' << command[0] << ' ' << command[1] << ' ' << command[2] << ' ' << to.x << ' '
                 << to.y << ' ' << to.a << '\n';
       body->SetSpeed(0.0, 0.0, 0.0);
+      world.Update();
+    }
+    body->SetPose(starts[i]);
+  }
+  // hit ROBOT X Y YAW V SECONDS END_X END_Y stalled|free: straight on until the robot stalls
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    ModelPosition* const body = robots[i].body;
+    for (const Pose& from : places[i]) {
+      constexpr double kSpeed = 0.3, kSeconds = 12.0;
+      body->SetPose(from);
+      body->SetSpeed(kSpeed, 0.0, 0.0);
+      const Stg::usec_t until = world.SimTimeNow() + static_cast<Stg::usec_t>(1e6 * kSeconds);
+      world.Update();
+      do world.Update();
+      while (!body->Stalled() && world.SimTimeNow() < until);
+      const Pose to = body->GetGlobalPose();
+      std::cout << "hit " << body->Token() << ' ' << from.x << ' ' << from.y << ' ' << from.a << ' '
+                << kSpeed << ' ' << kSeconds << ' ' << to.x << ' ' << to.y << ' '
+                << (body->Stalled() ? "stalled" : "free") << '\n';
+      body->SetSpeed(0.0, 0.0, 0.0);
+      body->SetPose(from);
+      world.Update();
       world.Update();
     }
     body->SetPose(starts[i]);

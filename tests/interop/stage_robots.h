@@ -1,0 +1,73 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Robots of real Stage and their rangers, for the programs of this folder that link libstage.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <stage.hh>
+#include <vector>
+
+namespace interop {
+
+using Stg::Model;
+using Stg::ModelPosition;
+using Stg::ModelRanger;
+using Stg::Pose;
+
+/// A robot with its rangers, in the order in which Player gives them their indices.
+struct Robot {
+  ModelPosition* body;
+  std::vector<ModelRanger*> rangers;
+};
+
+inline void find_rangers(Model* model, std::vector<ModelRanger*>& found) {
+  for (Model* child : model->GetChildren()) {
+    auto* ranger = dynamic_cast<ModelRanger*>(child);
+    if (ranger != nullptr && !ranger->GetSensors().empty()) found.push_back(ranger);
+    find_rangers(child, found);
+  }
+}
+
+/// @param blind_ones  also those without rangers.
+inline std::vector<Robot> find_robots(Stg::World& world, bool blind_ones = false) {
+  std::vector<Robot> robots;
+  for (Model* model : world.GetAllModels()) {
+    auto* body = dynamic_cast<ModelPosition*>(model);
+    if (body == nullptr || dynamic_cast<ModelPosition*>(body->Parent()) != nullptr) continue;
+    Robot robot{body, {}};
+    find_rangers(body, robot.rangers);
+    if (blind_ones || !robot.rangers.empty()) robots.push_back(robot);
+  }
+  // The set of models is ordered by address.
+  std::sort(robots.begin(), robots.end(),
+            [](const Robot& a, const Robot& b) { return a.body->GetId() < b.body->GetId(); });
+  return robots;
+}
+
+/// Advances simulated time until all rangers have measured from the present pose: they do so every
+/// 100 ms, unless the world says otherwise.
+inline void measure(Stg::World& world) {
+  const Stg::usec_t until = world.SimTimeNow() + 300000;
+  int updates = 0;
+  for (; updates < 4 || world.SimTimeNow() < until; ++updates) world.Update();
+}
+
+/// Angle of a beam from the middle of a sensor's field of view.
+inline double bearing(const ModelRanger::Sensor& sensor, std::size_t beam) {
+  if (sensor.ranges.size() < 2) return 0.0;
+  const double beams = static_cast<double>(sensor.ranges.size());
+  return sensor.fov * (static_cast<double>(beam) / (beams - 1.0) - 0.5);
+}
+
+/// Subscribes to all of a robot and switches the noise off.
+inline void switch_on(Robot& robot) {
+  robot.body->Subscribe();
+  for (ModelRanger* ranger : robot.rangers) {
+    ranger->Subscribe();
+    for (auto& sensor : ranger->GetSensorsMutable()) {
+      sensor.angle_noise = sensor.range_noise = sensor.range_noise_const = 0.0;
+    }
+  }
+}
+
+}  // namespace interop
