@@ -179,7 +179,7 @@ bool read_metres(const io::Reader& value, void* into) {
 constexpr ElementType kMetres{
     read_metres,
     [](const void* metres) { return shortest_text(*static_cast<const double*>(metres)); },
-    R"("type": "number", "minimum": 0, "maximum": 1000)"};
+    R"({"type": "number", "minimum": 0, "maximum": 1000})"};
 
 std::optional<FieldError> check_transducers(const RangerParams& params) {
   const std::size_t count = params.X_BS.size();

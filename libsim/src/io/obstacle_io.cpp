@@ -83,6 +83,18 @@ void read_kind(Reader& reader, ObstacleDescription& block) {
   }
 }
 
+void read_bottom(Reader& reader, ObstacleDescription& block) {
+  block.bottom_m = reader.number("bottom", block.bottom_m, {0.0, 10.0, false, "m"});
+  if (block.bottom_m == 0.0) return;
+  if (block.type == ObstacleType::kDynamic || is_movable(block) || block.portable) {
+    reader.issue("world/bottom", "an obstacle that neither moves, nor rises, nor is carried",
+                 "\"bottom\" of one that does", "leave it out", "bottom");
+  } else if (block.bottom_m >= block.height_m) {
+    reader.issue("world/bottom", "less than \"height\", " + number_text(block.height_m) + " m",
+                 number_text(block.bottom_m) + " m", "", "bottom");
+  }
+}
+
 }  // namespace
 
 std::string free_name(const std::string& prefix, std::size_t number, std::set<std::string>& taken) {
@@ -119,6 +131,7 @@ void read_blocks(Reader& arena, const char* key, const char* prefix, bool separa
         block.solid = reader.boolean("solid", block.solid);
         if (reader.has("colour")) block.colour = reader.colour("colour", {});
         read_motion(reader, block);
+        read_bottom(reader, block);
       }
       reader.finish();
     }

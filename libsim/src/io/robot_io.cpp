@@ -122,6 +122,8 @@ std::vector<Superstructure> read_superstructures(Reader& model, double body_heig
   for (Reader& reader : model.array("superstructures", kMostSuperstructures)) {
     if (!reader.expect_object()) continue;
     Superstructure part;
+    part.bottom_m =
+        reader.number("bottom", part.bottom_m, {0.0, kGreatestRobotHeight_m, false, "m"});
     const std::optional<Polygon> outline = read_points(reader, "outline");
     const bool has_height = reader.require("height", "the height of its top above the floor, in m");
     part.height_m = reader.number("height", part.height_m,

@@ -346,6 +346,10 @@ std::optional<SolidError> check_superstructure(const Superstructure& part, doubl
   if (auto error = check_convex("/outline", part.outline, kLeastPartArea_m2, "1 mm^2")) {
     return error;
   }
+  if (!within(part.bottom_m, 0.0, part.height_m - kLeastLength_m)) {
+    return SolidError{"/bottom", range_text(0.0, part.height_m - kLeastLength_m, "m"),
+                      number_text(part.bottom_m) + " m", ""};
+  }
   if (part.height_m > body_height_m && part.height_m <= kGreatestRobotHeight_m) return std::nullopt;
   return SolidError{"/height",
                     "a number greater than the height of the body, " + number_text(body_height_m) +

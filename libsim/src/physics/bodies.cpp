@@ -97,7 +97,7 @@ void Bodies::append_outline(FixtureInfo& info, const std::vector<Vec2>& vertices
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec2& a = vertices[i];
     const Vec2& b = vertices[(i + 1) % vertices.size()];
-    edges_.add({a.x(), a.y(), b.x(), b.y()}, info.height_m);
+    edges_.add({a.x(), a.y(), b.x(), b.y()}, info.height_m, info.bottom_m);
   }
 }
 
@@ -106,6 +106,7 @@ void Bodies::add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int 
   const auto new_part = [&] {
     FixtureInfo* info = new_info(kind, index, o.height_m);
     info->solid = o.solid;
+    info->bottom_m = o.bottom_m;
     return info;
   };
   b2BodyDef def;  // a separate body, so that it can be disabled
@@ -116,7 +117,7 @@ void Bodies::add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int 
   } else if (o.shape == ObstacleShape::kCircle) {
     FixtureInfo* info = new_part();
     info->cylinder = static_cast<int>(cylinders_.size());
-    cylinders_.push_back({o.center, radius_m(o), o.height_m, index});
+    cylinders_.push_back({o.center, radius_m(o), o.height_m, index, o.bottom_m});
     attach(body, circle_shape(o.center, radius_m(o)), info, 0.0F);
   } else if (o.shape == ObstacleShape::kBox || is_one_polygon(corners)) {
     FixtureInfo* info = new_part();
@@ -131,7 +132,7 @@ void Bodies::add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int 
       const Vec2& b = corners[(i + 1) % corners.size()];
       info->first_edge = edges_.edges.size();
       info->edge_count = 1;
-      edges_.add({a.x(), a.y(), b.x(), b.y()}, info->height_m);
+      edges_.add({a.x(), a.y(), b.x(), b.y()}, info->height_m, info->bottom_m);
       attach(body, edge_shape(corners, i), info, 0.0F);
     }
   }
@@ -478,7 +479,7 @@ bool Bodies::is_inside_edged(const Vec2& p_W, double height_m) const {
   for (const std::size_t i : edged_) {
     if (!obstacles_[i]->IsEnabled()) continue;
     const FixtureInfo& info = *infos_[parts_[i].first_info];
-    if (!info.solid || !reaches_height(info.height_m, height_m)) continue;
+    if (!info.solid || !spans_height(info.bottom_m, info.height_m, height_m)) continue;
     if (is_inside(corners_of_parts(parts_[i]), p_W)) return true;
   }
   return false;

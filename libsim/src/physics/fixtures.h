@@ -21,6 +21,7 @@ struct FixtureInfo {
   Contact::Kind kind;
   int index;  ///< of the obstacle, separator or robot; -1 for borders and walls
   double height_m;
+  double bottom_m = 0.0;
   int body = -1;  ///< index in Bodies::robots() of a robot or a moving obstacle; -1: it is static
   std::size_t first_edge = 0;  ///< into Bodies::edges(); unused for bodies that move
   std::size_t edge_count = 0;
@@ -36,6 +37,7 @@ struct Cylinder {
   double radius_m;
   double height_m;
   int obstacle;  ///< its index in the arena
+  double bottom_m = 0.0;
 };
 
 struct Edge {
@@ -47,17 +49,23 @@ struct Edge {
 struct EdgeList {
   std::vector<Edge> edges;
   std::vector<double> heights_m;
+  std::vector<double> bottoms_m;
   double least_height_m = std::numeric_limits<double>::infinity();
+  double greatest_bottom_m = 0.0;
 
   void clear() {
     edges.clear();
     heights_m.clear();
+    bottoms_m.clear();
+    greatest_bottom_m = 0.0;
     least_height_m = std::numeric_limits<double>::infinity();
   }
-  void add(const Edge& edge, double height_m) {
+  void add(const Edge& edge, double height_m, double bottom_m = 0.0) {
     edges.push_back(edge);
     heights_m.push_back(height_m);
+    bottoms_m.push_back(bottom_m);
     least_height_m = std::min(least_height_m, height_m);
+    greatest_bottom_m = std::max(greatest_bottom_m, bottom_m);
   }
 };
 

@@ -30,26 +30,26 @@ void put_edge(scan::Edge* to, const double* points, const Four& origin) {
   std::memcpy(&to->x0_m, &edge, sizeof edge);
 }
 
-// Appends the edges of list[first, last) that are higher than the sensor, relative to it.
+// Appends the edges of list[first, last) that the sensor meets at its height, relative to it.
 void append_edges(const EdgeList& list, std::size_t first, std::size_t last, const Vec2& p_WL,
                   double sensor_height_m, scan::EdgeBuffer& out) {
   static_assert(sizeof(Edge) == sizeof(Four));
   const std::size_t begin = out.size();
-  const bool all_high_enough = reaches_height(list.least_height_m, sensor_height_m);
+  const bool all_seen = spans_height(list.greatest_bottom_m, list.least_height_m, sensor_height_m);
   scan::Edge* const target = out.append(last - first);
   const Four origin = {p_WL.x(), p_WL.y(), p_WL.x(), p_WL.y()};
   std::size_t count = 0;
   for (std::size_t i = first; i < last; ++i) {
-    if (!all_high_enough && !reaches_height(list.heights_m[i], sensor_height_m)) continue;
+    if (!all_seen && !spans_height(list.bottoms_m[i], list.heights_m[i], sensor_height_m)) continue;
     put_edge(target + count++, &list.edges[i].x0, origin);
   }
   out.truncate(begin + count);
 }
 
-// Appends a round solid, relative to the sensor, if it is higher than the sensor.
+// Appends a round solid, relative to the sensor, if the sensor meets it at its height.
 void append_cylinder(const Cylinder& cylinder, const Vec2& p_WL, double sensor_height_m,
                      scan::EdgeBuffer& out) {
-  if (!reaches_height(cylinder.height_m, sensor_height_m)) return;
+  if (!spans_height(cylinder.bottom_m, cylinder.height_m, sensor_height_m)) return;
   const Vec2 p_LC = cylinder.center - p_WL;
   out.add(scan::Circle{p_LC.x(), p_LC.y(), cylinder.radius_m});
 }
@@ -88,7 +88,7 @@ void SensorView::solids_changed() {
       continue;
     }
     for (std::size_t i = 0; i < info->edge_count; ++i) {
-      fixed_edges_.add(bodies_.edges().edges[info->first_edge + i], info->height_m);
+      fixed_edges_.add(bodies_.edges().edges[info->first_edge + i], info->height_m, info->bottom_m);
     }
     if (info->cylinder >= 0) {
       fixed_cylinders_.push_back(bodies_.cylinders()[static_cast<std::size_t>(info->cylinder)]);
@@ -174,10 +174,11 @@ void SensorView::rebuild_outlines() {
     outline.robot = by_hilbert_index_[k].robot;
     outline.kind = r.details->info->kind;
     outline.index = r.details->info->index;
-    const auto add = [&](double x0, double y0, double x1, double y1, double height_m) {
+    const auto add = [&](double x0, double y0, double x1, double y1, double height_m,
+                         double bottom_m = 0.0) {
       further_edges_.add({r.X_WB.x_m + c * x0 - s * y0, r.X_WB.y_m + s * x0 + c * y0,
                           r.X_WB.x_m + c * x1 - s * y1, r.X_WB.y_m + s * x1 + c * y1},
-                         height_m);
+                         height_m, bottom_m);
     };
     outline.first_upper = further_edges_.edges.size();
     for (std::size_t part = 0; part < r.details->part_count() && !r.details->further.empty();
@@ -193,7 +194,7 @@ void SensorView::rebuild_outlines() {
       for (std::size_t i = 0; i < part.outline.size(); ++i) {
         const Vec2& a = part.outline[i];
         const Vec2& b = part.outline[(i + 1) % part.outline.size()];
-        add(a.x(), a.y(), b.x(), b.y(), part.height_m);
+        add(a.x(), a.y(), b.x(), b.y(), part.height_m, part.bottom_m);
       }
     }
     outline.first_load = further_edges_.edges.size();
@@ -213,17 +214,17 @@ void SensorView::rebuild_outlines() {
   outlines_fresh_ = true;
 }
 
-// The least fraction of the line from A to C at which it enters a superstructure that is higher
-// than height_m; 1 if it enters none. Exact.
+// The least fraction of the line from A to C at which it enters a superstructure at a height, or at
+// any; 1 if it enters none. Exact.
 double SensorView::entry_of_superstructures(const Robot& r, const Vec2& p_WA, const Vec2& p_WC,
-                                            double height_m) {
+                                            std::optional<double> height_m) {
   const Pose X_BW = r.X_WB.inverse();
   const Vec2 p_BA = X_BW * p_WA;
   const Vec2 line = X_BW * p_WC - p_BA;
   const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
   double least = 1.0;
   for (const Superstructure& part : r.details->superstructures) {
-    if (!reaches_height(part.height_m, height_m)) continue;
+    if (height_m && !spans_height(part.bottom_m, part.height_m, *height_m)) continue;
     for (std::size_t i = 0; i < part.outline.size(); ++i) {
       const Vec2& start = part.outline[i];
       const Vec2 side = part.outline[(i + 1) % part.outline.size()] - start;
@@ -285,16 +286,17 @@ void SensorView::visit_cylinders(const Vec2& low, const Vec2& high, Visitor visi
   });
 }
 
-// The least fraction of the line from A to C at which it enters a round obstacle that is higher
-// than height_m; 1 if it enters none. Exact, while circles in Box2D have a skin.
-double SensorView::cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC, double height_m,
-                                     const Contact* ignored) {
+// The least fraction of the line from A to C at which it enters a round obstacle at a height, or at
+// any; 1 if it enters none. Exact, while circles in Box2D have a skin.
+double SensorView::cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC,
+                                     std::optional<double> height_m, const Contact* ignored) {
   if (bodies_.cylinders().empty()) return 1.0;
   const double length_m = (p_WC - p_WA).norm();
   const Vec2 along = (p_WC - p_WA) / length_m;
   double least_m = length_m;
   visit_cylinders(p_WA.cwiseMin(p_WC), p_WA.cwiseMax(p_WC), [&](const Cylinder& cylinder) {
-    if (!reaches_height(cylinder.height_m, height_m) || is_within(cylinder, p_WA)) return;
+    if (height_m && !spans_height(cylinder.bottom_m, cylinder.height_m, *height_m)) return;
+    if (is_within(cylinder, p_WA)) return;
     if (ignored != nullptr && ignored->kind == Contact::Kind::kObstacle &&
         ignored->index == cylinder.obstacle) {
       return;
@@ -446,7 +448,8 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
       const FixtureInfo& info = info_of(fixture);
       const bool wanted = info.kind == target_kind && info.index == target_index;
       if (info.cylinder >= 0) return -1.0F;
-      if (info.body >= 0 || wanted || !reaches_height(info.height_m, height_m)) return -1.0F;
+      if (info.body >= 0 || wanted) return -1.0F;
+      if (!spans_height(info.bottom_m, info.height_m, height_m)) return -1.0F;
       blocked = true;
       return 0.0F;
     }
@@ -487,7 +490,7 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
   bool inside = false;
   visit_fixed(bodies_.world(), p_W, p_W, [&](const b2Fixture& fixture) {
     const FixtureInfo& info = info_of(&fixture);
-    if (!info.solid || !reaches_height(info.height_m, height_m)) return;
+    if (!info.solid || !spans_height(info.bottom_m, info.height_m, height_m)) return;
     inside = inside ||
              (info.cylinder < 0
                   ? fixture.TestPoint(to_box2d(p_W))
@@ -512,7 +515,7 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
     const Vec2 p_B = r.X_WB.inverse() * p_W;
     inside = std::any_of(r.details->superstructures.begin(), r.details->superstructures.end(),
                          [&](const Superstructure& part) {
-                           return reaches_height(part.height_m, height_m) &&
+                           return spans_height(part.bottom_m, part.height_m, height_m) &&
                                   is_inside(part.outline, p_B);
                          });
   }
@@ -552,14 +555,13 @@ double SensorView::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_m
         closest.fraction = std::min(closest.fraction, fraction);
         return true;
       });
-  constexpr double kAnyHeight_m = -std::numeric_limits<double>::infinity();
   for (const int robot : bodies_.with_superstructures()) {
     if (robot == own_robot) continue;
-    const double share = entry_of_superstructures(bodies_.robot(robot), p_WL, end, kAnyHeight_m);
+    const double share = entry_of_superstructures(bodies_.robot(robot), p_WL, end, std::nullopt);
     closest.fraction = std::min(closest.fraction, static_cast<float>(share));
   }
   return std::min(static_cast<double>(closest.fraction),
-                  cast_at_cylinders(p_WL, end, kAnyHeight_m, nullptr)) *
+                  cast_at_cylinders(p_WL, end, std::nullopt, nullptr)) *
          range_max_m;
 }
 

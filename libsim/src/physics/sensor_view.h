@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -77,11 +78,12 @@ class SensorView {
   void rebuild_outlines();
   template <typename Visitor>
   void visit_cylinders(const Vec2& low, const Vec2& high, Visitor visit);
-  [[nodiscard]] double cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC, double height_m,
-                                         const Contact* ignored);
+  [[nodiscard]] double cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC,
+                                         std::optional<double> height_m, const Contact* ignored);
   static void append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out);
   [[nodiscard]] static double entry_of_superstructures(const Robot& r, const Vec2& p_WA,
-                                                       const Vec2& p_WC, double height_m);
+                                                       const Vec2& p_WC,
+                                                       std::optional<double> height_m);
   template <typename Filter, typename Visitor>
   void cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit);
   [[nodiscard]] scan::ScanKernel& kernel_of(const scan::ScanGeometry& geometry);

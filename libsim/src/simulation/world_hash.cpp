@@ -44,6 +44,7 @@ void add(StateHash& hash, const ObstacleDescription& box) {
   if (box.colour) add(hash, *box.colour);
   hash.add(box.portable ? 1 : 0);
   if (!box.solid) hash.add(1);
+  if (box.bottom_m != 0.0) hash.add(box.bottom_m);
   if (box.rise_speed_mps != 0.0 || box.when_blocked != WhenBlocked::kRefuse) {
     hash.add(box.rise_speed_mps);
     hash.add(static_cast<int>(box.when_blocked));
@@ -104,6 +105,7 @@ void add(StateHash& hash, const RobotModel& model) {
   if (drive.steering_commands) hash.add(1);
   if (!model.solid) hash.add(1);
   for (const Superstructure& part : model.superstructures) {
+    if (part.bottom_m != 0.0) hash.add(part.bottom_m);
     hash.add(part.height_m);
     hash.add(part.outline.size());
     for (const Vec2& corner : part.outline) add(hash, corner);

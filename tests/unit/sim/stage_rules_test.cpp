@@ -52,6 +52,7 @@ class StageRun {
     if (device.starts_with("laser")) return reading<Laser>(device, robot).ranges_m;
     return reading<Ranger>(device, robot).ranges_m;
   }
+  [[nodiscard]] Pose pose(int robot = 0) const { return simulation_.body(robot).X_WB; }
   void drive(const Twist& twist, int robot = 0) {
     ASSERT_FALSE(
         simulation_.apply({robot, *simulation_.find_device(robot, "motion")}, TwistCommand{twist}));
@@ -179,6 +180,42 @@ position ( size [0.4 0.4 0.37]
   };
   EXPECT_TRUE(seen("0.41"));
   EXPECT_FALSE(seen("0.4099"));
+}
+
+// The shelf is from 0.3 to 0.5 m high, and both heights belong to it. The robot of 0.2 m drives
+// under it, 1 m/s for 2 s.
+TEST(StageHeights, BeamsAndRobotsPassUnderABlock) {
+  const auto range_m = [](const std::string& z) {
+    StageRun world(R"(
+model ( size [1 1 0.2] pose [2 0 0.3 0] )
+position ( size [0.4 0.4 0.1]
+  ranger ( pose [0 0 -0.1 0] sensor ( pose [0 0 )" +
+                   z + R"( 0] samples 3 fov 90 range [0 8] ) ) ))");
+    const double ahead_m = world.ranges("laser")[1];
+    world.drive({1.0, 0.0});
+    world.run(2.0);
+    EXPECT_GT(world.pose().x_m, 1.9);
+    return ahead_m;
+  };
+  // A sensor is 0.01 m above its pose.
+  EXPECT_EQ(range_m("0.28"), 8.0);
+  EXPECT_NEAR(range_m("0.29"), 1.5, 1e-5);
+  EXPECT_NEAR(range_m("0.49"), 1.5, 1e-5);
+  EXPECT_EQ(range_m("0.5"), 8.0);
+}
+
+// A robot with a roof of 1 m from 0.4 to 0.5 m over a body of 0.4 m: low beams meet the body.
+TEST(StageHeights, BeamsPassUnderTheRoofOfARobot) {
+  const auto range_m = [](const std::string& z) {
+    StageRun world(R"(
+position ( size [0.4 0.4 0.1]
+  ranger ( pose [0 0 -0.1 0] sensor ( pose [0 0 )" +
+                   z + R"( 0] samples 3 fov 90 range [0 8] ) ) )
+position ( pose [3 0 0 0] size [0.4 0.4 0.4] model ( size [1 1 0.1] ) ))");
+    return world.ranges("laser")[1];
+  };
+  EXPECT_NEAR(range_m("0.2"), 2.8, 1e-5);
+  EXPECT_NEAR(range_m("0.45"), 2.5, 1e-5);
 }
 
 // Equal robots whose finders are as high as the tops of their bodies see each other.

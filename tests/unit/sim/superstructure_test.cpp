@@ -227,6 +227,8 @@ TEST(Superstructures, ThatCannotBeMeantAreErrors) {
             "world/bad-superstructure /superstructures/0/height");
   EXPECT_EQ(error_of("{" + outline + R"(, "height": 11})"),
             "world/out-of-range /superstructures/0/height");
+  EXPECT_EQ(error_of("{" + outline + R"(, "height": 0.3, "bottom": 0.3})"),
+            "world/bad-superstructure /superstructures/0/bottom");
   EXPECT_EQ(error_of("{" + outline + "}"), "world/missing-key /superstructures/0");
   EXPECT_EQ(error_of(R"({"height": 0.3})"), "world/missing-key /superstructures/0");
   EXPECT_EQ(error_of(R"({"height": 0.3, "outline": [[0, 0], [1, 0]]})"),

@@ -71,6 +71,8 @@ struct ObstacleDescription {
                                        ///< push it, >= 0
   bool solid = true;  ///< false: nothing collides with it, as with a marking on the floor. Sensors
                       ///< see it up to its height from outside
+  double bottom_m = 0.0;  ///< of an obstacle that neither moves nor rises: lasers, sonars and other
+                          ///< sensors of distances look under it below this height, [0, height_m)
 };
 
 /// Whether an obstacle has a drive or can be pushed, so that the physics moves it.

@@ -36,6 +36,11 @@ inline constexpr double kSameHeight_m = 1e-6;
   return top_m > height_m - kSameHeight_m;
 }
 
+/// Whether a sensor at a height meets a solid that begins and ends at these heights; both included.
+[[nodiscard]] inline bool spans_height(double bottom_m, double top_m, double height_m) {
+  return bottom_m < height_m + kSameHeight_m && reaches_height(top_m, height_m);
+}
+
 /// Maximum distance from the origin of W, along x or y, of a floor and everything on it [m].
 inline constexpr double kFarthest_m = 10'000.0;
 

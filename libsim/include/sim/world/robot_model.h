@@ -34,6 +34,8 @@ struct DriveDescription {
 struct Superstructure {
   Polygon outline;        ///< in B, convex, counter-clockwise, 3 to 8 vertices [m]
   double height_m = 0.0;  ///< of its top above the floor, greater than that of the body [m]
+  double bottom_m = 0.0;  ///< lasers, sonars and other sensors of distances look under it below
+                          ///< this height, [0, height_m) [m]
 };
 
 /// A type of robot: the properties that do not change while it drives.

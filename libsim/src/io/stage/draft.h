@@ -41,6 +41,7 @@ struct RobotDraft {
   /// A part of its body: a block or a bitmap of the position model, or of a model on it.
   struct Part {
     std::vector<Vec2> points;  ///< its corners, in B [m]
+    double bottom_m = 0.0;     ///< from which on rangers see it, above the floor [m]
     double top_m = 0.0;        ///< up to which rangers see it, above the floor [m]; 0: not at all
     bool solid = true;         ///< whether it meets obstacles
   };

@@ -7,11 +7,13 @@
 #include "io/stage/draft.h"
 #include "sim/world/limits.h"
 #include "sim/world/outline.h"
+#include "sim/world/robot_model.h"
 
 namespace sim::io::stage {
 namespace {
 
 constexpr std::size_t kMostCorners = 8;
+constexpr double kHigher_m = 1e-3;  ///< least difference of heights that matters
 
 /// Whether a body of a robot can have that outline.
 bool is_body(const Polygon& outline) {
@@ -74,6 +76,15 @@ bool contains(const Polygon& outer, const Polygon& inner) {
   return true;
 }
 
+/// Whether sensors look under a part: no part below contains it.
+bool has_room_below(const RobotDraft::Part& part, const std::vector<RobotDraft::Part>& all) {
+  if (part.bottom_m < kHigher_m || part.top_m < part.bottom_m) return false;
+  return std::none_of(all.begin(), all.end(), [&](const RobotDraft::Part& below) {
+    return below.bottom_m < kHigher_m && below.top_m > part.bottom_m - kHigher_m &&
+           contains(convex_outline(below.points), part.points);
+  });
+}
+
 /// The convex outlines that together are a part. Those that are no area for a robot are left out.
 std::vector<Polygon> convex_pieces(const RobotDraft::Part& part) {
   Polygon outline = convex_outline(part.points);
@@ -88,24 +99,26 @@ std::vector<Polygon> convex_pieces(const RobotDraft::Part& part) {
 
 /// What is higher than the body, the largest parts first. Parts within others that are at least as
 /// high are left out.
-std::vector<std::pair<Polygon, double>> higher_parts(const std::vector<RobotDraft::Part>& parts,
-                                                     double height_m) {
-  constexpr double kHigher_m = 1e-3;
-  std::vector<std::pair<Polygon, double>> higher;
+std::vector<Superstructure> higher_parts(const std::vector<RobotDraft::Part>& parts,
+                                         double height_m) {
+  std::vector<Superstructure> higher;
   for (const RobotDraft::Part& part : parts) {
     const double top_m = std::min(part.top_m, kGreatestRobotHeight_m);
     if (top_m < height_m + kHigher_m) continue;
+    const bool has_gap = part.bottom_m > height_m && part.bottom_m < top_m - kHigher_m;
     for (Polygon& piece : convex_pieces(part)) {
-      if (is_superstructure(piece)) higher.emplace_back(std::move(piece), top_m);
+      if (!is_superstructure(piece)) continue;
+      higher.push_back({std::move(piece), top_m, has_gap ? part.bottom_m : 0.0});
     }
   }
   std::stable_sort(higher.begin(), higher.end(), [](const auto& a, const auto& b) {
-    return area_m2(a.first) > area_m2(b.first);
+    return area_m2(a.outline) > area_m2(b.outline);
   });
-  std::vector<std::pair<Polygon, double>> seen;
+  std::vector<Superstructure> seen;
   for (auto& part : higher) {
     const bool hidden = std::any_of(seen.begin(), seen.end(), [&](const auto& larger) {
-      return larger.second >= part.second && contains(larger.first, part.first);
+      return larger.height_m >= part.height_m && larger.bottom_m <= part.bottom_m &&
+             contains(larger.outline, part.outline);
     });
     if (!hidden) seen.push_back(std::move(part));
   }
@@ -177,14 +190,15 @@ Json points_json(const Polygon& outline) {
 
 void add_part(const Body& body, const Mount& mount, bool solid, bool seen, RobotDraft& robot) {
   if (!solid && !seen) return;
-  const auto add = [&](const std::vector<Vec2>& points, double z_max_m) {
+  const auto add = [&](const std::vector<Vec2>& points, double z_min_m, double z_max_m) {
     RobotDraft::Part part;
     for (const Vec2& point : points) part.points.push_back(mount.X_BM * point);
+    part.bottom_m = std::max(0.0, mount.z_m + z_min_m);
     part.top_m = seen ? std::max(0.0, mount.z_m + z_max_m) : 0.0;
     part.solid = solid;
     robot.parts.push_back(std::move(part));
   };
-  for (const Block& block : body.blocks) add(block.points, block.z_max_m);
+  for (const Block& block : body.blocks) add(block.points, block.z_min_m, block.z_max_m);
   if (body.bitmap) {
     const Vec2 size_m(body.size_m[0], body.size_m[1]);
     // Outlines of a concave body; corners that matter for the convex outline of others.
@@ -196,9 +210,9 @@ void add_part(const Body& body, const Mount& mount, bool solid, bool seen, Robot
     }
     constexpr double kConcave = 0.9;  // pixels of a round body leave gaps, too
     if (outlines && area < kConcave * area_m2(around)) {
-      for (const Polygon& outline : *outlines) add(outline, body.size_m[2]);
+      for (const Polygon& outline : *outlines) add(outline, 0.0, body.size_m[2]);
     } else {
-      add(extreme_points(*body.bitmap, size_m), body.size_m[2]);
+      add(extreme_points(*body.bitmap, size_m), 0.0, body.size_m[2]);
     }
   }
 }
@@ -212,10 +226,12 @@ void set_body(Report& report, RobotDraft& robot) {
     for (RobotDraft::Part& part : robot.parts) part.solid = true;
   }
   const Polygon whole = outline_above(robot.parts, 0.0);
-  // Only superstructures may reach beyond the footprint, as what is not solid does.
-  const bool overhangs = std::any_of(
-      robot.parts.begin(), robot.parts.end(),
-      [&](const RobotDraft::Part& part) { return !part.solid && !contains(whole, part.points); });
+  // Only superstructures may reach beyond the footprint, as what is not solid does, and have room
+  // below.
+  const bool overhangs =
+      std::any_of(robot.parts.begin(), robot.parts.end(), [&](const RobotDraft::Part& part) {
+        return part.solid ? has_room_below(part, robot.parts) : !contains(whole, part.points);
+      });
   double height_m = overhangs ? 0.0 : height_of_body(robot.parts, whole);
   Polygon outline = whole;
   reduce_corners(outline, kMostCorners);
@@ -259,9 +275,11 @@ void set_body(Report& report, RobotDraft& robot) {
   }
   robot.top_m = height_m;
   Json superstructures = Json::array();
-  for (const auto& [part, top_m] : higher) {
-    superstructures.push_back({{"outline", points_json(part)}, {"height", neat(top_m)}});
-    robot.top_m = std::max(robot.top_m, top_m);
+  for (const Superstructure& part : higher) {
+    Json json = {{"outline", points_json(part.outline)}, {"height", neat(part.height_m)}};
+    if (part.bottom_m > 0.0) json["bottom"] = neat(part.bottom_m);
+    superstructures.push_back(std::move(json));
+    robot.top_m = std::max(robot.top_m, part.height_m);
   }
   if (!superstructures.empty()) robot.model["superstructures"] = std::move(superstructures);
   robot.footprint = std::move(outline);

@@ -11,6 +11,7 @@
 
 #include "io/document.h"
 #include "io/stage/left_out.h"
+#include "sim/world/limits.h"
 #include "sim/world/outline.h"
 
 namespace sim::io::stage {
@@ -576,11 +577,26 @@ class Translator {
     obstacles_ = std::move(all);
   }
 
+  /// Describes a piece that begins above the floor.
+  /// @param top_m  height of the highest robot.
+  void lift(Piece& piece, double top_m) {
+    if (piece.z_min_m >= top_m) piece.json["solid"] = false;  // robots drive under it
+    const bool is_map = piece.json.contains("image");
+    if (is_map || piece.json.contains("portable")) {
+      report_.note("floating", piece.place,
+                   "bitmaps and objects for grippers that begin above the floor reach down to it");
+    } else if (piece.z_min_m < piece.json["height"].get<double>() - kLeastLength_m) {
+      piece.json["bottom"] = neat(piece.z_min_m);
+    }
+  }
+
   /// Adds obstacles and maps that robots or their sensors can meet.
   void add_pieces() {
     hollow_pieces();
     double reach_m = 0.0;
+    double top_m = 0.0;
     for (const RobotDraft& robot : out_.robots) {
+      top_m = std::max(top_m, robot.top_m);
       reach_m = std::max(reach_m, robot.top_m);
       for (const double height_m : robot.sensor_heights_m) reach_m = std::max(reach_m, height_m);
     }
@@ -593,10 +609,7 @@ class Translator {
                        "parts above all robots and their sensors are left out");
           continue;
         }
-        if (piece.z_min_m > 0.05) {
-          report_.note("floating", piece.place,
-                       "parts that begin above the floor reach down to it");
-        }
+        if (piece.z_min_m > 0.0) lift(piece, top_m);
         out_.places[pointer + std::to_string(list.size())] = piece.place;
         list.push_back(std::move(piece.json));
       }
