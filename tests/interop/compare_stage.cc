@@ -26,6 +26,7 @@
 #include "playpen_beams.h"
 #include "sim/core/error.h"
 #include "sim/simulation/simulation.h"
+#include "sim/world/limits.h"
 #include "sim/world/outline.h"
 
 namespace {
@@ -58,7 +59,7 @@ std::vector<Side> sides_above(const sim::Simulation& simulation, int own, double
     if (loop.height_m >= height_m - 1e-6) add(sides, loop.vertices, {}, "map");
   }
   for (const sim::ObstacleDescription& obstacle : arena.obstacles) {
-    if (obstacle.height_m >= height_m - 1e-6)
+    if (height_m < 0.0 || sim::spans_height(obstacle.bottom_m, obstacle.height_m, height_m))
       add(sides, sim::corners_of(obstacle), {}, obstacle.name);
   }
   for (int i = 0; i < simulation.robot_count(); ++i) {
@@ -66,9 +67,13 @@ std::vector<Side> sides_above(const sim::Simulation& simulation, int own, double
     const sim::RobotModel& model = simulation.model(i);
     const Pose& X_WB = simulation.body(i).X_WB;
     const std::string& name = simulation.world().robots[static_cast<std::size_t>(i)].name;
-    if (model.height_m >= height_m - 1e-6) add(sides, model.footprint, X_WB, name);
+    if (model.height_m >= height_m - 1e-6) {
+      for (const sim::Polygon& part : sim::body_parts(model)) add(sides, part, X_WB, name);
+    }
     for (const sim::Superstructure& part : model.superstructures) {
-      if (part.height_m >= height_m - 1e-6) add(sides, part.outline, X_WB, name);
+      if (height_m < 0.0 || sim::spans_height(part.bottom_m, part.height_m, height_m)) {
+        add(sides, part.outline, X_WB, name);
+      }
     }
   }
   return sides;
@@ -246,10 +251,10 @@ struct Hits {
   int count = 0, agree = 0, farther = 0, nearer = 0;
 };
 
-/// A sensor of Stage: its ranges at a pose.
+/// A sensor of Stage, or several of one ranger: its ranges at a pose.
 struct Scan {
-  double range_max_m = 0.0;
   std::vector<double> ranges_m;
+  std::vector<double> ranges_max_m;  ///< of each beam
 };
 
 class Comparison {
@@ -285,9 +290,11 @@ class Comparison {
         double view_rad = 0.0;
         std::size_t count = 0;
         Scan scan;
-        words >> view_rad >> scan.range_max_m >> count;
+        double range_max_m = 0.0;
+        words >> view_rad >> range_max_m >> count;
         double range_m = 0.0;
         while (words >> range_m) scan.ranges_m.push_back(range_m);
+        scan.ranges_max_m.assign(scan.ranges_m.size(), range_max_m);
         scans_.back().push_back(std::move(scan));
       } else if (what == "hit") {
         compare_scans();
@@ -397,9 +404,11 @@ class Comparison {
         const std::vector<Scan>& sensors = scans_[ranger];
         Scan scan = sensors.front();
         if (sensors.size() > 1) {
-          scan.ranges_m.clear();
+          scan = {};
           for (const Scan& s : sensors) {
-            if (!s.ranges_m.empty()) scan.ranges_m.push_back(s.ranges_m.front());
+            if (s.ranges_m.empty()) continue;
+            scan.ranges_m.push_back(s.ranges_m.front());
+            scan.ranges_max_m.push_back(s.ranges_max_m.front());
           }
         }
         compare(ranger, next < names.size() ? names[next] : "", scan);
@@ -420,14 +429,14 @@ class Comparison {
       }
       figures.beams += stage.ranges_m.size();
       figures.other_device += stage.ranges_m.size();
-      figures.errors_m.resize(figures.beams, stage.range_max_m);
+      figures.errors_m.resize(figures.beams, stage.ranges_max_m.front());
       return;
     }
     const Pose X_WB = simulation_.body(robot_).X_WB;
     std::vector<Side> sides;  // drawn when a beam needs them
     Raster rasters[2] = {Raster(cell_m_), Raster(cell_m_)};
     for (std::size_t i = 0; i < ours.ranges_m.size(); ++i) {
-      const double theirs_m = std::min(stage.ranges_m[i], stage.range_max_m);
+      const double theirs_m = std::min(stage.ranges_m[i], stage.ranges_max_m[i]);
       const double error_m = ours.ranges_m[i] - theirs_m;
       const Pose X_WS = X_WB * ours.X_BS[i];
       ++figures.beams;
@@ -441,17 +450,20 @@ class Comparison {
         ++figures.two_cells;
         continue;
       }
-      if (sides.empty()) draw(ours.height_m, sides, rasters);
+      const std::vector<double>& heights_m = ours.heights_m;
+      if (sides.empty() || (i > 0 && heights_m[i] != heights_m[i - 1])) {
+        draw(heights_m[i], sides, rasters);
+      }
       // Only the outlines that Playpen's ranger really sees explain a difference.
       const Vec2 along(std::cos(X_WS.yaw_rad), std::sin(X_WS.yaw_rad));
-      const double drawn_m = cast(sides, X_WS.position(), along, ours.range_max_m).range_m;
+      const double drawn_m = cast(sides, X_WS.position(), along, ours.ranges_max_m[i]).range_m;
       const bool as_drawn = std::abs(drawn_m - ours.ranges_m[i]) <= 0.002 + 5.0 * ours.noise_m;
       bool agrees = as_drawn && off_m(sides, X_WS.position(), X_WS.yaw_rad, theirs_m,
-                                      ours.range_max_m, 2.0 * cell_m_) <= 2.0 * cell_m_;
+                                      ours.ranges_max_m[i], 2.0 * cell_m_) <= 2.0 * cell_m_;
       if (agrees) ++figures.two_cells;
       double walked_m = 0.0;
       for (const Raster& raster : rasters) {
-        walked_m = raster.cast_m(X_WS.position(), X_WS.yaw_rad, ours.range_max_m);
+        walked_m = raster.cast_m(X_WS.position(), X_WS.yaw_rad, ours.ranges_max_m[i]);
         agrees = agrees || (as_drawn && std::abs(walked_m - theirs_m) <= cell_along_m);
       }
       if (agrees) {
@@ -459,9 +471,9 @@ class Comparison {
         continue;
       }
       list_beam(device, i, X_WS, sides, theirs_m, walked_m, ours);
-      if (theirs_m >= stage.range_max_m) {
+      if (theirs_m >= stage.ranges_max_m[i]) {
         ++figures.extra;
-      } else if (ours.ranges_m[i] >= ours.range_max_m) {
+      } else if (ours.ranges_m[i] >= ours.ranges_max_m[i]) {
         ++figures.missed;
       } else {
         ++(error_m > 0.0 ? figures.farther : figures.nearer);
@@ -495,12 +507,12 @@ class Comparison {
     if (list_ == 0) return;
     --list_;
     const Vec2 along(std::cos(X_WS.yaw_rad), std::sin(X_WS.yaw_rad));
-    const Hit hit = cast(sides, X_WS.position(), along, ours.range_max_m);
+    const Hit hit = cast(sides, X_WS.position(), along, ours.ranges_max_m[beam]);
     const Vec2 end = X_WS.position() + theirs_m * along;
     std::cout << "  " << stage_name_ << ' ' << device << " beam " << beam << " from (" << X_WS.x_m
-              << ", " << X_WS.y_m << ") at height " << ours.height_m << ": Stage " << theirs_m
-              << " at (" << end.x() << ", " << end.y() << "), raster " << walked_m << ", Playpen "
-              << ours.ranges_m[beam] << " at "
+              << ", " << X_WS.y_m << ") at height " << ours.heights_m[beam] << ": Stage "
+              << theirs_m << " at (" << end.x() << ", " << end.y() << "), raster " << walked_m
+              << ", Playpen " << ours.ranges_m[beam] << " at "
               << (hit.side < 0 ? "nothing" : sides[static_cast<std::size_t>(hit.side)].solid)
               << '\n';
   }

@@ -15,8 +15,8 @@ namespace interop {
 struct Beams {
   std::vector<sim::Pose> X_BS;
   std::vector<double> ranges_m;
-  double height_m = 0.0;
-  double range_max_m = 0.0;
+  std::vector<double> heights_m;  // of each beam
+  std::vector<double> ranges_max_m;
   double noise_m = 0.0;
 };
 
@@ -30,15 +30,21 @@ inline Beams beams_of(const sim::Simulation& simulation, int robot, const std::s
       beams.X_BS.push_back(params.X_BL * sim::Pose{0.0, 0.0, angle_rad});
     }
     beams.ranges_m = laser->reading().ranges_m;
-    beams.height_m = params.height_m;
-    beams.range_max_m = params.range_max_m;
+    beams.heights_m.assign(beams.ranges_m.size(), params.height_m);
+    beams.ranges_max_m.assign(beams.ranges_m.size(), params.range_max_m);
     beams.noise_m = params.noise_m;
   } else if (const auto* ring = dynamic_cast<const sim::Ranger*>(&device)) {
     beams.X_BS = ring->reading().X_BS;
     beams.ranges_m = ring->reading().ranges_m;
-    beams.range_max_m = ring->reading().range_max_m;
+    beams.ranges_max_m = ring->params().ranges_max_m;
+    if (beams.ranges_max_m.empty()) {
+      beams.ranges_max_m.assign(beams.ranges_m.size(), ring->params().range_max_m);
+    }
     beams.noise_m = ring->params().noise_m;
-    beams.height_m = ring->params().height_m;
+    beams.heights_m = ring->params().heights_m;
+    if (beams.heights_m.empty()) {
+      beams.heights_m.assign(beams.ranges_m.size(), ring->params().height_m);
+    }
   }
   return beams;
 }

@@ -42,7 +42,8 @@ class PlaypenRobot {
       const interop::Beams ranger = interop::beams_of(simulation_, robot_, name);
       for (std::size_t i = 0; i < ranger.ranges_m.size() && i < ranger.X_BS.size(); ++i) {
         const sim::Pose& X_BS = ranger.X_BS[i];
-        beams.push_back({X_BS.x_m, X_BS.y_m, X_BS.yaw_rad, ranger.ranges_m[i], ranger.range_max_m});
+        beams.push_back(
+            {X_BS.x_m, X_BS.y_m, X_BS.yaw_rad, ranger.ranges_m[i], ranger.ranges_max_m[i]});
       }
     }
     return beams;

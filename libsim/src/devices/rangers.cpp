@@ -223,7 +223,7 @@ constexpr Field kRangerSettings[] = {
     range_max_field<&RangerParams::range_max_m>("maximum range, and the reading if nothing is hit"),
     height_field<&RangerParams::height_m>("above the floor; lower obstacles are not seen"),
     field<&RangerParams::X_BS>("mounts", "m, degrees",
-                               "poses of the transducers on the body, X_BS; at most 64 of them")
+                               "poses of the transducers on the body, X_BS; at most 1024 of them")
         .counting(0, RangerParams::kMaxTransducers)
         .property_name("mount")
         .listing_elements(),
@@ -242,7 +242,7 @@ constexpr Field kRangerSettings[] = {
 };
 SIM_FIELDS(RangerParams, kRangerSettings)
 
-static_assert(RangerParams::kMaxTransducers == 64, "the texts above say so");
+static_assert(RangerParams::kMaxTransducers == 1024, "the texts above say so");
 
 constexpr Field kInfrared[] = {
     include<InfraredParams, RangerParams>(),

@@ -794,7 +794,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSettings{"sonar", R"({"range_max": 0})", "world/out-of-range", "/range_max", "m"},
         BadSettings{"sonar", R"({"noise": -0.1})", "world/out-of-range", "/noise", "m"}));
 
-TEST(Rangers, HaveNoMoreThanSixtyFourTransducers) {
+TEST(Rangers, HaveNoMoreThan1024Transducers) {
   const auto issues = [](int count) {
     std::string mounts = "{}";
     for (int i = 1; i < count; ++i) mounts += ", {}";
@@ -805,10 +805,10 @@ TEST(Rangers, HaveNoMoreThanSixtyFourTransducers) {
     }
     return std::vector<ConfigIssue>{};
   };
-  EXPECT_THAT(issues(64), IsEmpty());
-  ASSERT_EQ(issues(65).size(), 1U);
-  EXPECT_EQ(issues(65)[0].id, "world/too-many");
-  EXPECT_THAT(issues(65)[0].message(), HasSubstr("at most 64"));
+  EXPECT_THAT(issues(1024), IsEmpty());
+  ASSERT_EQ(issues(1025).size(), 1U);
+  EXPECT_EQ(issues(1025)[0].id, "world/too-many");
+  EXPECT_THAT(issues(1025)[0].message(), HasSubstr("at most 1024"));
 }
 
 }  // namespace

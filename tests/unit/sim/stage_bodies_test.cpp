@@ -47,6 +47,13 @@ TEST(StageBodies, WhatIsNotHigherThanTheBodyAddsNothing) {
   EXPECT_THAT(model.superstructures, IsEmpty());
 }
 
+// As in Stage, a point that is missing is at [0 0]: a triangle of 1 x 1 becomes a square.
+TEST(StageBodies, APointThatIsMissingIsAtTheOrigin) {
+  const RobotModel model = model_of(
+      "size [0.4 0.4 0.2] block ( points 4 point[0] [1 0] point[1] [1 1] point[2] [0 1] z [0 1] )");
+  EXPECT_NEAR(area_m2(model.footprint), 0.16, 1e-9);
+}
+
 // The paddles take 0.66 of the length, so the base is 0.068 x 0.3 m.
 TEST(StageBodies, TheBaseOfAGripperIsAPartOfTheBody) {
   const std::string gripper = "gripper ( size [0.2 0.3 0.2] pose [0.3 0 -0.5 0] ";

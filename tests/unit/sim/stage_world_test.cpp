@@ -550,7 +550,6 @@ TEST_F(StageWorld, ErrorsSayWhereTheyAre) {
       {"model ( size \"big\" )", 1, "stage/wrong-type", "\"big\""},
       {"model (\n bitmap \"no.png\" )", 2, "stage/bitmap", "no file of that name"},
       {"model ( block ( points 2 ) )", 1, "stage/bad-block", "2"},
-      {"model ( block ( points 3 point[0] [0 0] ) )", 1, "stage/bad-block", "no point[1]"},
       {"position ( ranger (\n sensor ( samples 9999 ) ) )", 2, "stage/bad-ranger", "9999"},
       {"position ( size [500 500 1] )", 1, "stage/bad-body", "250 m"},
       {"\nposition ( pose [2e4 0 0 0] )", 2, "world/out-of-range", "20000"},

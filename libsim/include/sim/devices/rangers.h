@@ -23,7 +23,7 @@ struct RangerParams {
   double height_m = 0.05;          ///< above the floor [m]; lower obstacles are not seen
   double field_of_view_rad = 0.0;  ///< full angle of a transducer's cone, [0, pi]; 0: a single ray
   bool single_ray = false;         ///< measures along a single ray, and states the cone to clients
-  std::vector<Pose> X_BS;          ///< mountings of the transducers on the body, at most 64
+  std::vector<Pose> X_BS;          ///< mountings of the transducers on the body, at most 1024
   std::vector<double>
       ranges_max_m;               ///< of each transducer, at most range_max_m; empty: range_max_m
   std::vector<double> heights_m;  ///< of each transducer; empty: height_m
@@ -31,7 +31,7 @@ struct RangerParams {
   double intensity = 0.0;         ///< of each echo, for clients, [0, 1e6]; 0: none is measured
 
   /// Maximum number of transducers of a ranger.
-  static constexpr int kMaxTransducers = 64;
+  static constexpr int kMaxTransducers = 1024;
 };
 
 /// Infrared rangers; by default a ring of eight single rays around an S1R, with 0.8 m range.

@@ -33,11 +33,10 @@ Block read_corners(const Properties& block, const std::string& prefix, Report& r
   }
   for (int i = 0; i < count; ++i) {
     const std::string name = prefix + "point[" + std::to_string(i) + "]";
-    if (!block.has(name)) {
-      report.error(block.entity().place, "stage/bad-block",
-                   "the points point[0] to point[" + std::to_string(count - 1) + "] of a block",
-                   "no " + name);
-      return {};
+    if (!block.has(name)) {  // as Block::Load() of libstage/block.cc
+      report.note("missing point", block.entity().place,
+                  "a block without " + name + " of its " + std::to_string(count) +
+                      " points has it at [0 0], as in Stage");
     }
     const auto xy = block.tuple<2>(name, "ll", {0.0, 0.0});
     made.points.emplace_back(xy[0], xy[1]);

@@ -304,6 +304,10 @@ class Translator {
     tell_charging(model);
     if (body.empty()) return;
     const std::string name = obstacle_names_.unique(stage_name);
+    if (!returns.obstacle && returns.ranger && (body.bitmap || body.boundary)) {
+      report_.note("open plan", model.place_of("obstacle_return"),
+                   "robots drive through this floor plan, as in Stage (obstacle_return 0)");
+    }
     if (returns.obstacle && !returns.ranger) {
       report_.note("ranger_return",
                    model.has("ranger_return") ? model.place_of("ranger_return")
