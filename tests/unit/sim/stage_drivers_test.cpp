@@ -271,6 +271,36 @@ TEST(StageDrivers, OneAddressIsThatOfOneDriver) {
                                               "\"position2d:1\" here")));
 }
 
+TEST(StageDrivers, ThatConvertGiveADeviceOnlyItsInterfaces) {
+  const WorldDescription world = read(
+      "driver ( name \"rangertolaser\" provides [\"laser:1\" \"sonar:0\"] requires "
+      "[\"ranger:0\"] )\n"
+      "driver ( name \"rangertolaser\" provides [\"laser:0\"] requires [\"ranger:1\"] )\n"
+      "driver ( name \"passthrough\" provides [\"ranger:4\"] requires [\"ranger:0\"] )\n"
+      "driver ( name \"stage\" provides [\"ranger:1\"] model \"r0\" )\n",
+      std::string(kScanner) + " " + kScanner);
+  // In the order of the indexes, not of the file.
+  EXPECT_THAT(world.robots[0].interfaces.at("laser"), testing::ElementsAre("laser2", "laser"));
+  EXPECT_FALSE(world.robots[0].interfaces.contains("sonar"));
+  EXPECT_THAT(world.notes,
+              testing::UnorderedElementsAre(
+                  HasSubstr("w.cfg:3: the address \"sonar:0\" of the driver \"rangertolaser\""),
+                  HasSubstr("w.cfg:5: the address \"ranger:4\" is left out: it is \"ranger:0\"")));
+}
+
+TEST(StageDrivers, APlannerWhoseOutputIsTheRobotDrivesStraight) {
+  // Stage's position models take goals themselves (libstageplugin/p_position.cc).
+  const WorldDescription world = read(
+      "driver ( name \"wavefront\" provides [\"planner:0\"] requires\n"
+      "  [\"output:::position2d:0\" \"input:::position2d:0\" \"map:0\"] )\n");
+  ASSERT_THAT(world.robots[0].drivers, SizeIs(2));
+  EXPECT_EQ(world.robots[0].drivers[0].type, "goto");
+  EXPECT_EQ(world.robots[0].drivers[0].settings.at("index"), "1");
+  EXPECT_EQ(world.robots[0].drivers[1].type, "wavefront");
+  EXPECT_EQ(world.robots[0].drivers[1].settings.at("output"), "1");
+  EXPECT_THAT(world.notes, testing::ElementsAre(HasSubstr("w.cfg:3: the robot's position drives")));
+}
+
 TEST(StageDrivers, AnglesAreInTheUnitOfTheFile) {
   const WorldDescription world = read(
       "unit_angle \"radians\" unit_length \"cm\"\n"
@@ -322,7 +352,7 @@ TEST(StageDrivers, WhatHasNoEffectHasALine) {
   for (const Driver& driver : kDrivers) {
     const std::string begin = std::string("driver ( name \"") + driver.name + "\" provides [\"" +
                               driver.provides + "\"] " + requires_all;
-    EXPECT_THAT(lines_of(begin + ")"), Each(Not(HasSubstr("is left out"))))
+    EXPECT_THAT(lines_of(begin + ")"), Each(Not(HasSubstr(": the driver"))))
         << driver.name << " is known";
     EXPECT_THAT(lines_of(begin + odd + ")"), noted(4)) << driver.name;
     EXPECT_THAT(lines_of(begin + "\npart ( x 1 ) )"), noted(4)) << driver.name;

@@ -599,5 +599,45 @@ position ( name "e" size [0.4 0.4] pucktarget ( ) pose [5 5 0] )
   EXPECT_EQ(model(world, 2).mass_kg, 23.0);
 }
 
+// Each property of a world file has an effect or a line, in every kind of model.
+TEST_F(StageFiles, PropertiesWithoutAnEffectHaveALine) {
+  constexpr const char* kKinds[] = {"model", "position"};
+  constexpr const char* kParts[] = {
+      "model",  "ranger", "laser",        "fiducial",       "fiducialfinder", "blobfinder",
+      "bumper", "camera", "blinkenlight", "lightindicator", "actuator",       "gripper",
+      "ptz",    "wifi",   "position",     "power",          "speech",         "audio"};
+  const auto expect_line = [&](const std::string& text, int line) {
+    EXPECT_THAT(read(text).notes,
+                Contains(AllOf(HasSubstr("w.world:" + std::to_string(line) + ": "),
+                               HasSubstr("no_such_thing"), HasSubstr("is left out"))))
+        << text;
+  };
+  const std::string odd = "\nno_such_thing 1\n";
+  const std::string robot = "\nposition ( size [0.4 0.4 0.2] pose [5 5 0 0] )\n";
+  expect_line(odd + robot, 2);
+  for (const char* kind : kKinds) expect_line(std::string(kind) + " (" + odd + ")" + robot, 2);
+  for (const char* part : kParts) {
+    expect_line("position ( size [0.4 0.4 0.2] " + std::string(part) + " (" + odd + ") )\n", 2);
+  }
+  expect_line(
+      "position ( block ( points 3 point[0] [0 0] point[1] [1 0] point[2] [0 1]" + odd + ") )\n",
+      2);
+  expect_line("position ( ranger ( sensor ( samples 9 fov 90" + odd + ") ) )\n", 2);
+  EXPECT_THAT(read("window (" + odd + ")" + robot).notes,
+              Contains(HasSubstr("w.world:1: the look of Stage's window is left out")));
+}
+
+TEST_F(StageFiles, TheSpeedOfStagesWindowIsAnOptionHere) {
+  EXPECT_THAT(read("speedup 1\n" + std::string(kSmallRobot)).notes, IsEmpty());
+  EXPECT_THAT(read("\nspeedup 10\n" + std::string(kSmallRobot)).notes,
+              ElementsAre(AllOf(HasSubstr("w.world:2: speedup has no effect"),
+                                HasSubstr("unless --time 10 gives"))));
+  EXPECT_THAT(read("speedup -1\n" + std::string(kSmallRobot)).notes,
+              ElementsAre(AllOf(HasSubstr("speedup has no effect"), Not(HasSubstr("--time")))));
+  // Stage 2: interval_sim every interval_real; 100 ms every 50 ms are twice real time.
+  EXPECT_THAT(read("interval_sim 100 interval_real 50\n" + std::string(kSmallRobot)).notes,
+              ElementsAre(HasSubstr("unless --time 2 gives")));
+}
+
 }  // namespace
 }  // namespace sim

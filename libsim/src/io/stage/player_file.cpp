@@ -168,6 +168,7 @@ class PlayerFile {
     add_drivers();
     set_ports();
     leave_out_on_shared_port();
+    tell_moved();
     for (const auto& [robot, address] : everywhere_) tell_unserved(robot, address);
   }
 
@@ -386,22 +387,41 @@ class PlayerFile {
 
   void take(RobotDraft& robot, const Address& address, const std::string& device) {
     taken_[&robot][address.interface][address.index] = device;
+    addresses_.emplace(std::tuple(&robot, address.interface, address.index), address);
   }
 
   /// Writes the indexes of interfaces.
   void set_addresses() {
     for (auto& [robot, interfaces] : taken_) {
       for (auto& [interface, devices] : interfaces) {
+        if (devices.empty()) continue;
         Json names = Json::array();
-        for (const auto& [index, device] : devices) names.push_back(device);
+        const auto add = [&](const Json& name) {
+          if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        };
+        for (const auto& [index, device] : devices) add(device);
         first_[robot][interface] = devices.begin()->first;
         // The robot's other devices follow.
         Json& list = robot->robot["interfaces"][interface];
-        for (const auto& name : list.is_array() ? list : Json::array()) {
-          if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-        }
+        for (const auto& name : list.is_array() ? list : Json::array()) add(name);
         list = std::move(names);
       }
+    }
+  }
+
+  /// Notes addresses of devices that have another index here: indexes are consecutive, and each
+  /// device has one.
+  void tell_moved() {
+    for (const auto& [key, address] : addresses_) {
+      const auto& [robot, interface, index] = key;
+      const Json& list = robot->robot["interfaces"][interface];
+      const auto place = std::find(list.begin(), list.end(), taken_[robot][interface][index]);
+      if (place == list.end()) continue;
+      const int here = first_[robot][interface] + static_cast<int>(place - list.begin());
+      if (here == index) continue;
+      report_.note("address " + address.text, address.place,
+                   "the address " + in_quotes(address.text) + " is left out: it is " +
+                       in_quotes(interface + ":" + std::to_string(here)) + " here");
     }
   }
 
@@ -513,22 +533,26 @@ class PlayerFile {
   }
 
   bool convert(RobotDraft& robot, const OtherDriver& driver) {
-    bool done = false;
+    std::set<std::string> done;  // addresses
     for (const Address& from : driver.required) {
-      const auto device = taken_[&robot][from.interface].find(from.index);
-      if (device == taken_[&robot][from.interface].end()) continue;
-      done = true;
+      const auto found = taken_[&robot][from.interface].find(from.index);
+      if (found == taken_[&robot][from.interface].end()) continue;
+      const std::string device = found->second;
+      const auto entry = std::find_if(robot.list.begin(), robot.list.end(),
+                                      [&](const DraftDevice& one) { return one.name == device; });
       for (const Address& to : driver.provided) {
-        Json& list = robot.robot["interfaces"][to.interface];
-        if (!list.is_array()) list = Json::array();
-        if (std::find(list.begin(), list.end(), device->second) == list.end()) {
-          list.push_back(device->second);
-        }
-        first_[&robot].emplace(to.interface, to.index);
-        take(robot, to, device->second);
+        const InterfaceRow* const row = row_of(to.interface);
+        const bool same = to.interface == from.interface;
+        if (!same && (row == nullptr || entry == robot.list.end() || !fits(*row, *entry))) continue;
+        take(robot, to, device);
+        done.insert(to.text);
       }
     }
-    if (!done) return left_out(driver, "it can use only devices of the robot");
+    if (done.empty()) return left_out(driver, "it can use only devices of the robot");
+    set_addresses();
+    for (const Address& to : driver.provided) {
+      if (!done.contains(to.text)) note_provided(driver, to);
+    }
     tell_rest(*driver.entity, {"name", "plugin", "provides", "requires", "alwayson"});
     return true;
   }
@@ -618,6 +642,13 @@ class PlayerFile {
     return left_out(driver, "");
   }
 
+  /// The first index from `least` on that no driver has. @return it, which is taken then.
+  int next_index(RobotDraft& robot, std::string_view interface, int least) {
+    std::set<int>& taken = driver_indexes_[{&robot, std::string(interface)}];
+    while (!taken.insert(least).second) ++least;
+    return least;
+  }
+
   /// The index of a driver among those of a robot's interface: the one in the file, or if that is
   /// taken the next one that is free, with a note.
   int free_index(RobotDraft& robot, const OtherDriver& driver, std::string_view interface,
@@ -636,9 +667,7 @@ class PlayerFile {
         note_provided(driver, address);
       }
     }
-    std::set<int>& taken = driver_indexes_[{&robot, std::string(interface)}];
-    int free = std::max(index, own);
-    while (!taken.insert(free).second) ++free;
+    const int free = next_index(robot, interface, std::max(index, own));
     if (free != index && !text.empty()) {
       report_.note("address " + text, place,
                    "the address " + in_quotes(text) + " of the driver " + in_quotes(driver.name) +
@@ -724,22 +753,16 @@ class PlayerFile {
     for (const Address& address : driver.required) {
       if (address.interface == "position2d" && address.key == "output") output = &address;
     }
-    const auto is_driver = [](const Json& one) {
-      return is_goal_driver(one.at("type").get<std::string>());
-    };
-    const Json drivers = robot.robot.value("drivers", Json::array());
-    if (std::none_of(drivers.begin(), drivers.end(), is_driver)) {
+    const std::optional<int> own = own_output(robot, output);
+    if (!own && (output == nullptr || !is_goal_driver(driver_of(*output)))) {
       return left_out(driver, "it needs a driver that drives to goals, such as vfh");
-    }
-    if (output != nullptr && !is_goal_driver(driver_of(*output))) {
-      return left_out(driver, in_quotes(output->text) + " is no driver that drives to goals");
     }
     Json settings = settings_of(driver);
     for (const Address& address : driver.required) {
       if (address.interface != "position2d" && address.interface != "localize") continue;
       const int index = local_index(robot, address.interface, address.index);
       if (&address == output) {
-        settings["output"] = index_of_driver(robot, address);
+        if (!own) settings["output"] = index_of_driver(robot, address);
       } else if (driver_of(address) == "amcl") {
         settings["localize"] = 0;
       } else if (address.interface == "position2d" &&
@@ -749,8 +772,29 @@ class PlayerFile {
     }
     const int index = free_index(robot, driver, "planner", 0, 0);
     if (index != 0) settings["index"] = index;
+    if (own) settings["output"] = add_straight_driver(driver, robot, *own);
     robot.robot["drivers"].push_back(std::move(settings));
     return true;
+  }
+
+  /// The robot's own position if that is the output of a planner: Stage's positions drive to goals.
+  std::optional<int> own_output(RobotDraft& robot, const Address* output) {
+    if (output == nullptr || owner_of(*output) != &robot || !driver_of(*output).empty()) {
+      return std::nullopt;
+    }
+    return local_index(robot, "position2d", output->index);
+  }
+
+  /// Adds a driver that drives straight to goals. @return its index.
+  int add_straight_driver(const OtherDriver& planner, RobotDraft& robot, int position) {
+    const int index = next_index(robot, "position2d", 1);
+    free_position(robot, static_cast<std::size_t>(index));
+    robot.robot["drivers"].push_back({{"type", "goto"}, {"index", index}, {"position", position}});
+    report_.note("output of " + planner.name, planner.entity->place,
+                 "the robot's position drives to goals in Stage; here a driver \"goto\" at "
+                 "position2d:" +
+                     std::to_string(index) + " does it");
+    return index;
   }
 
   /// Index that a driver has here, by the address that it has in the file.
@@ -866,6 +910,7 @@ class PlayerFile {
   Units units_;
   std::vector<OtherDriver> others_;
   int models_named_ = 0;  ///< drivers of Stage with a model
+  std::map<std::tuple<RobotDraft*, std::string, int>, Address> addresses_;  ///< of taken_
   std::set<std::pair<const RobotDraft*, std::string>> bound_;
   std::map<const RobotDraft*, int> ports_;
   std::map<RobotDraft*, std::map<std::string, std::map<int, std::string>>> taken_;
