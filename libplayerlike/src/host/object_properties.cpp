@@ -46,7 +46,7 @@ Subject subject(const Simulation& simulation, const std::string& name) {
   const sim::ArenaDescription& arena = simulation.world().arena;
   for (const auto* boxes : {&arena.obstacles, &arena.dock_separators}) {
     for (const sim::ObstacleDescription& box : *boxes) {
-      if (found.box == nullptr && box.name == name) found.box = &box;
+      if (found.box == nullptr && box.name == found.object.name) found.box = &box;
     }
   }
   return found;

@@ -214,8 +214,9 @@ std::vector<SceneObject> Simulation::scene_objects() const {
 
 std::optional<SceneObject> Simulation::find_object(const std::string& name) const {
   std::vector<SceneObject> objects = scene_objects();
-  const auto it = std::find_if(objects.begin(), objects.end(),
-                               [&](const SceneObject& object) { return object.name == name; });
+  const auto it = std::find_if(objects.begin(), objects.end(), [&](const SceneObject& object) {
+    return is_named(object.name, name);
+  });
   if (it == objects.end()) return std::nullopt;
   return std::move(*it);
 }

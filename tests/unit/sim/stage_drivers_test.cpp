@@ -105,7 +105,10 @@ TEST(StageDrivers, WavefrontFollowsAmclAndDrivesByVfh) {
   EXPECT_DOUBLE_EQ(params.update_m, 0.1);
   EXPECT_NEAR(params.update_rad, 5.0 * M_PI / 180.0, 1e-9);
   EXPECT_THAT(world.notes, Contains(HasSubstr("all devices of r0 are on 6665")));
-  EXPECT_THAT(world.notes, Each(Not(HasSubstr("is left out"))));
+  // The planner uses amcl's pose, but programs do not find it at this address.
+  EXPECT_THAT(world.notes,
+              Contains(HasSubstr("the address \"7000:position2d:2\" of the driver \"amcl\" is")));
+  EXPECT_THAT(world.notes, SizeIs(2));
 }
 
 // As in the documentation of Player's vfh and wavefront.
@@ -185,6 +188,175 @@ TEST(StageDrivers, OthersAreLeftOutWithAMessage) {
       "driver ( name \"nd\" provides [\"position2d:1\"] requires [\"position2d:7\"] )");
   EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:3: the driver \"mbicp\" is left out")));
   EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:4: the driver \"nd\" is left out")));
+}
+
+TEST(StageDrivers, WhoseRequirementsAreNotMetAreLeftOut) {
+  // The robot has one position; what Playpen adds is not in Player's file.
+  const WorldDescription world = read(
+      "driver ( name \"laserposeinterpolator\" provides [\"laser:1\"]\n"
+      "  requires [\"ranger:0\" \"position2d:2\"] )\n"
+      "driver ( name \"vfh\" provides [\"position2d:1\"] requires [\"ranger:0\" "
+      "\"position2d:7\"] )\n"
+      "driver ( name \"rangertolaser\" provides [\"laser:0\"] requires [\"ranger:3\" ] )\n"
+      "driver ( name \"mbicp\" provides [\"position2d:3\"] requires [\"position2d:0\"] )\n"
+      "driver ( name \"snd\" provides [\"position2d:4\"] requires [\"position2d:3\"] )\n");
+  EXPECT_FALSE(world.robots[0].drivers.size() > 0);
+  EXPECT_THAT(world.notes,
+              Contains(HasSubstr("w.cfg:3: the driver \"laserposeinterpolator\" is left "
+                                 "out: nothing provides \"position2d:2\"")));
+  EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:5: the driver \"vfh\" is left out: nothing "
+                                              "provides \"position2d:7\"")));
+  EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:6: the driver \"rangertolaser\" is left out: "
+                                              "nothing provides \"ranger:3\"")));
+  EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:7: the driver \"mbicp\" is left out")));
+  EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:8: the driver \"snd\" is left out: nothing "
+                                              "provides \"position2d:3\"")));
+}
+
+TEST(StageDrivers, AddressesThatNothingProvidesHaveALine) {
+  const WorldDescription world = read(
+      "driver ( name \"vfh\" provides [\"position2d:1\" \"truth:0\"]\n"
+      "  requires [\"position2d:0\" \"ranger:0\"] )\n"
+      "driver ( name \"wavefront\" provides [\"planner:0\"] requires\n"
+      "  [\"output:::position2d:1\" \"input:::position2d:0\" \"offline:::planner:1\"\n"
+      "   \"map:0\"] )\n"
+      "driver ( name \"mapfile\" provides [\"map:2\"] filename \"x.png\" resolution 0.1 )\n"
+      "driver ( name \"stage\" model \"r1\" provides [\"6667:position2d:0\" "
+      "\"6667:graphics2d:0\"\n"
+      "  \"6667:graphics2d:1\" \"6667:graphics3d:0\" \"6667:speech:0\"] )\n");
+  EXPECT_THAT(world.robots[0].drivers, SizeIs(2));
+  EXPECT_THAT(
+      world.notes,
+      testing::UnorderedElementsAre(
+          HasSubstr("w.cfg:3: the address \"truth:0\" of the driver \"vfh\" is left out"),
+          HasSubstr("w.cfg:6: nothing provides \"offline:::planner:1\"; the driver \"wavefront\""),
+          HasSubstr("w.cfg:8: the address \"map:2\" is left out: it is \"map:0\" here"),
+          HasSubstr("w.cfg:10: the address \"6667:graphics2d:1\" is left out: it is "
+                    "\"graphics2d:0\" here"),
+          HasSubstr("w.cfg:10: the interface \"graphics3d\" is left out")));
+}
+
+TEST(StageDrivers, RobotsThatShareAPortDrawAtTheirOwnIndexes) {
+  test_support::TemporaryFolder folder;
+  folder.write("w.cfg", R"(
+driver ( name "stage" provides ["simulation:0"] worldfile "w.world" )
+driver ( name "stage" provides ["position2d:0" "graphics2d:0" "ranger:0"] model "a" )
+driver ( name "stage" provides ["position2d:1" "graphics2d:1" "ranger:1"] model "b" )
+driver ( name "vfh" provides ["position2d:2"] requires ["position2d:0" "ranger:0"] )
+)");
+  const std::string bot = std::string("position ( size [0.4 0.4 0.2] ") + kScanner;
+  const WorldDescription world = load_world(
+      folder.write("w.world", bot + " name \"a\" )\n" + bot + " name \"b\" pose [2 0 0 0] )\n"));
+  EXPECT_EQ(world.robots_on_port, 6665);
+  // A port that several robots share offers devices only.
+  EXPECT_THAT(world.robots[0].drivers, IsEmpty());
+  EXPECT_THAT(world.notes,
+              testing::ElementsAre(HasSubstr("w.cfg:5: the driver \"vfh\" is left out: a "
+                                             "port that several robots share")));
+}
+
+TEST(StageDrivers, OneAddressIsThatOfOneDriver) {
+  // Of two servers in Player; here all are on the robot's port.
+  const WorldDescription world = read(
+      "driver ( name \"vfh\" provides [\"7000:position2d:0\"]\n"
+      "  requires [\"6665:position2d:0\" \"6665:ranger:0\"] )\n"
+      "driver ( name \"wavefront\" provides [\"7000:planner:2\"] requires\n"
+      "  [\"output::7000:position2d:0\" \"input::6665:position2d:0\" \"map:0\"] )\n");
+  ASSERT_THAT(world.robots[0].drivers, SizeIs(2));
+  EXPECT_EQ(world.robots[0].drivers[0].settings.at("index"), "1");
+  EXPECT_EQ(world.robots[0].drivers[1].settings.at("output"), "1");
+  EXPECT_EQ(world.robots[0].drivers[1].settings.at("index"), "2");
+  EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:3: the address \"7000:position2d:0\" of the "
+                                              "driver \"vfh\" is taken: it is "
+                                              "\"position2d:1\" here")));
+}
+
+TEST(StageDrivers, ThatConvertGiveADeviceOnlyItsInterfaces) {
+  const WorldDescription world = read(
+      "driver ( name \"rangertolaser\" provides [\"laser:1\" \"sonar:0\"] requires "
+      "[\"ranger:0\"] )\n"
+      "driver ( name \"rangertolaser\" provides [\"laser:0\"] requires [\"ranger:1\"] )\n"
+      "driver ( name \"passthrough\" provides [\"ranger:4\"] requires [\"ranger:0\"] )\n"
+      "driver ( name \"stage\" provides [\"ranger:1\"] model \"r0\" )\n",
+      std::string(kScanner) + " " + kScanner);
+  // In the order of the indexes, not of the file.
+  EXPECT_THAT(world.robots[0].interfaces.at("laser"), testing::ElementsAre("laser2", "laser"));
+  EXPECT_FALSE(world.robots[0].interfaces.contains("sonar"));
+  EXPECT_THAT(world.notes,
+              testing::UnorderedElementsAre(
+                  HasSubstr("w.cfg:3: the address \"sonar:0\" of the driver \"rangertolaser\""),
+                  HasSubstr("w.cfg:5: the address \"ranger:4\" is left out: it is \"ranger:0\"")));
+}
+
+TEST(StageDrivers, APlannerWhoseOutputIsTheRobotDrivesStraight) {
+  // Stage's position models take goals themselves (libstageplugin/p_position.cc).
+  const WorldDescription world = read(
+      "driver ( name \"wavefront\" provides [\"planner:0\"] requires\n"
+      "  [\"output:::position2d:0\" \"input:::position2d:0\" \"map:0\"] )\n");
+  ASSERT_THAT(world.robots[0].drivers, SizeIs(2));
+  EXPECT_EQ(world.robots[0].drivers[0].type, "goto");
+  EXPECT_EQ(world.robots[0].drivers[0].settings.at("index"), "1");
+  EXPECT_EQ(world.robots[0].drivers[1].type, "wavefront");
+  EXPECT_EQ(world.robots[0].drivers[1].settings.at("output"), "1");
+  EXPECT_THAT(world.notes, testing::ElementsAre(HasSubstr("w.cfg:3: the robot's position drives")));
+}
+
+TEST(StageDrivers, AnglesAreInTheUnitOfTheFile) {
+  const WorldDescription world = read(
+      "unit_angle \"radians\" unit_length \"cm\"\n"
+      "driver ( name \"vfh\" provides [\"position2d:1\"] requires [\"position2d:0\" \"ranger:0\"]\n"
+      "  max_turnrate_0ms 1.5707963267948966 max_speed 30 sector_angle 10 )");
+  ASSERT_THAT(world.robots[0].drivers, SizeIs(1));
+  const auto& settings = world.robots[0].drivers[0].settings;
+  EXPECT_EQ(settings.at("max_turnrate_0ms_deg"), "90.0");
+  EXPECT_EQ(settings.at("max_speed"), "0.3");
+  EXPECT_EQ(settings.at("sector_angle_deg"), "10.0") << "Player reads it as a number";
+}
+
+// Each property, section and driver of a configuration file has an effect or a line.
+TEST(StageDrivers, WhatHasNoEffectHasALine) {
+  const std::string requires_all = "requires [\"position2d:0\" \"ranger:0\" \"map:0\"] ";
+  const auto lines_of = [&](const std::string& drivers) { return read(drivers).notes; };
+  const auto noted = [](int line) {
+    return Contains(HasSubstr("w.cfg:" + std::to_string(line) + ": "));
+  };
+  const std::string odd = "\nno_such_thing 1\n";
+  EXPECT_THAT(lines_of(odd), noted(4));
+  EXPECT_THAT(lines_of("plugin \"libdriver.so\"\n"), noted(3));
+  EXPECT_THAT(lines_of("section ( name \"x\" )\n"), noted(3));
+  EXPECT_THAT(
+      lines_of("driver ( name \"stage\" model \"r1\" provides [\"6667:position2d:0\"]" + odd + ")"),
+      noted(4));
+  EXPECT_THAT(lines_of("driver ( name \"stage\" model \"r1\" provides [\"6667:position2d:0\"]\n"
+                       "part ( x 1 ) )"),
+              noted(4));
+  struct Driver {
+    const char* name;
+    const char* provides;
+  };
+  constexpr Driver kDrivers[] = {
+      {"snd", "position2d:1"},
+      {"vfh", "position2d:1"},
+      {"nd", "position2d:1"},
+      {"goto", "position2d:1"},
+      {"amcl", "localize:0"},
+      {"lasercspace", "laser:1"},
+      {"rangertolaser", "laser:0"},
+      {"passthrough", "ranger:2"},
+      {"mapfile", "map:0"},
+      {"mapscale", "map:0"},
+      {"localbb", "blackboard:0"},
+      {"lasertoranger", "ranger:2"},
+      {"laserposeinterpolator", "laser:1"},
+  };
+  for (const Driver& driver : kDrivers) {
+    const std::string begin = std::string("driver ( name \"") + driver.name + "\" provides [\"" +
+                              driver.provides + "\"] " + requires_all;
+    EXPECT_THAT(lines_of(begin + ")"), Each(Not(HasSubstr(": the driver"))))
+        << driver.name << " is known";
+    EXPECT_THAT(lines_of(begin + odd + ")"), noted(4)) << driver.name;
+    EXPECT_THAT(lines_of(begin + "\npart ( x 1 ) )"), noted(4)) << driver.name;
+  }
 }
 
 TEST(StageDrivers, AnInterfaceThatTheModelLacksIsLeftOutIfItHasOthers) {

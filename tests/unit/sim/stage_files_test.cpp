@@ -4,13 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <any>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <numbers>
 #include <string>
 
 #include "sim/core/error.h"
+#include "sim/core/utf8.h"
 #include "sim/devices/builtin.h"
+#include "sim/devices/laser.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/outline.h"
 #include "sim/world/robot_model.h"
@@ -308,6 +312,331 @@ TEST_F(StageFiles, CarsAreSteeredByTheSecondNumberOfTheSpeed) {
   // libstage/model_position.cc of Stage 4: v cos(angle), v sin(angle) / wheelbase.
   EXPECT_NEAR(simulation.body(0).twist.v_mps, 0.8 * std::cos(0.4), 1e-9);
   EXPECT_NEAR(simulation.body(0).twist.omega_radps, 0.8 * std::sin(0.4) / 0.5, 1e-9);
+}
+
+// A byte sequence of ASCII text in UTF-16.
+std::string utf16(const std::string& text, bool big_endian) {
+  std::string bytes;
+  for (const char c : text) {
+    if (big_endian) bytes += '\0';
+    bytes += c;
+    if (!big_endian) bytes += '\0';
+  }
+  return bytes;
+}
+
+constexpr const char* kSmallRobot = "position ( name \"a\" size [0.4 0.4 0.2] )\n";
+
+TEST_F(StageFiles, InUtf16AreRefusedByTheNameOfTheEncoding) {
+  for (const bool big_endian : {false, true}) {
+    for (const bool mark : {false, true}) {
+      for (const char* text : {kSmallRobot, "# a comment\nposition ( )\n"}) {
+        const std::string begin = mark ? (big_endian ? "\xfe\xff" : "\xff\xfe") : "";
+        const std::string bytes = begin + utf16(text, big_endian);
+        const std::string encoding = big_endian ? "UTF-16BE" : "UTF-16LE";
+        for (const char* name : {"w.world", "w.cfg"}) {
+          try {
+            static_cast<void>(load_world(folder_.write(name, bytes)));
+            ADD_FAILURE() << name << " is accepted";
+          } catch (const ConfigError& error) {
+            EXPECT_EQ(error.issues().front().id, "stage/encoding");
+            EXPECT_THAT(error.issues().front().found, HasSubstr(encoding));
+            EXPECT_EQ(find_invalid_utf8(error.what()), std::string::npos);
+          }
+          std::filesystem::remove(folder_ / name);
+        }
+        folder_.write("part.inc", bytes);
+        const ConfigIssue issue = issue_of("include \"part.inc\"\n");
+        EXPECT_EQ(issue.id, "stage/encoding");
+        EXPECT_THAT(issue.file, testing::EndsWith("part.inc"));
+      }
+    }
+  }
+}
+
+TEST_F(StageFiles, WithLineEndsOfOldMacsHaveTheSameLines) {
+  const std::string text = "# a comment\rposition (\r  name \"a\"\r  size [0.4 0.4 0.2]\r)\r";
+  EXPECT_EQ(read(text).robots[0].name, "a");
+  EXPECT_EQ(issue_of("# a comment\r# another\rposition ( size ,\r)\r").line, 3);
+  folder_.write("w.cfg",
+                "# ports\rdriver ( name \"stage\" provides [\"simulation:0\"] worldfile "
+                "\"w.world\" )\rdriver ( name \"stage\" provides [\"6670:position2d:0\"] model "
+                "\"a\" )\rdriver ( name \"odd\" )\r");
+  const WorldDescription world = read(text);
+  EXPECT_EQ(world.robots[0].port, 6670);
+  EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:4: the driver \"odd\"")));
+}
+
+TEST_F(StageFiles, CharactersOfTextProcessorsAreNamed) {
+  struct Case {
+    const char* text;
+    const char* found;
+    const char* hint;
+  };
+  constexpr Case kCases[] = {
+      {"name \xe2\x80\x9cr0\xe2\x80\x9d", "U+201C (left double quotation mark)",
+       "write \" instead"},
+      {"name \xe2\x80\x98r0\xe2\x80\x99", "U+2018 (left single quotation mark)",
+       "write \" instead"},
+      {"name \"r0\xe2\x80\x9d", "the end of the line",
+       "U+201D (right double quotation mark) does not end it; write \" instead"},
+      {"name 'r0'", "U+0027 (apostrophe)", "write \" instead"},
+      {"pose [\xe2\x88\x92"
+       "1 0 0 0]",
+       "U+2212 (minus sign)", "write - instead"},
+      {"pose [\xe2\x80\x93"
+       "1 0 0 0]",
+       "U+2013 (en dash)", "write - instead"},
+      {"pose [1\xc2\xa0"
+       "0 0 0]",
+       "U+00A0 (no-break space)", "write a blank instead"},
+      {"name \x93r0\x94", "the byte 0x93, in Windows-1252 the character U+201C",
+       "write \" instead"},
+      {"pose [1\xa0"
+       "0 0 0]",
+       "the byte 0xa0, in Windows-1252 the character U+00A0", "write a blank instead"},
+      {"\xef\xbb\xbfname \"r0\"", "U+FEFF (byte order mark)", "write nothing instead"},
+      {"\xf0\x9f\xa4\x96 7", "U+01F916", ""},
+      {"\xfe 7", "the byte 0xfe", ""},
+      {"name; 7", "\";\"", ""},
+  };
+  for (const Case& one : kCases) {
+    for (const char* name : {"w.world", "w.cfg", "part.inc"}) {
+      const std::string section = std::string("driver (\n  ") + one.text + "\n)\n";
+      folder_.write(name, section);
+      std::string path = folder_ / name;
+      if (std::string(name) == "part.inc") path = folder_.write("x.cfg", "include \"part.inc\"\n");
+      try {
+        static_cast<void>(load_world(path));
+        ADD_FAILURE() << section << " is accepted";
+      } catch (const ConfigError& error) {
+        const ConfigIssue& issue = error.issues().front();
+        EXPECT_EQ(issue.id, "stage/syntax");
+        EXPECT_EQ(issue.line, 2) << section;
+        EXPECT_THAT(issue.file, testing::EndsWith(name));
+        EXPECT_THAT(issue.found, HasSubstr(one.found));
+        EXPECT_THAT(issue.hint, HasSubstr(one.hint));
+        EXPECT_EQ(find_invalid_utf8(error.what()), std::string::npos) << section;
+      }
+    }
+  }
+  // In comments and texts they are no mistake.
+  EXPECT_EQ(read("# \xe2\x80\x9cquoted\xe2\x80\x9d \x93 \xa0\n" + std::string(kSmallRobot))
+                .robots[0]
+                .name,
+            "a");
+}
+
+TEST_F(StageFiles, ThatAreEmptySaySo) {
+  for (const char* text : {"", "\n \t\r\n", "# only a comment\n", "# a comment\r"}) {
+    const ConfigIssue issue = issue_of(text);
+    EXPECT_EQ(issue.id, "stage/empty") << text;
+    EXPECT_THAT(issue.found, HasSubstr("an empty file"));
+    try {
+      static_cast<void>(load_world(folder_.write("x.cfg", text)));
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(error.issues().front().id, "stage/no-world");
+      EXPECT_THAT(error.issues().front().found, HasSubstr("an empty file"));
+    }
+  }
+  folder_.write("empty.inc", "");
+  EXPECT_NO_THROW(static_cast<void>(read("include \"empty.inc\"\n" + std::string(kSmallRobot))));
+}
+
+// U+00E4 is an a with diaeresis: C3 A4 in UTF-8, E4 in ISO 8859-1.
+TEST_F(StageFiles, AreFoundByNamesWithBlanksAndUmlauts) {
+  for (const char* on_disk : {"my m\xc3\xa4p", "my m\xe4p"}) {
+    for (const char* in_file : {"my m\xc3\xa4p", "my m\xe4p"}) {
+      const test_support::TemporaryFolder folder;
+      std::string picture = "P5 2 2 255\n";
+      picture.append(4, '\0');
+      folder.write(std::string(on_disk) + ".pgm", picture);
+      folder.write(std::string(on_disk) + ".inc", "define bot position ( size [0.4 0.4 0.2] )\n");
+      const std::string text = "include \"" + std::string(in_file) + ".inc\"\nmodel ( bitmap \"" +
+                               in_file + ".pgm\" size [2 2 1] pose [5 0 0 0] )\nbot ( name \"" +
+                               in_file + "\" )\n";
+      const std::string path = folder.write(std::string(on_disk) + ".world", text);
+      const std::string config =
+          "driver ( name \"stage\" provides [\"simulation:0\"] worldfile \"" +
+          std::string(in_file) + ".world\" )\n" +
+          "driver ( name \"stage\" provides [\"6670:position2d:0\"] model \"" + in_file + "\" )\n";
+      const std::string config_path = folder.write(std::string(on_disk) + ".cfg", config);
+      for (const std::string& one : {path, config_path}) {
+        const WorldDescription world = load_world(one);
+        ASSERT_THAT(world.robots, SizeIs(1)) << one;
+        EXPECT_EQ(world.robots[0].port, 6670) << one;
+        EXPECT_THAT(world.arena.obstacles, SizeIs(1));
+        EXPECT_THAT(world.notes, IsEmpty());
+        // A program asks by the name in the file, in UTF-8.
+        EXPECT_TRUE(Simulation(world).find_object("my m\xc3\xa4p"));
+      }
+    }
+  }
+}
+
+TEST_F(StageFiles, NotesAndErrorsAboutFilesInLatin1AreInUtf8) {
+  folder_.write("m\xe4p.inc", "position ( odd 1 )\n");
+  const WorldDescription world = read("include \"m\xe4p.inc\"\n");
+  EXPECT_THAT(world.notes, ElementsAre(HasSubstr("m\xc3\xa4p.inc:1: the property \"odd\"")));
+  folder_.write("m\xe4p.inc", "position ( odd )\n");
+  EXPECT_THAT(issue_of("include \"m\xe4p.inc\"\n").file, testing::EndsWith("m\xc3\xa4p.inc"));
+}
+
+TEST_F(StageFiles, IncludesOfAnotherComputerAreReplacedWithANote) {
+  std::filesystem::create_directories(folder_ / "far");
+  folder_.write("far/other.inc", "define bot position ( size [0.4 0.4 0.2] mass 4 )\n");
+  setenv("STAGEPATH", (folder_ / "far").c_str(), 1);
+  const WorldDescription world =
+      read("include \"/home/x/maps/other.inc\"\ninclude \"/usr/share/other/map.inc\"\nbot ( )\n");
+  EXPECT_EQ(model(world, 0).mass_kg, 4.0);
+  EXPECT_THAT(
+      world.notes,
+      ElementsAre(AllOf(HasSubstr("w.world:1: there is no file \"/home/x/maps/other.inc\""),
+                        HasSubstr("far/other.inc")),
+                  AllOf(HasSubstr("w.world:2: there is no file \"/usr/share/other/map.inc\""),
+                        HasSubstr("playpen:stage/map.inc"))));
+  // The user's file comes before the one that Playpen has.
+  folder_.write("far/map.inc", "define floorplan position ( mass 7 )\n");
+  EXPECT_EQ(model(read("include \"/usr/share/other/map.inc\"\nfloorplan ( )\n"), 0).mass_kg, 7.0);
+  EXPECT_EQ(model(read("include \"map.inc\"\nfloorplan ( )\n"), 0).mass_kg, 7.0);
+  folder_.write("map.inc", "define floorplan position ( mass 8 )\n");
+  EXPECT_EQ(model(read("include \"map.inc\"\nfloorplan ( )\n"), 0).mass_kg, 8.0);
+  folder_.write("sub/map.inc", "define floorplan position ( mass 9 )\n");
+  folder_.write("sub/part.inc", "include \"map.inc\"\n");
+  EXPECT_EQ(model(read("include \"sub/part.inc\"\nfloorplan ( )\n"), 0).mass_kg, 9.0)
+      << "beside the file that includes it";
+  unsetenv("STAGEPATH");
+}
+
+TEST_F(StageFiles, IncludesMayStandInsideAModel) {
+  folder_.write("body.inc", "size [0.4 0.4 0.2]\nmass 3\n");
+  EXPECT_EQ(model(read("position (\n  include \"body.inc\"\n  name \"a\"\n)\n"), 0).mass_kg, 3.0);
+}
+
+TEST_F(StageFiles, IncludesOfPlayersFilesAreFollowed) {
+  folder_.write("w.world",
+                "position ( name \"a\" size [0.4 0.4 0.2] )\n"
+                "position ( name \"b\" size [0.4 0.4 0.2] pose [2 0 0 0] )\n");
+  folder_.write("sub/robots.cfg",
+                "include \"first.cfg\"\n"
+                "define far driver ( name \"stage\" provides [\"6680:position2d:0\"] )\n"
+                "far ( model \"b\" )\n");
+  folder_.write(
+      "sub/first.cfg",
+      "driver ( name \"stage\" provides [\"6670:position2d:0\"] model \"a\" usegui no )\n");
+  const std::string path =
+      folder_.write("x.cfg",
+                    "driver ( name \"stage\" provides [\"simulation:0\"] worldfile \"w.world\" )\n"
+                    "include \"sub/robots.cfg\"\n"
+                    "driver ( name \"odd\" )\n");
+  // Directly, and as the file that names the world.
+  for (const std::string& one : {path, folder_ / "w.world"}) {
+    const WorldDescription world = load_world(one);
+    EXPECT_EQ(world.robots[0].port, 6670) << one;
+    EXPECT_EQ(world.robots[1].port, 6680) << one;
+    EXPECT_THAT(world.notes, ElementsAre(HasSubstr("x.cfg:3: the driver \"odd\" is left out")));
+  }
+  folder_.write("x.cfg", "include \"nowhere.cfg\"\ninclude \"map.inc\"\n");
+  try {
+    static_cast<void>(load_world(path));
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.issues().front().id, "stage/include");
+    EXPECT_EQ(error.issues().front().line, 1);
+  }
+}
+
+TEST_F(StageFiles, AConfigurationFileOfThatNameThatIsWrongHasALine) {
+  folder_.write("w.cfg", "driver ( name \"stage\" provides [\"simulation:0\"]\n");
+  const WorldDescription world = read(kSmallRobot);
+  EXPECT_THAT(world.notes, ElementsAre(AllOf(HasSubstr("w.cfg:2: the configuration file"),
+                                             HasSubstr("is left out"))));
+  // One about something else has none.
+  std::filesystem::rename(folder_ / "w.cfg", folder_ / "other.cfg");
+  EXPECT_THAT(read(kSmallRobot).notes, IsEmpty());
+}
+
+TEST_F(StageFiles, TheWorldOfAnotherComputerIsLookedForBesideTheConfigurationFile) {
+  folder_.write("w.world", kSmallRobot);
+  const WorldDescription world = load_world(folder_.write(
+      "x.cfg",
+      "driver ( name \"stage\" provides [\"simulation:0\"] worldfile \"/home/x/w.world\" )\n"
+      "driver ( name \"stage\" provides [\"6670:position2d:0\"] model \"a\" )\n"));
+  EXPECT_EQ(world.robots[0].port, 6670);
+  EXPECT_THAT(world.notes, ElementsAre(HasSubstr("x.cfg:1: there is no file \"/home/x/w.world\"")));
+}
+
+TEST_F(StageFiles, ModelsOfStage2ThatCameWithItAreBuiltIn) {
+  const WorldDescription world = read(R"(
+include "sick.inc"
+include "roomba.inc"
+include "p3dx.inc"
+include "walle.inc"
+include "pucktarget.inc"
+position ( name "a" size [0.4 0.4] sick_laser ( ) pose [0 5 90] )
+roomba ( name "b" )
+pioneer3dx ( name "c" pose [5 0 0] )
+walle ( name "d" pose [0 -5 0] )
+position ( name "e" size [0.4 0.4] pucktarget ( ) pose [5 5 0] )
+)");
+  ASSERT_THAT(world.robots, SizeIs(5));
+  const auto laser_of = [&](std::size_t robot) {
+    for (const DeviceDescription& device : model(world, robot).devices) {
+      if (device.type == "laser") return std::any_cast<LaserParams>(device.params);
+    }
+    return LaserParams{};
+  };
+  // worlds/sick.inc of Stage 2.1: 361 samples over 180 degrees up to 8 m.
+  EXPECT_EQ(laser_of(0).beam_count, 361);
+  EXPECT_NEAR(laser_of(0).range_max_m, 8.0, 1e-9);
+  EXPECT_EQ(laser_of(2).beam_count, 361);
+  // 16 corners on a circle of 0.33 m, of which a body keeps at least 8: the area is between those
+  // of the octagon, 2 sqrt(2) r^2, and of the circle.
+  constexpr double kSquare_m2 = 0.165 * 0.165;
+  EXPECT_GT(area_m2(model(world, 1).footprint), 2.0 * std::numbers::sqrt2 * kSquare_m2 - 1e-6);
+  EXPECT_LT(area_m2(model(world, 1).footprint), std::numbers::pi * kSquare_m2);
+  EXPECT_EQ(model(world, 2).mass_kg, 23.0);
+}
+
+// Each property of a world file has an effect or a line, in every kind of model.
+TEST_F(StageFiles, PropertiesWithoutAnEffectHaveALine) {
+  constexpr const char* kKinds[] = {"model", "position"};
+  constexpr const char* kParts[] = {
+      "model",  "ranger", "laser",        "fiducial",       "fiducialfinder", "blobfinder",
+      "bumper", "camera", "blinkenlight", "lightindicator", "actuator",       "gripper",
+      "ptz",    "wifi",   "position",     "power",          "speech",         "audio"};
+  const auto expect_line = [&](const std::string& text, int line) {
+    EXPECT_THAT(read(text).notes,
+                Contains(AllOf(HasSubstr("w.world:" + std::to_string(line) + ": "),
+                               HasSubstr("no_such_thing"), HasSubstr("is left out"))))
+        << text;
+  };
+  const std::string odd = "\nno_such_thing 1\n";
+  const std::string robot = "\nposition ( size [0.4 0.4 0.2] pose [5 5 0 0] )\n";
+  expect_line(odd + robot, 2);
+  for (const char* kind : kKinds) expect_line(std::string(kind) + " (" + odd + ")" + robot, 2);
+  for (const char* part : kParts) {
+    expect_line("position ( size [0.4 0.4 0.2] " + std::string(part) + " (" + odd + ") )\n", 2);
+  }
+  expect_line(
+      "position ( block ( points 3 point[0] [0 0] point[1] [1 0] point[2] [0 1]" + odd + ") )\n",
+      2);
+  expect_line("position ( ranger ( sensor ( samples 9 fov 90" + odd + ") ) )\n", 2);
+  EXPECT_THAT(read("window (" + odd + ")" + robot).notes,
+              Contains(HasSubstr("w.world:1: the look of Stage's window is left out")));
+}
+
+TEST_F(StageFiles, TheSpeedOfStagesWindowIsAnOptionHere) {
+  EXPECT_THAT(read("speedup 1\n" + std::string(kSmallRobot)).notes, IsEmpty());
+  EXPECT_THAT(read("\nspeedup 10\n" + std::string(kSmallRobot)).notes,
+              ElementsAre(AllOf(HasSubstr("w.world:2: speedup has no effect"),
+                                HasSubstr("unless --time 10 gives"))));
+  EXPECT_THAT(read("speedup -1\n" + std::string(kSmallRobot)).notes,
+              ElementsAre(AllOf(HasSubstr("speedup has no effect"), Not(HasSubstr("--time")))));
+  // Stage 2: interval_sim every interval_real; 100 ms every 50 ms are twice real time.
+  EXPECT_THAT(read("interval_sim 100 interval_real 50\n" + std::string(kSmallRobot)).notes,
+              ElementsAre(HasSubstr("unless --time 2 gives")));
 }
 
 }  // namespace

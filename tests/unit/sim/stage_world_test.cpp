@@ -392,8 +392,10 @@ pioneer2dx ( name "r0" pose [0 0 0 0] sicklaser ( pose [0 0 0 0] ) )
 }
 
 TEST_F(StageWorld, EveryShippedFileCanBeIncluded) {
-  for (const char* name : {"beacons.inc", "chatterbox.inc", "hokuyo.inc", "irobot.inc", "map.inc",
-                           "objects.inc", "pantilt.inc", "pioneer.inc", "sick.inc"}) {
+  for (const char* name :
+       {"beacons.inc", "chatterbox.inc", "hokuyo.inc", "irobot.inc", "map.inc", "objects.inc",
+        "p3at.inc", "p3dx.inc", "pantilt.inc", "pioneer.inc", "pioneerBase.inc", "pucktarget.inc",
+        "roomba.inc", "sick.inc", "walle.inc"}) {
     EXPECT_NO_THROW(static_cast<void>(read(std::string("include \"") + name + "\"\n"))) << name;
   }
   const WorldDescription world = read(R"(

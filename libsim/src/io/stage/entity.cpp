@@ -2,12 +2,12 @@
 #include "io/stage/entity.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <utility>
 
 #include "io/document.h"
+#include "io/stage/file_search.h"
 #include "io/stage/report.h"
 #include "sim/core/file.h"
 
@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 // Limits far beyond any real world, so that a small file cannot take all memory.
 constexpr int kMaxNesting = 32;
-constexpr int kMaxIncludes = 32;
+constexpr int kMaxIncludeDepth = 32;
+constexpr int kMaxIncludes = 1000;
 constexpr std::size_t kMaxItems = 500'000;
 
 /// A property or an entity as written, before definitions are resolved.
@@ -35,18 +36,114 @@ struct Definition {
   std::vector<Item> items;
 };
 
+/// The tokens of a file, with those of its includes in their place, as in Stage and in Player.
+class Includer {
+ public:
+  /// @param shipped  whether files that come with Playpen are looked for.
+  Includer(const std::string& path, bool shipped, Report& report)
+      : folders_{"", folder_of(path)}, shipped_(shipped), report_(report) {
+    for (fs::path& folder : stage_folders()) folders_.push_back(std::move(folder));
+  }
+
+  std::vector<Token> run(std::string_view text, const std::string& path) {
+    file(text, path, 0);
+    return std::move(tokens_);
+  }
+
+ private:
+  void file(std::string_view text, const std::string& path, int depth) {
+    std::vector<Token> own = tokens_of(text, std::make_shared<const std::string>(utf8_text(path)));
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const bool is_end = own[i].kind == TokenKind::kEnd;
+      if (own[i].kind == TokenKind::kWord && own[i].text == "include") {
+        include(own[i], own[i + 1], path, depth);
+        ++i;
+      } else if (!is_end || depth == 0) {
+        tokens_.push_back(std::move(own[i]));
+      }
+    }
+  }
+
+  /// `include "NAME"`.
+  void include(const Token& word, const Token& name, const std::string& from, int depth) {
+    if (name.kind != TokenKind::kString) {
+      throw ConfigError(issue_at(name.place, "stage/syntax", "the name of a file in double quotes",
+                                 described(name)));
+    }
+    if (depth + 1 > kMaxIncludeDepth || ++includes_ > kMaxIncludes) {
+      throw ConfigError(issue_at(word.place, "stage/include",
+                                 "files that do not include themselves", in_quotes(name.text),
+                                 "are there two files that include each other?"));
+    }
+    const auto [text, path] = find_include(name, from);
+    file(text, path, depth + 1);
+  }
+
+  /// Text and path of an included file: beside the file that includes it, beside the main file, in
+  /// the folders of Stage, and at last one that comes with Playpen.
+  std::pair<std::string, std::string> find_include(const Token& name, const std::string& from) {
+    folders_.front() = folder_of(from);
+    if (const auto found = find_file(name.text, folders_)) {
+      std::string text;
+      const auto error = read_whole_file(found->path, {.most_bytes = kMaxFileBytes}, text);
+      if (error) {
+        throw ConfigError(issue_at(name.place, "stage/include", "a file that can be read",
+                                   utf8_text(found->path) + ": " + error->found));
+      }
+      if (found->by_base_name) note_other_path(name.text, found->path, name.place, report_);
+      return {std::move(text), found->path};
+    }
+    const fs::path wanted(name.text);
+    std::vector<std::string> known;
+    for (const ShippedInclude& shipped : shipped_includes()) {
+      if (!shipped_) break;
+      known.emplace_back(shipped.name);
+      if (wanted.filename() != shipped.name) continue;
+      const std::string path = std::string(kShippedFolder) + shipped.name;
+      if (wanted.has_parent_path()) note_other_path(name.text, path, name.place, report_);
+      return {shipped.text, path};
+    }
+    throw ConfigError(issue_at(
+        name.place, "stage/include",
+        std::string("a file in the folder of this one or in one of the folders of STAGEPATH") +
+            (known.empty() ? "" : ", or one that Playpen has: " + list_text(known)),
+        "no " + in_quotes(name.text),
+        "copy it beside the " + std::string(shipped_ ? "world" : "configuration") +
+            " file, or set STAGEPATH"));
+  }
+
+  std::vector<fs::path> folders_;
+  bool shipped_;
+  Report& report_;
+  int includes_ = 0;
+  std::vector<Token> tokens_;
+};
+
+/// Reads world files of Stage and configuration files of Player.
 class WorldParser {
  public:
-  WorldParser(const IncludeFolders* folders, const std::string& path, Report* report)
-      : folders_(folders), root_folder_(folder_of(path)), report_(report) {}
+  WorldParser(const std::vector<Token>& tokens, bool has_flags, Report& report)
+      : tokens_(tokens), has_flags_(has_flags), report_(report) {}
 
-  Entity run(std::string_view text, const std::string& path) {
-    file(text, path, 0);
+  Entity run() {
+    Cursor cursor{tokens_};
+    while (cursor.peek().kind != TokenKind::kEnd) {
+      const Token& token = cursor.peek();
+      if (token.kind != TokenKind::kWord) {
+        fail(token, "the name of a property or of a model",
+             token.kind == TokenKind::kCloseEntity ? "is there a \"(\" too few?" : "");
+      }
+      if (token.text == "define") {
+        define(cursor);
+      } else {
+        add(root_, item(cursor, 0), 0);
+      }
+    }
     return std::move(root_);
   }
 
  private:
-  /// A position in the tokens of one file.
+  /// A position in the tokens.
   struct Cursor {
     const std::vector<Token>& tokens;
     std::size_t at = 0;
@@ -68,86 +165,6 @@ class WorldParser {
     }
   }
 
-  void file(std::string_view text, const std::string& path, int depth) {
-    const std::vector<Token> tokens = tokens_of(text, std::make_shared<const std::string>(path));
-    Cursor cursor{tokens};
-    while (cursor.peek().kind != TokenKind::kEnd) {
-      const Token& token = cursor.peek();
-      if (token.kind != TokenKind::kWord) {
-        fail(token, "the name of a property or of a model",
-             token.kind == TokenKind::kCloseEntity ? "is there a \"(\" too few?" : "");
-      }
-      if (folders_ != nullptr && token.text == "include") {
-        include(cursor, path, depth);
-      } else if (folders_ != nullptr && token.text == "define") {
-        define(cursor);
-      } else {
-        add(root_, item(cursor, 0), 0);
-      }
-    }
-  }
-
-  /// `include "NAME"`.
-  void include(Cursor& cursor, const std::string& from, int depth) {
-    const Token word = cursor.take();
-    const Token& name = cursor.take();
-    if (name.kind != TokenKind::kString) fail(name, "the name of a file in double quotes");
-    if (depth + 1 > kMaxIncludes) {
-      throw ConfigError(issue_at(word.place, "stage/include",
-                                 "files that do not include themselves", in_quotes(name.text),
-                                 "are there two files that include each other?"));
-    }
-    const auto [text, path] = find_include(name, from);
-    file(text, path, depth + 1);
-  }
-
-  /// Text and path of an included file.
-  std::pair<std::string, std::string> find_include(const Token& name, const std::string& from) {
-    const fs::path wanted(name.text);
-    std::vector<fs::path> places;
-    if (wanted.is_absolute()) {
-      places.push_back(wanted);
-      // A path of another computer: the file may lie beside the world.
-      places.push_back(folder_of(from) / wanted.filename());
-      places.push_back(root_folder_ / wanted.filename());
-    } else {
-      places.push_back(folder_of(from) / wanted);
-      places.push_back(root_folder_ / wanted);
-      for (const std::string& folder : folders_->before) {
-        places.push_back(fs::path(folder) / wanted.filename());
-      }
-    }
-    for (const fs::path& place : places) {
-      if (auto text = content(name, place)) return {*text, place.string()};
-    }
-    for (const ShippedInclude& shipped : shipped_includes()) {
-      if (wanted.filename() == shipped.name)
-        return {shipped.text, std::string(kShippedFolder) + shipped.name};
-    }
-    for (const std::string& folder : folders_->after) {
-      const fs::path place = fs::path(folder) / wanted.filename();
-      if (auto text = content(name, place)) return {*text, place.string()};
-    }
-    std::vector<std::string> shipped;
-    for (const ShippedInclude& file : shipped_includes()) shipped.emplace_back(file.name);
-    throw ConfigError(issue_at(
-        name.place, "stage/include",
-        "a file in the folder of the world or in one of the folders of STAGEPATH, or one that "
-        "Playpen has: " +
-            list_text(shipped),
-        "no " + in_quotes(name.text), "copy it beside the world file, or set STAGEPATH"));
-  }
-
-  /// Content of a file; nullopt if there is none.
-  static std::optional<std::string> content(const Token& name, const fs::path& path) {
-    std::string text;
-    const auto error = read_whole_file(path.string(), {.most_bytes = kMaxFileBytes}, text);
-    if (!error) return text;
-    if (error->fault == FileFault::kMissing) return std::nullopt;
-    throw ConfigError(issue_at(name.place, "stage/include", "a file that can be read",
-                               path.string() + ": " + error->found));
-  }
-
   /// `define NAME PARENT ( items )`.
   void define(Cursor& cursor) {
     cursor.take();
@@ -162,10 +179,10 @@ class WorldParser {
     const auto [first, is_new] = definitions_.emplace(name.text, std::move(definition));
     const Place& place = first->second.parent.place;
     if (is_new || (*place.file == *name.place.file && place.line == name.place.line)) return;
-    report_->note("definition " + name.text, name.place,
-                  "this definition of " + in_quotes(name.text) +
-                      " has no effect: as in Stage, the first one counts, " + *place.file + ":" +
-                      std::to_string(place.line));
+    report_.note("definition " + name.text, name.place,
+                 "this definition of " + in_quotes(name.text) +
+                     " has no effect: as in Stage, the first one counts, " + *place.file + ":" +
+                     std::to_string(place.line));
   }
 
   /// `( items )`; the cursor is at the bracket.
@@ -220,8 +237,8 @@ class WorldParser {
       return made;
     }
     const bool is_flag =
-        folders_ == nullptr && next.kind == TokenKind::kWord &&
-        (next.text == "true" || next.text == "false");  // Player's files know these
+        has_flags_ && next.kind == TokenKind::kWord &&
+        (next.text == "true" || next.text == "false" || next.text == "yes" || next.text == "no");
     if (next.kind != TokenKind::kNumber && next.kind != TokenKind::kString && !is_flag) {
       fail(next, "the value of " + in_quotes(made.name.text) + ", or \"(\" if it is a model",
            next.kind == TokenKind::kWord ? "texts stand in double quotes" : "");
@@ -231,10 +248,10 @@ class WorldParser {
   }
 
   Value value(const Token& token) {
-    if (token.cut && report_ != nullptr) {
-      report_->note("number " + token.text, token.place,
-                    "the number " + token.text + " is read as " + number_text(token.number) +
-                        ", as in Stage");
+    if (token.cut) {
+      report_.note("number " + token.text, token.place,
+                   "the number " + token.text + " is read as " + number_text(token.number) +
+                       ", as in Stage");
     }
     return {token.kind != TokenKind::kNumber, token.number, token.text, token.place};
   }
@@ -271,9 +288,9 @@ class WorldParser {
     for (const Item& one : definition.items) add(entity, one, depth + 1);
   }
 
-  const IncludeFolders* folders_;  ///< null: a file without includes and definitions
-  fs::path root_folder_;
-  Report* report_;  ///< null: nothing is reported
+  const std::vector<Token>& tokens_;
+  bool has_flags_;  ///< whether values may be true, false, yes and no, as in Player's files
+  Report& report_;
   std::map<std::string, Definition> definitions_;
   std::size_t items_ = 0;
   Entity root_;
@@ -300,28 +317,14 @@ void Entity::set(Property property) {
   }
 }
 
-IncludeFolders include_folders() {
-  IncludeFolders folders;
-  if (const char* path = std::getenv("STAGEPATH")) {
-    std::string_view rest(path);
-    while (!rest.empty()) {
-      const std::size_t colon = std::min(rest.find(':'), rest.size());
-      if (colon > 0) folders.before.emplace_back(rest.substr(0, colon));
-      rest.remove_prefix(std::min(colon + 1, rest.size()));
-    }
-  }
-  folders.after = {"/usr/share/stage/worlds", "/usr/local/share/stage/worlds", "/usr/share/stage",
-                   "/usr/local/share/stage"};
-  return folders;
+Entity read_world_file(std::string_view text, const std::string& path, Report& report) {
+  const std::vector<Token> tokens = Includer(path, true, report).run(text, path);
+  return WorldParser(tokens, false, report).run();
 }
 
-Entity read_world_file(std::string_view text, const std::string& path,
-                       const IncludeFolders& folders, Report& report) {
-  return WorldParser(&folders, path, &report).run(text, path);
-}
-
-Entity read_player_file(std::string_view text, const std::string& path) {
-  return WorldParser(nullptr, path, nullptr).run(text, path);
+Entity read_player_file(std::string_view text, const std::string& path, Report& report) {
+  const std::vector<Token> tokens = Includer(path, false, report).run(text, path);
+  return WorldParser(tokens, true, report).run();
 }
 
 }  // namespace sim::io::stage

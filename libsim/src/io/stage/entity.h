@@ -43,15 +43,6 @@ struct Entity {
   void set(Property property);
 };
 
-/// Where included files are looked for.
-struct IncludeFolders {
-  std::vector<std::string> before;  ///< before the shipped models: those of STAGEPATH
-  std::vector<std::string> after;   ///< after them: folders of an installed Stage
-};
-
-/// The folders of STAGEPATH, and those where Stage's packages install its worlds.
-[[nodiscard]] IncludeFolders include_folders();
-
 /// A file of Stage models that comes with Playpen: the text of worlds/stage/NAME, compiled in.
 struct ShippedInclude {
   const char* name;  ///< e.g. "pioneer.inc"
@@ -64,22 +55,24 @@ inline constexpr const char* kShippedFolder = "playpen:stage/";
 /// All shipped files of models, in alphabetical order.
 [[nodiscard]] const std::vector<ShippedInclude>& shipped_includes();
 
-/// Reads a world file of Stage 3 or 4: resolves includes, definitions and inheritance.
+/// Reads a world file of Stage: resolves includes, definitions and inheritance.
 ///
 /// A file that is included is looked for beside the file that names it, beside the world file, in
-/// folders.before, among the shipped ones (by its name without folders), and in folders.after.
-/// As in Stage, the first definition of a name counts.
+/// stage_folders(), and by its last part among the shipped ones. As in Stage, the first definition
+/// of a name counts.
 /// @param path  of the world file; the text is what it contains.
-/// @param report  gets notes about definitions without effect and odd numbers.
+/// @param report  gets notes about definitions without effect, odd numbers, and files of other
+///     folders.
 /// @return the entity of the whole file, of type "": its properties and models.
 /// @throws ConfigError for the first syntax error, an include that is not found, and definitions
 ///     that contain themselves.
 [[nodiscard]] Entity read_world_file(std::string_view text, const std::string& path,
-                                     const IncludeFolders& folders, Report& report);
+                                     Report& report);
 
-/// Reads a configuration file of Player: the same syntax, without models. Entities of type "driver"
-/// are what matters.
+/// Reads a configuration file of Player: the same syntax, without shipped files. Entities of type
+/// "driver" are what matters.
 /// @throws ConfigError as read_world_file().
-[[nodiscard]] Entity read_player_file(std::string_view text, const std::string& path);
+[[nodiscard]] Entity read_player_file(std::string_view text, const std::string& path,
+                                      Report& report);
 
 }  // namespace sim::io::stage

@@ -7,19 +7,9 @@
 namespace sim::io::stage {
 
 bool is_look(std::string_view name) {
-  constexpr std::string_view kNames[] = {"show_clock",
-                                         "show_clock_interval",
-                                         "trail_length",
-                                         "trail_interval",
-                                         "paused",
-                                         "speedup",
-                                         "interval_real",
-                                         "interval",
-                                         "gui_disable",
-                                         "gui_interval",
-                                         "line_style",
-                                         "texture",
-                                         "say"};
+  constexpr std::string_view kNames[] = {
+      "show_clock",  "show_clock_interval", "trail_length", "trail_interval", "paused", "interval",
+      "gui_disable", "gui_interval",        "line_style",   "texture",        "say"};
   return name.starts_with("gui_") || name == "window" ||
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -168,8 +169,14 @@ bool is_ignored(std::string_view name) {
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-Json value_of(double given, Unit unit) {
+Json value_of(double given, Unit unit, const Units& units) {
   if (unit == Unit::kFlag) return given != 0.0;
+  if (unit == Unit::kLength) given *= units.length_m;
+  if (unit == Unit::kAngle || unit == Unit::kHeading) {
+    // Exact where the file has degrees.
+    constexpr double kDegree_rad = std::numbers::pi / 180.0;
+    if (units.angle_rad != kDegree_rad) given *= units.angle_rad / kDegree_rad;
+  }
   if (unit == Unit::kHeading) return neat(std::clamp(given, -180.0, 180.0));
   if (unit == Unit::kWhole) return std::lround(std::clamp(given, -1e9, 1e9));
   return neat(given);  // lengths in m, angles in degrees, both here and in worlds
@@ -201,7 +208,8 @@ bool is_scan_driver(std::string_view name) {
   return name == "lasercspace" || name == "laserposeinterpolator";
 }
 
-Json driver_settings(std::string_view name, const Properties& driver, Report& report) {
+Json driver_settings(std::string_view name, const Properties& driver, const Units& units,
+                     Report& report) {
   Json settings = {{"type", std::string(name)}};
   std::vector<std::string> left_out;
   for (const Property& property : driver.entity().properties) {
@@ -212,7 +220,7 @@ Json driver_settings(std::string_view name, const Properties& driver, Report& re
       known = true;
       const std::vector<double> given = driver.numbers(property.name, option.element + 1);
       if (option.element < given.size()) {
-        settings[option.setting] = value_of(given[option.element], option.unit);
+        settings[option.setting] = value_of(given[option.element], option.unit, units);
       }
     }
     if (!known) left_out.push_back(property.name);

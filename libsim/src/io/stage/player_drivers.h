@@ -14,9 +14,10 @@ namespace sim::io::stage {
 [[nodiscard]] bool is_scan_driver(std::string_view name);
 
 /// The settings of a driver's entry in a world, from the options in a configuration file. Options
-/// that Playpen's driver lacks are notes. Units are those of Player: lengths in m, angles in
-/// degrees.
-/// @param name  a goal driver, a scan driver, wavefront or amcl.
-[[nodiscard]] Json driver_settings(std::string_view name, const Properties& driver, Report& report);
+/// that Playpen's driver lacks are notes.
+/// @param name   a goal driver, a scan driver, wavefront or amcl.
+/// @param units  of the configuration file.
+[[nodiscard]] Json driver_settings(std::string_view name, const Properties& driver,
+                                   const Units& units, Report& report);
 
 }  // namespace sim::io::stage

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <charconv>
+#include <initializer_list>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -25,6 +26,7 @@ struct Address {
   std::string interface;
   int index = 0;
   Place place;
+  std::string text;  ///< as written
 };
 
 std::optional<int> whole_number(std::string_view text, int most) {
@@ -49,6 +51,7 @@ std::optional<Address> parse_address(const Value& value) {
   if (parts.size() < 2 || parts.size() > 5) return std::nullopt;
   Address address;
   address.place = value.place;
+  address.text = value.text;
   const std::optional<int> index = whole_number(parts.back(), 1000);
   address.interface = std::string(parts[parts.size() - 2]);
   if (address.interface == "position") address.interface = "position2d";  // as in Player 1
@@ -108,10 +111,20 @@ bool is_offered(std::string_view interface) {
   return interface == "position2d" || row_of(interface) != nullptr;
 }
 
-/// Interfaces that every robot or world has.
+/// Interfaces that every robot or world has. graphics3d is none here, but a note says so.
 bool is_everywhere(std::string_view interface) {
   constexpr std::string_view kNames[] = {"simulation", "speech", "graphics2d", "graphics3d", "map"};
   return std::find(std::begin(kNames), std::end(kNames), interface) != std::end(kNames);
+}
+
+/// Whether a driver of Player turns an interface into another one.
+bool is_converter(std::string_view name) {
+  return name == "rangertolaser" || name == "lasertoranger" || name == "passthrough";
+}
+
+using AddressKey = std::tuple<int, std::string, int>;
+AddressKey key_of(const Address& address) {
+  return {address.port, address.interface, address.index};
 }
 
 /// A driver that is not Stage's.
@@ -128,6 +141,7 @@ class PlayerFile {
       : must_match_(must_match), translation_(translation), report_(report) {}
 
   void run(const Entity& config) {
+    read_units(config);
     std::vector<const Entity*> stage_drivers;
     for (const Entity& driver : config.children) {
       if (driver.type != "driver") {
@@ -145,19 +159,56 @@ class PlayerFile {
             {&driver, name, addresses(properties, "provides"), addresses(properties, "requires")});
       }
     }
-    for (const Entity* driver : stage_drivers) stage_driver({*driver, units_, report_});
+    for (const Entity* driver : stage_drivers) {
+      stage_driver({*driver, units_, report_});
+      tell_rest(*driver, {"name", "plugin", "provides", "model", "worldfile", "usegui"});
+    }
     if (ports_.empty()) bind_all();
     set_addresses();
-    // A driver may need what a later one provides.
-    for (std::size_t before = others_.size() + 1; before > others_.size();) {
-      before = others_.size();
-      std::erase_if(others_, [&](const OtherDriver& driver) { return add_driver(driver); });
-    }
-    for (const OtherDriver& driver : others_) leave_out(driver, "");
+    add_drivers();
     set_ports();
+    leave_out_on_shared_port();
+    tell_moved();
+    for (const auto& [robot, address] : everywhere_) tell_unserved(robot, address);
   }
 
  private:
+  /// Reads the properties outside of all sections.
+  void read_units(const Entity& config) {
+    const Properties file(config, units_, report_);
+    constexpr double kLengths[] = {1.0, 0.01, 0.001};
+    units_.length_m = kLengths[file.choice("unit_length", 0, {"m", "cm", "mm"})];
+    if (file.choice("unit_angle", 0, {"degrees", "radians"}) == 1) units_.angle_rad = 1.0;
+    tell_rest(config, {"unit_length", "unit_angle"});
+  }
+
+  /// A driver in words, for messages; "" for the file itself.
+  static std::string title_of(const Entity& entity) {
+    const Property* name = entity.find("name");
+    const bool has_name = name != nullptr && !name->values.empty();
+    return entity.type + (has_name ? " " + in_quotes(name->values.front().text) : "");
+  }
+
+  /// Reports properties without an effect, and the sections in a driver.
+  void tell_rest(const Entity& entity, std::initializer_list<std::string_view> known) {
+    const std::string title = title_of(entity);
+    for (const Property& property : entity.properties) {
+      if (std::find(known.begin(), known.end(), property.name) != known.end()) continue;
+      report_.note("cfg property " + title + property.name, property.place,
+                   "the property " + in_quotes(property.name) +
+                       (title.empty() ? "" : " of the " + title) + " is left out");
+    }
+    if (!entity.type.empty()) tell_sections(entity);
+  }
+
+  void tell_sections(const Entity& driver) {
+    const std::string title = title_of(driver);
+    for (const Entity& section : driver.children) {
+      report_.note("cfg section " + title + section.type, section.place,
+                   "the section " + in_quotes(section.type) + " of the " + title + " is left out");
+    }
+  }
+
   std::vector<Address> addresses(const Properties& driver, const char* key) {
     std::vector<Address> all;
     const Property* property = driver.entity().find(key);
@@ -205,7 +256,10 @@ class PlayerFile {
   /// A driver that names no model offers the interfaces of the world.
   void without_model(const Properties& driver, const std::vector<Address>& provided) {
     for (const Address& address : provided) {
-      if (is_everywhere(address.interface)) continue;
+      if (is_everywhere(address.interface)) {
+        everywhere_.emplace_back(nullptr, address);
+        continue;
+      }
       if (must_match_ && is_offered(address.interface)) {
         report_.error(driver.entity().place, "stage/no-model",
                       "\"model\", the name of a model of the world", "a driver without it");
@@ -263,6 +317,7 @@ class PlayerFile {
   bool bind(RobotDraft& robot, const Address& address) {
     if (is_everywhere(address.interface)) {
       note_port(robot, address);
+      everywhere_.emplace_back(&robot, address);
       return true;
     }
     if (address.interface == "position2d") {
@@ -283,6 +338,27 @@ class PlayerFile {
       return true;
     }
     return false;
+  }
+
+  /// Notes an address of an interface that every robot or world has, if it has another index there.
+  void tell_unserved(const RobotDraft* robot, const Address& address) {
+    if (address.interface == "graphics3d") return note_interface(address);
+    int served = 0;
+    const bool of_robot = address.interface == "speech" || address.interface == "graphics2d";
+    if (robot != nullptr && of_robot && translation_.world.contains("robots_on_port")) {
+      // Robots that share a port have consecutive indexes.
+      const int port = translation_.world["robots_on_port"].get<int>();
+      for (const RobotDraft& other : translation_.robots) {
+        if (&other == robot) break;
+        const auto known = ports_.find(&other);
+        if (known != ports_.end() && known->second == port) ++served;
+      }
+      if (ports_.at(robot) != port) served = 0;
+    }
+    if (address.index == served) return;
+    report_.note("address " + address.text, address.place,
+                 "the address " + in_quotes(address.text) + " is left out: it is " +
+                     in_quotes(address.interface + ":" + std::to_string(served)) + " here");
   }
 
   void note_interface(const Address& address) {
@@ -311,22 +387,41 @@ class PlayerFile {
 
   void take(RobotDraft& robot, const Address& address, const std::string& device) {
     taken_[&robot][address.interface][address.index] = device;
+    addresses_.emplace(std::tuple(&robot, address.interface, address.index), address);
   }
 
   /// Writes the indexes of interfaces.
   void set_addresses() {
     for (auto& [robot, interfaces] : taken_) {
       for (auto& [interface, devices] : interfaces) {
+        if (devices.empty()) continue;
         Json names = Json::array();
-        for (const auto& [index, device] : devices) names.push_back(device);
+        const auto add = [&](const Json& name) {
+          if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        };
+        for (const auto& [index, device] : devices) add(device);
         first_[robot][interface] = devices.begin()->first;
         // The robot's other devices follow.
         Json& list = robot->robot["interfaces"][interface];
-        for (const auto& name : list.is_array() ? list : Json::array()) {
-          if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-        }
+        for (const auto& name : list.is_array() ? list : Json::array()) add(name);
         list = std::move(names);
       }
+    }
+  }
+
+  /// Notes addresses of devices that have another index here: indexes are consecutive, and each
+  /// device has one.
+  void tell_moved() {
+    for (const auto& [key, address] : addresses_) {
+      const auto& [robot, interface, index] = key;
+      const Json& list = robot->robot["interfaces"][interface];
+      const auto place = std::find(list.begin(), list.end(), taken_[robot][interface][index]);
+      if (place == list.end()) continue;
+      const int here = first_[robot][interface] + static_cast<int>(place - list.begin());
+      if (here == index) continue;
+      report_.note("address " + address.text, address.place,
+                   "the address " + in_quotes(address.text) + " is left out: it is " +
+                       in_quotes(interface + ":" + std::to_string(here)) + " here");
     }
   }
 
@@ -337,14 +432,19 @@ class PlayerFile {
       const auto found = interfaces.find(wanted.interface);
       if (found != interfaces.end() && found->second.contains(wanted.index)) return robot;
     }
-    const auto driver = provided_.find({wanted.port, wanted.interface, wanted.index});
+    const auto driver = provided_.find(key_of(wanted));
     return driver == provided_.end() ? nullptr : driver->second.robot;
   }
 
   /// The driver that provides an address; "" if none does.
   [[nodiscard]] std::string driver_of(const Address& wanted) const {
-    const auto driver = provided_.find({wanted.port, wanted.interface, wanted.index});
+    const auto driver = provided_.find(key_of(wanted));
     return driver == provided_.end() ? "" : driver->second.name;
+  }
+
+  bool left_out(const OtherDriver& driver, const std::string& why) {
+    leave_out(driver, why);
+    return false;
   }
 
   void leave_out(const OtherDriver& driver, const std::string& why) {
@@ -353,56 +453,108 @@ class PlayerFile {
         "the driver " + in_quotes(driver.name) + " is left out" + (why.empty() ? "" : ": ") + why);
   }
 
-  /// Drivers of Player that turn one interface into another, and drivers that drive or plan.
+  [[nodiscard]] bool is_provided(const Address& address) {
+    return owner_of(address) != nullptr || of_world_.contains(key_of(address)) ||
+           (is_everywhere(address.interface) && address.index == 0);
+  }
+
+  static std::string unprovided(const Address& address) {
+    return "nothing provides " + in_quotes(address.text);
+  }
+
+  /// Adds the drivers that are not Stage's. A driver may need what a later one provides, so those
+  /// come first that have all they need.
+  void add_drivers() {
+    for (bool complete = true;;) {
+      const std::size_t before = others_.size();
+      std::erase_if(others_, [&](const OtherDriver& driver) {
+        const bool has_all =
+            std::all_of(driver.required.begin(), driver.required.end(),
+                        [&](const Address& address) { return is_provided(address); });
+        return (has_all || !complete) && add_driver(driver);
+      });
+      if (others_.size() == before && !complete) break;
+      complete = others_.size() < before;
+    }
+    for (const OtherDriver& driver : others_) {
+      const auto missing =
+          std::find_if(driver.required.begin(), driver.required.end(),
+                       [&](const Address& address) { return !is_provided(address); });
+      leave_out(driver, missing == driver.required.end() ? "" : unprovided(*missing));
+    }
+  }
+
+  /// Adds a driver of Player that turns one interface into another, drives or plans.
   /// @return whether it is done; otherwise no robot is known yet whose devices it needs.
   bool add_driver(const OtherDriver& driver) {
     const std::string& name = driver.name;
-    // A robot has the world's map and blackboard.
-    if (name == "mapfile" || name == "mapscale" || name == "localbb") return true;
     RobotDraft* robot = nullptr;
     for (const Address& address : driver.required) {
       if (robot == nullptr) robot = owner_of(address);
     }
-    if (name == "passthrough" && robot == nullptr && !driver.required.empty() &&
-        is_everywhere(driver.required.front().interface)) {
+    // A robot has the world's map and blackboard.
+    const bool of_world = name == "mapfile" || name == "mapscale" || name == "localbb";
+    if (of_world || (name == "passthrough" && robot == nullptr && !driver.required.empty() &&
+                     is_everywhere(driver.required.front().interface))) {
+      for (const Address& address : driver.provided) {
+        of_world_.insert(key_of(address));
+        everywhere_.emplace_back(nullptr, address);
+      }
+      tell_rest(*driver.entity, {"name", "plugin", "provides", "requires", "alwayson", "filename",
+                                 "resolution", "negate"});
       return true;
     }
     if (robot == nullptr) return false;
+    if (!add_to(*robot, driver)) return true;
+    kept_.emplace_back(driver, robot);
+    const int index =
+        is_goal_driver(name) ? robot->robot["drivers"].back().at("index").get<int>() : -1;
     for (const Address& address : driver.provided) {
-      provided_[{address.port, address.interface, address.index}] = {robot, name};
+      provided_[key_of(address)] = {robot, name, index};
       note_port(*robot, address);
     }
-    if (name == "rangertolaser" || name == "lasertoranger" || name == "passthrough") {
-      convert(*robot, driver.provided, driver.required);
-    } else if (name == "amcl") {
-      add_amcl(driver, *robot);
-    } else if (name == "wavefront") {
-      add_wavefront(driver, *robot);
-    } else if (is_goal_driver(name)) {
-      add_goal_driver(driver, *robot);
-    } else if (is_scan_driver(name)) {
-      add_scan_driver(driver, *robot);
-    } else {
-      leave_out(driver, "");
+    for (const Address& address : driver.required) {
+      if (is_provided(address)) continue;
+      report_.note("address " + address.text, address.place,
+                   unprovided(address) + "; the driver " + in_quotes(name) + " does without it");
     }
     return true;
   }
 
-  void convert(RobotDraft& robot, const std::vector<Address>& provided,
-               const std::vector<Address>& required) {
-    for (const Address& from : required) {
-      const auto device = taken_[&robot][from.interface].find(from.index);
-      if (device == taken_[&robot][from.interface].end()) continue;
-      for (const Address& to : provided) {
-        Json& list = robot.robot["interfaces"][to.interface];
-        if (!list.is_array()) list = Json::array();
-        if (std::find(list.begin(), list.end(), device->second) == list.end()) {
-          list.push_back(device->second);
-        }
-        first_[&robot].emplace(to.interface, to.index);
-        take(robot, to, device->second);
+  /// Adds a driver to a robot. @return false if it is left out, which is noted.
+  bool add_to(RobotDraft& robot, const OtherDriver& driver) {
+    const std::string& name = driver.name;
+    if (is_converter(name)) return convert(robot, driver);
+    if (name == "amcl") return add_amcl(driver, robot);
+    if (name == "wavefront") return add_wavefront(driver, robot);
+    if (is_goal_driver(name)) return add_goal_driver(driver, robot);
+    if (is_scan_driver(name)) return add_scan_driver(driver, robot);
+    return left_out(driver, "");
+  }
+
+  bool convert(RobotDraft& robot, const OtherDriver& driver) {
+    std::set<std::string> done;  // addresses
+    for (const Address& from : driver.required) {
+      const auto found = taken_[&robot][from.interface].find(from.index);
+      if (found == taken_[&robot][from.interface].end()) continue;
+      const std::string device = found->second;
+      const auto entry = std::find_if(robot.list.begin(), robot.list.end(),
+                                      [&](const DraftDevice& one) { return one.name == device; });
+      for (const Address& to : driver.provided) {
+        const InterfaceRow* const row = row_of(to.interface);
+        const bool same = to.interface == from.interface;
+        if (!same && (row == nullptr || entry == robot.list.end() || !fits(*row, *entry))) continue;
+        take(robot, to, device);
+        done.insert(to.text);
       }
     }
+    if (done.empty()) return left_out(driver, "it can use only devices of the robot");
+    set_addresses();
+    for (const Address& to : driver.provided) {
+      if (!done.contains(to.text)) note_provided(driver, to);
+    }
+    tell_rest(*driver.entity, {"name", "plugin", "provides", "requires", "alwayson"});
+    return true;
   }
 
   /// Index of the address of an interface, rather one with that key.
@@ -452,50 +604,130 @@ class PlayerFile {
   }
 
   [[nodiscard]] Json settings_of(const OtherDriver& driver) {
-    return driver_settings(driver.name, Properties(*driver.entity, units_, report_), report_);
+    tell_sections(*driver.entity);
+    return driver_settings(driver.name, Properties(*driver.entity, units_, report_), units_,
+                           report_);
   }
 
-  void add_goal_driver(const OtherDriver& driver, RobotDraft& robot) {
-    Json settings = settings_of(driver);
-    if (driver.name != "goto") {
-      const std::optional<std::string> laser = laser_of(robot, driver.required);
-      if (!laser) return leave_out(driver, "the robot has no laser");
-      settings["laser"] = index_of_laser(robot, *laser);
+  /// Index of the robot's own `position2d` that a driver requires, rather of one with that key: 0
+  /// if the driver requires none or that of another driver.
+  /// @return nullopt if nothing provides what it requires.
+  std::optional<int> own_position(RobotDraft& robot, const OtherDriver& driver,
+                                  std::string_view key) {
+    const Address* best = nullptr;
+    const Address* other = nullptr;  // of another driver
+    bool requires_one = false;
+    for (const Address& address : driver.required) {
+      if (address.interface != "position2d") continue;
+      requires_one = true;
+      if (!driver_of(address).empty()) {
+        other = &address;
+      } else if (owner_of(address) == &robot &&
+                 (best == nullptr || (address.key == key && best->key != key))) {
+        best = &address;
+      }
     }
-    settings["index"] =
-        local_index(robot, "position2d", index_of(driver.provided, "position2d", "", 1));
-    settings["position"] =
-        local_index(robot, "position2d", index_of(driver.required, "position2d", "input", 0));
+    if (best != nullptr) return local_index(robot, "position2d", best->index);
+    if (other == nullptr) return requires_one ? std::nullopt : std::optional(0);
+    report_.note("position of " + driver.name, other->place,
+                 "the driver " + in_quotes(driver.name) + " uses the robot's position, not " +
+                     in_quotes(other->text) + " of the driver " + in_quotes(driver_of(*other)));
+    return 0;
+  }
+
+  bool leave_out_without_position(const OtherDriver& driver) {
+    for (const Address& address : driver.required) {
+      if (address.interface == "position2d") return left_out(driver, unprovided(address));
+    }
+    return left_out(driver, "");
+  }
+
+  /// The first index from `least` on that no driver has. @return it, which is taken then.
+  int next_index(RobotDraft& robot, std::string_view interface, int least) {
+    std::set<int>& taken = driver_indexes_[{&robot, std::string(interface)}];
+    while (!taken.insert(least).second) ++least;
+    return least;
+  }
+
+  /// The index of a driver among those of a robot's interface: the one in the file, or if that is
+  /// taken the next one that is free, with a note.
+  int free_index(RobotDraft& robot, const OtherDriver& driver, std::string_view interface,
+                 int fallback, int own) {
+    int index = fallback;
+    Place place = driver.entity->place;
+    std::string text;
+    for (const Address& address : driver.provided) {
+      if (address.interface != interface) {
+        note_provided(driver, address);
+      } else if (text.empty()) {
+        index = local_index(robot, address.interface, address.index);
+        place = address.place;
+        text = address.text;
+      } else {
+        note_provided(driver, address);
+      }
+    }
+    const int free = next_index(robot, interface, std::max(index, own));
+    if (free != index && !text.empty()) {
+      report_.note("address " + text, place,
+                   "the address " + in_quotes(text) + " of the driver " + in_quotes(driver.name) +
+                       " is taken: it is " +
+                       in_quotes(std::string(interface) + ":" + std::to_string(free)) + " here");
+    }
+    return free;
+  }
+
+  void note_provided(const OtherDriver& driver, const Address& address) {
+    report_.note("address " + address.text, address.place,
+                 "the address " + in_quotes(address.text) + " of the driver " +
+                     in_quotes(driver.name) + " is left out");
+  }
+
+  bool add_goal_driver(const OtherDriver& driver, RobotDraft& robot) {
+    const std::optional<int> position = own_position(robot, driver, "input");
+    if (!position) return leave_out_without_position(driver);
+    std::optional<std::string> laser;
+    if (driver.name != "goto") {
+      laser = laser_of(robot, driver.required);
+      if (!laser) return left_out(driver, "the robot has no laser");
+    }
+    Json settings = settings_of(driver);
+    if (laser) settings["laser"] = index_of_laser(robot, *laser);
+    settings["index"] = free_index(robot, driver, "position2d", 1, 1);
+    settings["position"] = *position;
     free_position(robot, settings["index"].get<std::size_t>());
     robot.robot["drivers"].push_back(std::move(settings));
+    return true;
   }
 
-  void add_scan_driver(const OtherDriver& driver, RobotDraft& robot) {
+  bool add_scan_driver(const OtherDriver& driver, RobotDraft& robot) {
     const bool needs_scan_driver =
         std::any_of(driver.required.begin(), driver.required.end(), [&](const Address& address) {
           return address.interface == "laser" && is_scan_driver(driver_of(address));
         });
-    if (needs_scan_driver) return leave_out(driver, "it can use only lasers that measure");
+    if (needs_scan_driver) return left_out(driver, "it can use only lasers that measure");
     const std::optional<std::string> laser = laser_of(robot, driver.required);
-    if (!laser) return leave_out(driver, "the robot has no laser");
+    if (!laser) return left_out(driver, "the robot has no laser");
+    std::optional<int> position;
+    if (driver.name == "laserposeinterpolator") {
+      position = own_position(robot, driver, "");
+      if (!position) return leave_out_without_position(driver);
+    }
     Json settings = settings_of(driver);
     settings["laser"] = index_of_laser(robot, *laser);
-    if (driver.name == "laserposeinterpolator") {
-      settings["position"] =
-          local_index(robot, "position2d", index_of(driver.required, "position2d", "", 0));
-    }
+    if (position) settings["position"] = *position;
     // Below this number are the indexes of the robot's own lasers.
     const auto lasers =
         std::count_if(robot.list.begin(), robot.list.end(),
                       [](const DraftDevice& device) { return device.type == "laser"; });
-    const int index = local_index(robot, "laser", index_of(driver.provided, "laser", "", 0));
-    if (index >= lasers) settings["index"] = index;
+    settings["index"] = free_index(robot, driver, "laser", 1, static_cast<int>(lasers));
     robot.robot["drivers"].push_back(std::move(settings));
+    return true;
   }
 
-  void add_amcl(const OtherDriver& driver, RobotDraft& robot) {
+  bool add_amcl(const OtherDriver& driver, RobotDraft& robot) {
     const std::optional<std::string> laser = laser_of(robot, driver.required);
-    if (!laser) return leave_out(driver, "the robot has no laser");
+    if (!laser) return left_out(driver, "the robot has no laser");
     for (const Address& address : driver.required) {
       if (address.interface == "laser" || address.interface == "ranger" ||
           address.interface == "position2d" || address.interface == "map") {
@@ -511,16 +743,26 @@ class PlayerFile {
     const auto position = positions.find(index_of(driver.required, "position2d", "odometry", 0));
     settings["odometry"] = position != positions.end() ? Json(position->second)
                                                        : robot.robot["interfaces"]["position2d"][0];
+    free_index(robot, driver, "localize", 0, 0);
     robot.robot["drivers"].push_back(std::move(settings));
+    return true;
   }
 
-  void add_wavefront(const OtherDriver& driver, RobotDraft& robot) {
+  bool add_wavefront(const OtherDriver& driver, RobotDraft& robot) {
+    const Address* output = nullptr;
+    for (const Address& address : driver.required) {
+      if (address.interface == "position2d" && address.key == "output") output = &address;
+    }
+    const std::optional<int> own = own_output(robot, output);
+    if (!own && (output == nullptr || !is_goal_driver(driver_of(*output)))) {
+      return left_out(driver, "it needs a driver that drives to goals, such as vfh");
+    }
     Json settings = settings_of(driver);
     for (const Address& address : driver.required) {
       if (address.interface != "position2d" && address.interface != "localize") continue;
       const int index = local_index(robot, address.interface, address.index);
-      if (address.key == "output") {
-        settings["output"] = index;
+      if (&address == output) {
+        if (!own) settings["output"] = index_of_driver(robot, address);
       } else if (driver_of(address) == "amcl") {
         settings["localize"] = 0;
       } else if (address.interface == "position2d" &&
@@ -528,7 +770,58 @@ class PlayerFile {
         settings["position"] = index;  // not the position of another driver, as of vfh
       }
     }
+    const int index = free_index(robot, driver, "planner", 0, 0);
+    if (index != 0) settings["index"] = index;
+    if (own) settings["output"] = add_straight_driver(driver, robot, *own);
     robot.robot["drivers"].push_back(std::move(settings));
+    return true;
+  }
+
+  /// The robot's own position if that is the output of a planner: Stage's positions drive to goals.
+  std::optional<int> own_output(RobotDraft& robot, const Address* output) {
+    if (output == nullptr || owner_of(*output) != &robot || !driver_of(*output).empty()) {
+      return std::nullopt;
+    }
+    return local_index(robot, "position2d", output->index);
+  }
+
+  /// Adds a driver that drives straight to goals. @return its index.
+  int add_straight_driver(const OtherDriver& planner, RobotDraft& robot, int position) {
+    const int index = next_index(robot, "position2d", 1);
+    free_position(robot, static_cast<std::size_t>(index));
+    robot.robot["drivers"].push_back({{"type", "goto"}, {"index", index}, {"position", position}});
+    report_.note("output of " + planner.name, planner.entity->place,
+                 "the robot's position drives to goals in Stage; here a driver \"goto\" at "
+                 "position2d:" +
+                     std::to_string(index) + " does it");
+    return index;
+  }
+
+  /// Index that a driver has here, by the address that it has in the file.
+  int index_of_driver(RobotDraft& robot, const Address& address) {
+    const auto driver = provided_.find(key_of(address));
+    return driver == provided_.end() || driver->second.index < 0
+               ? local_index(robot, address.interface, address.index)
+               : driver->second.index;
+  }
+
+  /// Leaves out the drivers of robots that share a port, which offers devices only.
+  void leave_out_on_shared_port() {
+    for (const auto& [driver, robot] : kept_) {
+      if (!robot->robot.contains("drivers")) continue;
+      if (!translation_.world.contains("robots_on_port") ||
+          translation_.world["robots_on_port"] != ports_.at(robot)) {
+        continue;
+      }
+      robot->robot.erase("drivers");
+      for (const auto& [other, its_robot] : kept_) {
+        if (its_robot == robot && !is_converter(other.name)) {
+          leave_out(other,
+                    "a port that several robots share, or whose indexes do not begin at 0, "
+                    "has no drivers");
+        }
+      }
+    }
   }
 
   /// Frees an index of position2d for a driver: a robot of Stage has only one position.
@@ -617,6 +910,7 @@ class PlayerFile {
   Units units_;
   std::vector<OtherDriver> others_;
   int models_named_ = 0;  ///< drivers of Stage with a model
+  std::map<std::tuple<RobotDraft*, std::string, int>, Address> addresses_;  ///< of taken_
   std::set<std::pair<const RobotDraft*, std::string>> bound_;
   std::map<const RobotDraft*, int> ports_;
   std::map<RobotDraft*, std::map<std::string, std::map<int, std::string>>> taken_;
@@ -624,8 +918,14 @@ class PlayerFile {
   struct Provider {
     RobotDraft* robot;
     std::string name;
+    int index = -1;  ///< of a driver that drives to goals
   };
-  std::map<std::tuple<int, std::string, int>, Provider> provided_;  ///< by drivers
+  std::map<AddressKey, Provider> provided_;  ///< by drivers
+  std::set<AddressKey> of_world_;  ///< provided by drivers of the world: maps, blackboards
+  std::vector<std::pair<OtherDriver, RobotDraft*>> kept_;  ///< drivers
+  std::map<std::pair<const RobotDraft*, std::string>, std::set<int>> driver_indexes_;
+  /// Addresses of interfaces that every robot or world has, with their robots or nullptr.
+  std::vector<std::pair<const RobotDraft*, Address>> everywhere_;
 };
 
 }  // namespace

@@ -117,10 +117,11 @@ int Properties::integer(std::string_view name, int fallback) const {
 bool Properties::flag(std::string_view name, bool fallback) const {
   const Property* property = entity_.find(name);
   if (property == nullptr) return fallback;
-  if (!property->values.empty() && property->values.front().is_text) {  // Stage 2 has "visible"
+  if (!property->values.empty() && property->values.front().is_text) {
+    // Stage 2 has "visible"; Player has true, false, yes and no.
     const std::string& text = property->values.front().text;
-    if (text == "true" || text == "visible") return true;
-    if (text == "false" || text == "invisible") return false;
+    if (text == "true" || text == "yes" || text == "visible") return true;
+    if (text == "false" || text == "no" || text == "invisible") return false;
   }
   const std::optional<double> value = single(name, "0 or 1");
   return value ? *value != 0.0 : fallback;

@@ -19,10 +19,12 @@ namespace sim::io::stage {
 /// What a translation tells its user: errors, and what was left out or means something else.
 class Report {
  public:
-  /// @param world_file  path of the world file.
+  /// @param world_file  path of the world file, or of the configuration file until it has named
+  ///     that.
   explicit Report(std::string world_file) : world_file_(std::move(world_file)) {}
 
   [[nodiscard]] const std::string& world_file() const { return world_file_; }
+  void set_world_file(std::string path) { world_file_ = std::move(path); }
   /// Records an error. After 100 errors, further ones are ignored.
   void error(const Place& place, std::string id, std::string expected, std::string found,
              std::string hint = "");

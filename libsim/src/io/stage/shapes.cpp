@@ -12,6 +12,7 @@
 #include "canvas/png_codec.h"
 #include "io/document.h"
 #include "io/map_io.h"
+#include "io/stage/file_search.h"
 #include "sim/world/outline.h"
 
 namespace sim::io::stage {
@@ -100,23 +101,16 @@ DarkArea dark_area_of(const GreyImage& image) {
 }
 
 /// Path of a bitmap. Stage looks in the folder of the world file even if an included file names it;
-/// then follow that file's folder, the folders of STAGEPATH, and the folder above the world's.
-std::string bitmap_file(const std::string& name, const Place& place, const Report& report) {
+/// then follow that file's folder, the folders of Stage, and the folder above the world's.
+std::string bitmap_file(const std::string& name, const Place& place, Report& report) {
   const std::filesystem::path folder = folder_of(report.world_file());
   std::vector<std::filesystem::path> folders{folder, folder_of(*place.file)};
-  for (const std::string& further : include_folders().before) folders.emplace_back(further);
+  for (std::filesystem::path& further : stage_folders()) folders.push_back(std::move(further));
   folders.push_back(folder / "..");
-  std::error_code ignored;
-  const std::filesystem::path wanted(name);
-  for (const std::filesystem::path& one : folders) {
-    if (std::filesystem::exists(one / wanted, ignored)) return (one / wanted).string();
-  }
-  // An absolute path of another computer: the picture may lie beside the world.
-  for (const std::filesystem::path& one : folders) {
-    const std::filesystem::path beside = one / wanted.filename();
-    if (wanted.is_absolute() && std::filesystem::exists(beside, ignored)) return beside.string();
-  }
-  return (folder / name).string();
+  const auto found = find_file(name, folders);
+  if (!found) return (folder / name).string();
+  if (found->by_base_name) note_other_path(name, found->path, place, report);
+  return found->path;
 }
 
 std::optional<DarkArea> read_bitmap(const Properties& model, Report& report) {

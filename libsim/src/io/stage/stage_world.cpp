@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "io/check_world.h"
+#include "io/stage/file_search.h"
 #include "io/stage/translation.h"
 #include "io/world_document.h"
 #include "sim/core/file.h"
@@ -37,6 +38,27 @@ const Value* world_file_of(const Entity& config) {
   return nullptr;
 }
 
+constexpr const char* kEmptyFile = "an empty file, or one of comments only";
+
+bool is_empty(const Entity& file, std::string_view text) {
+  return file.properties.empty() && file.children.empty() && tokens_of(text, nullptr).size() == 1;
+}
+
+/// Path of the world file that a configuration file names.
+std::string world_file_path(const Value& name, const std::string& config, Report& report) {
+  std::vector<fs::path> folders{folder_of(config)};
+  for (fs::path& folder : stage_folders()) folders.push_back(std::move(folder));
+  const auto found = find_file(name.text, folders);
+  if (!found) return (folder_of(config) / name.text).string();
+  if (found->by_base_name) note_other_path(name.text, found->path, name.place, report);
+  return found->path;
+}
+
+/// Whether a name in a file, in UTF-8, is that of a file on disk.
+bool is_name_of(const std::string& name, const fs::path& file) {
+  return fs::path(name).filename() == utf8_text(file.string());
+}
+
 /// The configuration file in a world's folder that names the world: one of the same name, or the
 /// only one. nullopt if there is none; several are noted.
 std::optional<Entity> find_config(const fs::path& world, Report& report, const Place& place) {
@@ -51,25 +73,40 @@ std::optional<Entity> find_config(const fs::path& world, Report& report, const P
     }
   }
   std::sort(files.begin(), files.end());
-  std::vector<std::pair<std::string, Entity>> found;
+  std::vector<std::pair<std::string, std::string>> found;  // name and text
   for (const fs::path& file : files) {
     std::string text;
     if (read_whole_file(file.string(), {.most_bytes = kMostConfigBytes}, text)) continue;
-    const fs::path named_as = world.has_parent_path() ? file : file.filename();
+    const std::string named_as = (world.has_parent_path() ? file : file.filename()).string();
+    const bool same_name = file.stem() == world.stem();
     try {
-      Entity config = read_player_file(text, named_as.string());
+      Report own(report.world_file());  // of a file that may not be used
+      const Entity config = read_player_file(text, named_as, own);
       const Value* name = world_file_of(config);
-      if (name == nullptr || fs::path(name->text).filename() != world.filename()) continue;
-      if (file.stem() == world.stem()) return config;
-      found.emplace_back(file.filename().string(), std::move(config));
-    } catch (const ConfigError&) {
-      continue;  // a file that nobody has named
+      if (name == nullptr || !is_name_of(name->text, world.filename())) continue;
+    } catch (const ConfigError& mistake) {
+      // Nobody has named this file, so it may be about another world.
+      if (!same_name && text.find(world.filename().string()) == std::string::npos) continue;
+      const ConfigIssue& issue = mistake.issues().front();
+      report.note("config " + named_as,
+                  {std::make_shared<const std::string>(issue.file), issue.line, issue.column},
+                  "the configuration file " + in_quotes(utf8_text(named_as)) +
+                      " is left out: expected " + issue.expected + ", found " + issue.found);
+      continue;
     }
+    found.emplace_back(named_as, std::move(text));
+    if (!same_name) continue;
+    found = {std::move(found.back())};
+    break;
   }
-  if (found.size() == 1) return std::move(found.front().second);
+  if (found.size() == 1) {
+    return read_player_file(found.front().second, found.front().first, report);
+  }
   if (found.size() > 1) {
     std::vector<std::string> names;
-    for (const auto& [name, config] : found) names.push_back(name);
+    for (const auto& [name, text] : found) {
+      names.push_back(utf8_text(fs::path(name).filename().string()));
+    }
     report.note("configs", place,
                 "several configuration files name this world: " + list_text(names, " and ") +
                     "; name one instead of the world to use its ports");
@@ -197,23 +234,29 @@ Result import(const std::string& path, const std::string& text, const std::strin
   std::string world_path = path;
   std::string world_text = text;
   std::optional<Entity> config;
+  Report report(path);
   const bool from_config = fs::path(path).extension() == ".cfg";
   if (from_config) {
-    config = read_player_file(text, path);
+    config = read_player_file(text, path, report);
     const Value* name = world_file_of(*config);
     if (name == nullptr) {
       throw ConfigError({"stage/no-world", path, "", "a driver \"stage\" with a \"worldfile\"",
-                         "none", "name the world file itself"});
+                         is_empty(*config, text) ? kEmptyFile : "none",
+                         "name the world file itself"});
     }
-    world_path = (folder_of(path) / name->text).string();
+    world_path = world_file_path(*name, path, report);
     world_text = content_of(world_path, &name->place, "a world file of Stage");
   } else if (!config_path.empty()) {
     config = read_player_file(content_of(config_path, nullptr, "a configuration file of Player"),
-                              config_path);
+                              config_path, report);
   }
   refuse_gazebo(world_path, world_text);
-  Report report(world_path);
-  const Entity root = read_world_file(world_text, world_path, include_folders(), report);
+  report.set_world_file(world_path);
+  const Entity root = read_world_file(world_text, world_path, report);
+  if (is_empty(root, world_text)) {
+    throw ConfigError({"stage/empty", world_path, "", "models of Stage", kEmptyFile,
+                       "a world has at least a model, such as position ( name \"r0\" )"});
+  }
   const bool must_match = config.has_value();
   const Place first_line{std::make_shared<const std::string>(world_path), 1, 1};
   if (!config) config = find_config(world_path, report, first_line);
@@ -258,10 +301,10 @@ bool is_stage_file(const std::string& path, std::string_view text) {
   std::size_t at = 0;
   while ((at = text.find_first_not_of(" \t\r\n", at)) != std::string_view::npos) {
     if (text[at] != '#') break;  // skip a comment to the end of the line
-    at = std::min(text.find('\n', at), text.size());
+    at = std::min(text.find_first_of("\r\n", at), text.size());
   }
   // JSON begins with a bracket, a quote, a number or the '/' of a comment.
-  return at != std::string_view::npos &&
+  return at == std::string_view::npos ||
          std::string_view("{[/\"").find(text[at]) == std::string_view::npos;
 }
 

@@ -57,8 +57,9 @@ struct Token {
 /// indexes in square brackets, as in `point[3]`. Numbers are read whatever the locale; an exponent
 /// is allowed. As in Stage, a notation like 0.5.2 is the number that it begins with, see
 /// Token::cut.
-/// @throws ConfigError for a character that begins no token, a number that is none, and a string
-///     without an end.
+/// @throws ConfigError for a character that begins no token, a number that is none, a string
+/// without
+///     an end, and a text in UTF-16 or UTF-32.
 [[nodiscard]] std::vector<Token> tokens_of(std::string_view text,
                                            const std::shared_ptr<const std::string>& file);
 

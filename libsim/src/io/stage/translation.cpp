@@ -11,6 +11,7 @@
 
 #include "io/document.h"
 #include "io/stage/left_out.h"
+#include "sim/core/number_text.h"
 #include "sim/world/limits.h"
 #include "sim/world/outline.h"
 
@@ -94,6 +95,7 @@ class Translator {
     if (world.choice("unit_angle", 0, {"degrees", "radians"}) == 1) units_.angle_rad = 1.0;
     const double interval_ms = std::clamp(world.number("interval_sim", 100.0), 0.1, 1e6);
     interval_s_ = interval_ms / 1000.0;
+    tell_speed(world, interval_ms);
     out_.world["name"] = world.text("name", name);
     Json simulation;
     simulation["step"] = neat(std::clamp(std::min(interval_s_, 0.01), 1e-4, 0.1));
@@ -102,6 +104,23 @@ class Translator {
     }
     out_.world["arena"] = nullptr;  // keeps the order of keys
     out_.world["simulation"] = std::move(simulation);
+  }
+
+  /// Notes the speed of Stage's window; how fast a run goes is an option of its command here.
+  /// Source: `speedup` in libstage/worldgui.cc of Stage 4, `interval_real` in src/world.c of
+  /// Stage 2.
+  void tell_speed(const Properties& world, double interval_ms) {
+    const char* const key = world.has("interval_real") ? "interval_real" : "speedup";
+    double factor = world.number(key, 1.0);
+    if (world.has("interval_real") && factor > 0.0) factor = interval_ms / factor;
+    if (factor == 1.0) return;
+    std::string text = std::string(key) +
+                       " has no effect: \"playpen run\" is as fast as the computer allows, and "
+                       "\"playpen serve\" goes in real time";
+    if (factor > 0.0) {
+      text += ", unless --time " + rounded_text(factor, 3) + " gives the factor of this file";
+    }
+    report_.note(key, world.place_of(key), text);
   }
 
   /// Properties in the user's files that differ between the versions of Stage; the first of each.
