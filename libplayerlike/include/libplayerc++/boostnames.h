@@ -9,6 +9,22 @@
 #include "libplayerc++/mutex.h"
 #include "libplayerc++/readsignal.h"
 
+/// Boost.Asio's placeholders, such as boost::asio::placeholders::error, are of this type, or
+/// functions that return it.
+namespace boost {
+template <int I>
+struct arg;
+}  // namespace boost
+
+namespace std {
+/// @cond
+template <int I>
+struct is_placeholder<boost::arg<I>> : integral_constant<int, I> {};
+template <int I>
+struct is_placeholder<boost::arg<I> (*)()> : integral_constant<int, I> {};
+/// @endcond
+}  // namespace std
+
 namespace PlayerCc {
 
 /// Boost names that programs use without including Boost, because Player's headers included it:
@@ -25,6 +41,33 @@ using std::cref;
 using std::function;
 using std::ref;
 using std::shared_ptr;
+
+/// Of overloaded member functions, Boost's bind takes the one with as many parameters as there are
+/// arguments: boost::bind(&boost::asio::io_service::run, &service).
+template <typename R, typename T, typename O>
+auto bind(R (T::*aF)(), O aO) -> decltype(std::bind(aF, aO)) {
+  return std::bind(aF, aO);
+}
+template <typename R, typename T, typename O>
+auto bind(R (T::*aF)() const, O aO) -> decltype(std::bind(aF, aO)) {
+  return std::bind(aF, aO);
+}
+template <typename R, typename T, typename P, typename O, typename A>
+auto bind(R (T::*aF)(P), O aO, A aA) -> decltype(std::bind(aF, aO, aA)) {
+  return std::bind(aF, aO, aA);
+}
+template <typename R, typename T, typename P, typename O, typename A>
+auto bind(R (T::*aF)(P) const, O aO, A aA) -> decltype(std::bind(aF, aO, aA)) {
+  return std::bind(aF, aO, aA);
+}
+template <typename R, typename T, typename P, typename Q, typename O, typename A, typename B>
+auto bind(R (T::*aF)(P, Q), O aO, A aA, B aB) -> decltype(std::bind(aF, aO, aA, aB)) {
+  return std::bind(aF, aO, aA, aB);
+}
+template <typename R, typename T, typename P, typename Q, typename O, typename A, typename B>
+auto bind(R (T::*aF)(P, Q) const, O aO, A aA, B aB) -> decltype(std::bind(aF, aO, aA, aB)) {
+  return std::bind(aF, aO, aA, aB);
+}
 
 /// The type of PlayerClient::mMutex.
 typedef PlayerCc::mutex_t mutex;

@@ -4,6 +4,11 @@
 /// @file
 /// Player's C++ client library: the only header that client programs need to include.
 
+#if __cplusplus < 201103L
+#error \
+    "playerc++.h needs C++11: compile with -std=gnu++11 -fpermissive (clang: -std=gnu++11 -Wno-static-float-init); see docs/bring_your_program.md, Language"
+#endif
+
 #include "libplayerc++/actarrayproxy.h"
 #include "libplayerc++/aioproxy.h"
 #include "libplayerc++/armproxies.h"

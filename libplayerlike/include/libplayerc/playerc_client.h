@@ -88,7 +88,7 @@ typedef struct _playerc_client_t {
   double retry_time;          ///< see playerc_client_set_retry_time() [s]
   uint32_t overflow_count;    ///< number of readings dropped because the queue was full
   int sock;                   ///< not used: -1
-  uint8_t mode;               ///< PLAYERC_DATAMODE_PUSH (initially) or PLAYERC_DATAMODE_PULL
+  uint8_t mode;               ///< PLAYERC_DATAMODE_PULL (once connected) or PLAYERC_DATAMODE_PUSH
   int data_requested;         ///< not used
   int data_received;          ///< not used
   playerc_device_info_t
@@ -180,8 +180,8 @@ int playerc_client_disconnect(playerc_client_t* client);
 /// Reconnects, with at most as many attempts as playerc_client_set_retry_limit() allows, and renews
 /// all subscriptions.
 int playerc_client_disconnect_retry(playerc_client_t* client);
-/// Sets PLAYERC_DATAMODE_PUSH (initially) or PLAYERC_DATAMODE_PULL. In pull mode
-/// playerc_client_read() also reports the end of a round of data.
+/// Sets PLAYERC_DATAMODE_PULL (which playerc_client_connect() sets) or PLAYERC_DATAMODE_PUSH:
+/// whether playerc_client_read() delivers a round of data or one device.
 int playerc_client_datamode(playerc_client_t* client, uint8_t mode);
 /// Requests a round of data. Does nothing here, because data needs no request.
 int playerc_client_requestdata(playerc_client_t* client);
@@ -195,7 +195,8 @@ int playerc_client_adddevice(playerc_client_t* client, struct _playerc_device_t*
 /// Removes a device from the client's list.
 /// @return -1 if it is not in the list.
 int playerc_client_deldevice(playerc_client_t* client, struct _playerc_device_t* device);
-/// Registers a function that is called with data whenever playerc_client_read() returns the device.
+/// Registers a function that is called with data whenever playerc_client_read() delivers the
+/// device.
 /// @return -1 if the device already has four callbacks.
 int playerc_client_addcallback(playerc_client_t* client, struct _playerc_device_t* device,
                                playerc_callback_fn_t callback, void* data);
@@ -222,12 +223,12 @@ int playerc_client_request(playerc_client_t* client, struct _playerc_device_t* d
 int playerc_client_peek(playerc_client_t* client, int timeout);
 /// Same as playerc_client_peek().
 int playerc_client_internal_peek(playerc_client_t* client, int timeout);
-/// Waits until a device has new data, copies the data to the device's struct, and calls the
-/// device's callbacks. Each call handles one device, in order. When no unread data is left,
+/// Waits until devices have new data, copies the data to the devices' structs, and calls their
+/// callbacks. With PLAYERC_DATAMODE_PULL each call handles a round of data: all devices. With
+/// PLAYERC_DATAMODE_PUSH each call handles one device, in order. When no unread data is left,
 /// simulated time advances.
-/// @return the device's struct (e.g. the playerc_laser_t); the client at the end of a round
-/// (with PLAYERC_DATAMODE_PULL, or if no device is subscribed); null for errors and at the end of
-/// the run.
+/// @return the client (PULL, or if no device is subscribed); the device's struct, e.g. the
+/// playerc_laser_t (PUSH); null for errors and at the end of the run.
 void* playerc_client_read(playerc_client_t* client);
 /// Calls playerc_client_read() if data is available.
 /// @return 1 if data was read, 0 if not, -1 for errors.

@@ -28,7 +28,7 @@ const std::string& kept(const std::string& text) {
   return *texts->insert(text).first;
 }
 
-extern "C" void on_busy(int /*signal*/) {
+void on_busy(int /*signal*/) {
   const int error = errno;
   const std::string* const text = alarm_text.load();
   if (text != nullptr && !rang.exchange(true)) {

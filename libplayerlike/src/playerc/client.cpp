@@ -39,7 +39,7 @@ Client::Client(const char* a_host, int a_port) : playerc_client_t() {
   if (host == nullptr) throw std::bad_alloc();
   port = a_port;
   transport = PLAYERC_TRANSPORT_TCP;
-  mode = PLAYERC_DATAMODE_PUSH;
+  mode = PLAYERC_DATAMODE_PUSH;  // until connect()
   retry_time = 10.0;
   request_timeout = 10.0;
   sock = -1;
@@ -73,6 +73,7 @@ void Client::connect() {
   }
   player_ = std::move(player);
   connected = 1;
+  mode = PLAYERC_DATAMODE_PULL;  // as Player's library, which asks the server for it
 }
 
 void Client::disconnect() noexcept {
@@ -114,12 +115,23 @@ void Client::read_round() {
 void Client::end_round() {
   // Even a round without data is delivered (as the client's own struct): the client has no
   // subscriptions then.
-  if (mode == PLAYERC_DATAMODE_PULL || pending_.empty()) pending_.push_back(nullptr);
+  if (pending_.empty()) pending_.push_back(nullptr);
   overflow_count = player().GetOverflowCount();
   qlen = static_cast<int>(pending_.size());
 }
 
 void* Client::deliver() {
+  if (mode == PLAYERC_DATAMODE_PUSH) return deliver_next();
+  const std::weak_ptr<const char> exists = exists_;
+  bool any = false;
+  while (deliver_next() != nullptr) {
+    if (exists.expired()) return nullptr;  // a callback has destroyed the client
+    any = true;
+  }
+  return any ? id : nullptr;
+}
+
+void* Client::deliver_next() {
   if (pending_.empty()) return nullptr;
   Device* const entry = pending_.front();
   pending_.pop_front();

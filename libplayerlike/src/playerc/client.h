@@ -16,9 +16,9 @@ class Device;
 /// A client of the C library: its public struct and its private data. A PlayerClient does its work;
 /// proxies do the work of its devices.
 ///
-/// A round of data updates all proxies at once, but programs get one device at a time. Devices that
-/// are not delivered yet wait in `pending_`; a device copies the data of its proxy when it is
-/// delivered.
+/// A round of data updates all proxies at once. Devices that are not delivered yet wait in
+/// `pending_`; a device copies the data of its proxy when it is delivered. One read delivers the
+/// whole round (PULL, the mode after connect()) or one device (PUSH).
 class Client final : public playerc_client_t {
  public:
   Client(const char* host, int port);
@@ -41,8 +41,9 @@ class Client final : public playerc_client_t {
   [[nodiscard]] bool peek(std::chrono::milliseconds timeout);
   /// Waits for a round of data. @throws PlayerError also at the end of the run.
   void read_round();
-  /// Delivers the next struct, null if there is none: a device with new data, or the client itself
-  /// at the end of a round.
+  /// Delivers what one read delivers. @return PULL: the client itself; PUSH: the next device with
+  /// new data, or the client itself after a round without data. Null if there was nothing to
+  /// deliver, or if a callback has destroyed the client.
   void* deliver();
 
   void add(Device& device);
@@ -72,10 +73,12 @@ class Client final : public playerc_client_t {
   };
 
   void end_round();
+  void* deliver_next();
 
   std::unique_ptr<PlayerCc::PlayerClient> player_;
   std::vector<Device*> devices_;  // in order of creation
-  std::deque<Device*> pending_;   // null: the client itself
+  std::deque<Device*> pending_;   // null: the client itself, after a round without data
+  std::shared_ptr<const char> exists_ = std::make_shared<const char>();
   std::vector<ReplaceRule> replace_rules_;
   std::vector<playerc_mclient_t*> groups_;
 };

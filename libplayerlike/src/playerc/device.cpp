@@ -133,6 +133,7 @@ void playerc_device_init(playerc_device_t* device, playerc_client_t* client, int
   *device = playerc_device_t();
   device->id = device;
   device->client = client;
+  device->addr.robot = client == nullptr ? 0U : static_cast<uint32_t>(client->port);
   device->addr.interf = static_cast<uint16_t>(code);
   device->addr.index = static_cast<uint16_t>(index);
   device->putmsg = putmsg;

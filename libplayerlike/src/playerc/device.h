@@ -112,13 +112,14 @@ auto with_device(const char* fun, typename T::Struct* device, Action action) {
   return std::max(count, kLeast);
 }
 
-/// Fills the array behind a struct's pointer and pads it, see with_room(). @return its address;
-/// null if `count` is 0.
+/// Fills the array behind a struct's pointer and pads it, see with_room(). @return its address,
+/// which is never null: after a reading Player's library has allocated its arrays even if they are
+/// empty, and programs look at the first element before they look at the count.
 template <typename T, typename Element>
 [[nodiscard]] T* copied(std::vector<T>& array, uint32_t count, Element element) {
   array.resize(with_room(count));
   for (uint32_t i = 0; i < count; ++i) array[i] = element(i);
-  return count == 0 ? nullptr : array.data();
+  return array.data();
 }
 
 /// Stores a result unless the caller passed a null pointer.

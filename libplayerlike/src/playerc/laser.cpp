@@ -16,6 +16,7 @@ using playerlike::clib::with_device;
 
 class Laser final : public playerlike::clib::ProxyBacked<playerc_laser_t, PlayerCc::LaserProxy> {
  public:
+  Laser() { size[0] = size[1] = 0.15; }  // Player's value before playerc_laser_get_geom()
   // Fields that are known without a scan, refreshed with each one.
   void refresh_settings() {
     intensity_on = proxy_or_throw().IntensityOn() ? 1 : 0;
@@ -50,7 +51,7 @@ class Laser final : public playerlike::clib::ProxyBacked<playerc_laser_t, Player
       points_[i] = {range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)};
     }
     ranges = ranges_.data();
-    scan = count == 0 ? nullptr : &scan_[0].pair;
+    scan = &scan_[0].pair;
     point = points_.data();
     intensity = intensities_.data();
     min_right = proxy_or_throw().GetMinRight();

@@ -17,11 +17,12 @@ class Planner final
     proxy.RequestWaypoints();
     const uint32_t count = proxy.GetWaypointCount();
     waypoints_.clear();
+    waypoints_.reserve(count + 1);  // an array also without waypoints, as in Player's library
     for (uint32_t i = 0; i < count; ++i) {
       const player_pose2d_t pose = proxy.GetWaypoint(i);
       waypoints_.push_back({pose.px, pose.py, pose.pa});
     }
-    waypoints = waypoints_.empty() ? nullptr : reinterpret_cast<double(*)[3]>(waypoints_.data());
+    waypoints = reinterpret_cast<double(*)[3]>(waypoints_.data());
     waypoint_count = static_cast<int>(count);
     waypoint_distance = proxy.GetPathLength();
   }

@@ -20,6 +20,10 @@ using playerlike::clib::with_device;
 
 class Fiducial final : public ProxyBacked<playerc_fiducial_t, PlayerCc::FiducialProxy> {
  public:
+  Fiducial() {  // Player's values before playerc_fiducial_get_geom()
+    fiducial_geom.size.sl = 0.1;
+    fiducial_geom.size.sw = 0.01;
+  }
   void refresh_geometry() {
     fiducial_geom.pose = proxy_or_throw().GetSensorPose();
     fiducial_geom.size = proxy_or_throw().GetSensorSize();

@@ -35,7 +35,7 @@ std::int64_t machine_time_ns() noexcept {
   return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
 }
 
-extern "C" void on_interrupt(int signal, siginfo_t* info, void* /*context*/) {
+void on_interrupt(int signal, siginfo_t* info, void* /*context*/) {
   const int error = errno;
   int none = 0;
   if (first_interrupt.compare_exchange_strong(none, signal)) {

@@ -42,6 +42,7 @@ int main(void)
 
   client = playerc_client_create(NULL, "localhost", 6665);
   if (playerc_client_connect(client) != 0) return 1;
+  if (playerc_client_datamode(client, PLAYERC_DATAMODE_PUSH) != 0) return 1;
   arm = playerc_actarray_create(client, 0);
   if (playerc_actarray_subscribe(arm, PLAYERC_OPEN_MODE) != 0) {
     fprintf(stderr, "%s\n", playerc_error_str());

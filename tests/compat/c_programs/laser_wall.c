@@ -1,6 +1,6 @@
 /* Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause */
-/* Drives towards a wall and stops before it. Callbacks do the work; the loop only reads, also
-   tells of each round (PULL), and lets go of things in an order of its own. */
+/* Drives towards a wall and stops before it. Callbacks do the work; the loop only reads, a round
+   at a time, and lets go of things in an order of its own. */
 #include <libplayerc/playerc.h>
 #include <math.h>
 #include <stdio.h>
@@ -39,7 +39,6 @@ int main(void)
     fprintf(stderr, "%s\n", playerc_error_str());
     return 1;
   }
-  if (playerc_client_datamode(client, PLAYERC_DATAMODE_PULL) != 0) return 1;
   if (playerc_client_set_replace_rule(client, -1, -1, PLAYER_MSGTYPE_DATA, -1, 1) != 0) return 1;
 
   laser = playerc_laser_create(client, 0);
@@ -59,8 +58,9 @@ int main(void)
       fprintf(stderr, "%s\n", playerc_error_str());
       return 1;
     }
-    if (device == client) rounds++;
-    else if (device == laser->info.id && laser->info.fresh) laser->info.fresh = 0;
+    if (device != client) return 5;
+    rounds++;
+    laser->info.fresh = 0;
   }
   front = laser->ranges[laser->scan_count / 2];
   printf("%s: %d rounds, %d scans of %d beams, %d poses; %.3f m to the wall, stall %d\n",

@@ -63,6 +63,7 @@ int main(int argc, char *argv[])
     fprintf(stderr, "error: %s\n", playerc_error_str());
     return 1;
   }
+  if (playerc_client_datamode(client, PLAYERC_DATAMODE_PUSH) != 0) return 1;
   position = playerc_position2d_create(client, 0);
   if (playerc_position2d_subscribe(position, PLAYERC_OPEN_MODE) != 0) {
     fprintf(stderr, "error: %s\n", playerc_error_str());

@@ -287,8 +287,7 @@ class CArm : public testing::Test {
 
   void read(int rounds) {
     for (int i = 0; i < rounds; ++i) {
-      while (playerc_client_read(client_.get()) != arm_->info.id) {
-      }
+      ASSERT_NE(playerc_client_read(client_.get()), nullptr) << playerc_error_str();
     }
   }
   void subscribe() {

@@ -396,6 +396,20 @@ TEST(BoostNames, ThreadGoesOnWhenItIsForgotten) {
   EXPECT_EQ(done, 2);
 }
 
+// The function with as many parameters as there are arguments, as Boost's bind chooses.
+struct Overloaded {
+  int of() { return 0; }
+  int of(int a) { return a; }
+  [[nodiscard]] int of(int a, int b) const { return a + b; }
+};
+
+TEST(BoostNames, BindChoosesAmongOverloadsByTheNumberOfArguments) {
+  Overloaded it;
+  EXPECT_EQ(boost::bind(&Overloaded::of, &it)(), 0);
+  EXPECT_EQ(boost::bind(&Overloaded::of, &it, 3)(), 3);
+  EXPECT_EQ(boost::bind(&Overloaded::of, boost::ref(it), 3, std::placeholders::_1)(4), 7);
+}
+
 // --- Old names
 
 TEST_F(PlayerApi, DataModesOfPlayer16To21AreAccepted) {

@@ -136,14 +136,9 @@ class Playerc : public PlayercBase, public testing::Test {
   Playerc() : PlayercBase(test::Transport::kInProcess) {}
 };
 
-/// Reads until the client returns this device.
-[[nodiscard]] bool read_until(playerc_client_t* client, const void* device) {
-  for (int i = 0; i < 10; ++i) {
-    const void* const told = playerc_client_read(client);
-    if (told == device) return true;
-    if (told == nullptr) return false;
-  }
-  return false;
+/// Reads one round.
+[[nodiscard]] bool reads(playerc_client_t* client) {
+  return playerc_client_read(client) == client->id;
 }
 
 // --- Clients
@@ -187,32 +182,94 @@ TEST_P(PlayercEverywhere, ExplainsWhyItCannotConnectOrSubscribe) {
   EXPECT_THAT(playerc_error_str(), HasSubstr("not subscribed"));
 }
 
-TEST_P(PlayercEverywhere, TellsOfOneDeviceAtATimeAndOfTheRoundIfAsked) {
+TEST_P(PlayercEverywhere, OneReadDeliversTheRoundOrOneDeviceIfAsked) {
   const auto robot = client();
+  EXPECT_EQ(robot->mode, PLAYERC_DATAMODE_PULL);
   const auto scanner = laser(robot.get());
   const auto base = position(robot.get());
   EXPECT_EQ(robot->device_count, 2);
   EXPECT_EQ(scanner->scan_count, 0);
   EXPECT_EQ(base->info.fresh, 0);
-  EXPECT_EQ(playerc_client_read(robot.get()), scanner.get());
+  ASSERT_EQ(playerc_client_requestdata(robot.get()), 0);
+  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
   EXPECT_EQ(scanner->info.fresh, 1);
+  EXPECT_EQ(base->info.fresh, 1);
+  EXPECT_EQ(robot->qlen, 0);
+  EXPECT_NEAR(base->info.datatime, 0.1, 1e-9);
+  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
+  EXPECT_NEAR(scanner->info.datatime, 0.2, 1e-9);
+  EXPECT_NEAR(scanner->info.lasttime, 0.1, 1e-9);
+  EXPECT_NEAR(robot->datatime, 0.2, 1e-9);
+
+  ASSERT_EQ(playerc_client_datamode(robot.get(), PLAYERC_DATAMODE_PUSH), 0);
+  base->info.fresh = 0;
+  EXPECT_EQ(playerc_client_read(robot.get()), scanner.get());
   EXPECT_EQ(base->info.fresh, 0);  // its turn is next
   EXPECT_EQ(robot->qlen, 1);
   EXPECT_EQ(playerc_client_read(robot.get()), base.get());
   EXPECT_EQ(base->info.fresh, 1);
-  EXPECT_NEAR(base->info.datatime, 0.1, 1e-9);
-  EXPECT_EQ(playerc_client_read(robot.get()), scanner.get());  // PUSH: the next round
-  EXPECT_NEAR(scanner->info.datatime, 0.2, 1e-9);
-  EXPECT_NEAR(scanner->info.lasttime, 0.1, 1e-9);
-  EXPECT_NEAR(robot->datatime, 0.2, 1e-9);
-  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
-  ASSERT_EQ(playerc_client_datamode(robot.get(), PLAYERC_DATAMODE_PULL), 0);
-  ASSERT_EQ(playerc_client_requestdata(robot.get()), 0);
-  EXPECT_EQ(playerc_client_read(robot.get()), scanner.get());
-  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
-  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
+  EXPECT_EQ(playerc_client_read(robot.get()), scanner.get());  // of the next round
+  EXPECT_NEAR(scanner->info.datatime, 0.4, 1e-9);
   EXPECT_EQ(playerc_client_datamode(robot.get(), 77), -1);
   EXPECT_THAT(playerc_error_str(), HasSubstr("77"));
+
+  // The rest of the round belongs to the next read in the mode PULL, which connecting sets again.
+  ASSERT_EQ(playerc_client_datamode(robot.get(), PLAYERC_DATAMODE_PULL), 0);
+  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
+  EXPECT_NEAR(base->info.datatime, 0.4, 1e-9);
+  ASSERT_EQ(playerc_client_datamode(robot.get(), PLAYERC_DATAMODE_PUSH), 0);
+  ASSERT_EQ(playerc_client_disconnect(robot.get()), 0);
+  ASSERT_EQ(playerc_client_connect(robot.get()), 0);
+  EXPECT_EQ(robot->mode, PLAYERC_DATAMODE_PULL);
+}
+
+TEST_P(PlayercEverywhere, TimeDoesNotDependOnTheNumberOfDevices) {
+  const auto robot = client();
+  const auto base = position(robot.get());
+  const auto scanner = laser(robot.get());
+  const Owned<playerc_sonar_t> sonar(playerc_sonar_create(robot.get(), 0));
+  const Owned<playerc_power_t> power(playerc_power_create(robot.get(), 0));
+  ASSERT_EQ(playerc_sonar_subscribe(sonar.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_power_subscribe(power.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.2, 0.0, 0.0, 1), 0);
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(reads(robot.get())) << playerc_error_str();
+  EXPECT_NEAR(base->info.datatime, 2.0, 1e-9);
+  EXPECT_NEAR(base->px, 1.0 + 2.0 * 0.2, 0.05);  // minus the loss by acceleration
+}
+
+TEST_P(PlayercEverywhere, OneReadFillsTheArraysOfAllDevices) {
+  const auto first = client();
+  const auto robot = client(6666);
+  const auto scanner = laser(first.get());
+  const Owned<playerc_ranger_t> ranger(playerc_ranger_create(first.get(), 0));
+  const Owned<playerc_sonar_t> sonar(playerc_sonar_create(first.get(), 0));
+  const Owned<playerc_ir_t> infrared(playerc_ir_create(first.get(), 0));
+  const Owned<playerc_bumper_t> bumper(playerc_bumper_create(first.get(), 0));
+  const Owned<playerc_fiducial_t> finder(playerc_fiducial_create(first.get(), 0));
+  const Owned<playerc_localize_t> localize(playerc_localize_create(first.get(), 0));
+  const Owned<playerc_wifi_t> wifi(playerc_wifi_create(first.get(), 0));
+  const Owned<playerc_aio_t> aio(playerc_aio_create(first.get(), 0));
+  const Owned<playerc_blobfinder_t> blobs(playerc_blobfinder_create(robot.get(), 0));
+  const Owned<playerc_camera_t> camera(playerc_camera_create(robot.get(), 0));
+  EXPECT_NEAR(scanner->size[0], 0.15, 1e-12);  // Player's values before get_geom()
+  EXPECT_NEAR(finder->fiducial_geom.size.sl, 0.1, 1e-12);
+  for (playerc_device_t* device :
+       {&ranger->info, &sonar->info, &infrared->info, &bumper->info, &finder->info, &localize->info,
+        &wifi->info, &aio->info, &blobs->info, &camera->info}) {
+    ASSERT_EQ(playerc_device_subscribe(device, PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  }
+  ASSERT_TRUE(reads(first.get())) << playerc_error_str();
+  ASSERT_TRUE(reads(robot.get())) << playerc_error_str();
+  for (const void* array : std::initializer_list<const void*>{
+           scanner->ranges, scanner->scan, scanner->point, scanner->intensity, ranger->ranges,
+           ranger->intensities, ranger->bearings, ranger->points, sonar->scan,
+           infrared->data.ranges, infrared->data.voltages, bumper->bumpers, finder->fiducials,
+           localize->hypoths, wifi->links, aio->voltages, blobs->blobs, camera->image}) {
+    EXPECT_NE(array, nullptr);
+  }
+  // r2 looks at the wall: no blob, and a program that reads the first one finds zeros.
+  EXPECT_EQ(blobs->blobs_count, 0U);
+  EXPECT_EQ(blobs->blobs[0].area, 0U);
 }
 
 TEST_P(PlayercEverywhere, LetsTimePassWithoutDevices) {
@@ -220,18 +277,18 @@ TEST_P(PlayercEverywhere, LetsTimePassWithoutDevices) {
   EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
   EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
   const auto base = position(robot.get());
-  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
+  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
   EXPECT_NEAR(base->info.datatime, 0.3, 1e-9);
 }
 
 TEST_P(PlayercEverywhere, PeeksAndReadsWithoutWaiting) {
   const auto robot = client();
   const auto base = position(robot.get());
-  ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  ASSERT_EQ(playerc_client_read(robot.get()), robot->id);
   int idle = 0;
   void* told = nullptr;
   while (playerc_client_read_nonblock_withproxy(robot.get(), &told) == 0) ++idle;
-  EXPECT_EQ(told, base.get());
+  EXPECT_EQ(told, robot->id);
   EXPECT_NEAR(base->info.datatime, 0.2, 1e-9);
   // The first call only looks, the next nine advance time by a step of 10 ms each, the tenth gets
   // data.
@@ -287,10 +344,10 @@ TEST_F(Playerc, LetsThingsGoInAnyOrder) {
   auto base = position(robot.get());
   auto scanner = laser(robot.get());
   const auto unused = Owned<playerc_laser_t>(playerc_laser_create(robot.get(), 0));
-  ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  ASSERT_EQ(playerc_client_read(robot.get()), robot->id);
   scanner.reset();  // while its data wait
   EXPECT_EQ(robot->device_count, 2);
-  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
+  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
   robot.reset();
   EXPECT_EQ(base->info.client, nullptr);
   EXPECT_EQ(base->info.subscribed, 0);
@@ -312,7 +369,7 @@ TEST_F(Playerc, SubscribesAgainAfterReconnecting) {
   playerc_client_set_request_timeout(robot.get(), 5);
   ASSERT_EQ(playerc_client_disconnect_retry(robot.get()), 0) << playerc_error_str();
   EXPECT_EQ(base->info.subscribed, 1);
-  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
+  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
 }
 
 TEST_F(Playerc, CallsUpToFourCallbacks) {
@@ -352,7 +409,8 @@ TEST_F(Playerc, TakesReplaceRulesBeforeAndAfterConnecting) {
   // With any rule, a device is reported once per round, with its newest data.
   const auto other = client(6666);
   for (int i = 0; i < 3; ++i) playerc_client_read(other.get());
-  EXPECT_TRUE(read_until(robot.get(), base.get()));
+  ASSERT_EQ(playerc_client_datamode(robot.get(), PLAYERC_DATAMODE_PUSH), 0);
+  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
   EXPECT_EQ(playerc_client_read(robot.get()), odometry.get());
 }
 
@@ -530,21 +588,21 @@ TEST_P(PlayercEverywhere, DrivesABase) {
   EXPECT_EQ(base->info.freshgeom, 1);
   ASSERT_EQ(playerc_position2d_enable(base.get(), 1), 0);
   ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.2, 0.0, 0.0, 1), 0);
-  for (int i = 0; i < 20; ++i) ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  for (int i = 0; i < 20; ++i) ASSERT_EQ(playerc_client_read(robot.get()), robot->id);
   EXPECT_NEAR(base->vx, 0.2, 1e-6);
   EXPECT_NEAR(base->px, 1.0 + 2.0 * 0.2, 0.05);  // minus the loss by acceleration
   EXPECT_NEAR(base->py, 1.5, 1e-9);
   ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.0, 0.0, 0.0, 1), 0);
   ASSERT_EQ(playerc_position2d_set_odom(base.get(), 0.0, 0.0, 0.0), 0);
-  for (int i = 0; i < 10; ++i) ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  for (int i = 0; i < 10; ++i) ASSERT_EQ(playerc_client_read(robot.get()), robot->id);
   ASSERT_EQ(playerc_position2d_set_odom(base.get(), 0.0, 0.0, 0.0), 0);
   ASSERT_EQ(playerc_position2d_set_cmd_pose(base.get(), 0.3, 0.2, 1.0, 1), 0);
-  for (int i = 0; i < 80; ++i) ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  for (int i = 0; i < 80; ++i) ASSERT_EQ(playerc_client_read(robot.get()), robot->id);
   EXPECT_NEAR(base->px, 0.3, 0.02);
   EXPECT_NEAR(base->py, 0.2, 0.02);
   EXPECT_NEAR(base->pa, 1.0, 0.02);
   ASSERT_EQ(playerc_position2d_set_cmd_vel_head(base.get(), 0.0, 0.0, 0.0, 1), 0);
-  for (int i = 0; i < 40; ++i) ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  for (int i = 0; i < 40; ++i) ASSERT_EQ(playerc_client_read(robot.get()), robot->id);
   EXPECT_NEAR(base->pa, 0.0, 0.02);
   EXPECT_EQ(playerc_position2d_set_cmd_vel(base.get(), std::nan(""), 0.0, 0.0, 1), -1);
   EXPECT_THAT(playerc_error_str(), HasSubstr("finite"));
@@ -555,7 +613,7 @@ TEST_P(PlayercEverywhere, ScansWithALaser) {
   const auto scanner = laser(robot.get());
   ASSERT_EQ(playerc_laser_get_geom(scanner.get()), 0);
   EXPECT_NEAR(scanner->pose[0], 0.035, 1e-9);
-  ASSERT_EQ(playerc_client_read(robot.get()), scanner.get());
+  ASSERT_EQ(playerc_client_read(robot.get()), robot->id);
   ASSERT_EQ(scanner->scan_count, 682);
   EXPECT_EQ(scanner->scan_id, 1);
   EXPECT_EQ(scanner->intensity_on, 0);
@@ -595,7 +653,7 @@ TEST_P(PlayercEverywhere, ScansWithALaser) {
   EXPECT_NEAR(resolution, 2.0 * 0.39589 * std::numbers::pi / 180.0, 1e-9);
   EXPECT_NEAR(range_res, 0.01, 1e-12);
   EXPECT_EQ(intensity, 0);
-  ASSERT_EQ(playerc_client_read(robot.get()), scanner.get());
+  ASSERT_EQ(playerc_client_read(robot.get()), robot->id);
   // On each side, beams are (k + 0.5) * 0.39589 degrees off; 227 of them are within 90 degrees.
   // Half of the 454 are reported.
   EXPECT_EQ(scanner->scan_count, 227);
@@ -698,8 +756,7 @@ TEST_F(PlayercSensors, SonarAndItsRanger) {
   ASSERT_EQ(playerc_sonar_get_geom(sonar.get()), 0);
   ASSERT_GT(sonar->pose_count, 0);
   ASSERT_EQ(static_cast<uint32_t>(sonar->pose_count), proxy.GetPoseCount());
-  ASSERT_TRUE(read_until(robot_.get(), sonar.get()));
-  ASSERT_TRUE(read_until(robot_.get(), ranger.get()));
+  ASSERT_TRUE(reads(robot_.get()));
   other_.Read();
   ASSERT_EQ(sonar->scan_count, sonar->pose_count);
   ASSERT_EQ(ranger->ranges_count, static_cast<uint32_t>(sonar->scan_count));
@@ -737,7 +794,7 @@ TEST_F(PlayercSensors, Bumpers) {
   ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.5, 0.0, 0.0, 1), 0);
   bool bumped = false;
   for (int i = 0; i < 150 && !bumped; ++i) {
-    ASSERT_TRUE(read_until(robot_.get(), bumper.get())) << playerc_error_str();
+    ASSERT_TRUE(reads(robot_.get())) << playerc_error_str();
     other_.Read();
     ASSERT_GT(bumper->bumper_count, 0);
     ASSERT_EQ(static_cast<uint32_t>(bumper->bumper_count), proxy.GetCount());
@@ -789,9 +846,7 @@ TEST_P(PlayercEverywhere, BlobsPicturesAndTheHead) {
   EXPECT_EQ(playerc_camera_get_image(camera.get()), -1);  // not yet
   const auto turn = [&](int rounds) {
     for (int i = 0; i < rounds; ++i) {
-      ASSERT_TRUE(read_until(robot.get(), head.get())) << playerc_error_str();
-      ASSERT_TRUE(read_until(robot.get(), finder.get())) << playerc_error_str();
-      ASSERT_TRUE(read_until(robot.get(), camera.get())) << playerc_error_str();
+      ASSERT_TRUE(reads(robot.get())) << playerc_error_str();
     }
   };
   // r1 is at 45 degrees to the left.
@@ -861,8 +916,7 @@ TEST_F(PlayercSensors, SatellitesAndInertia) {
   const auto base = position(robot_.get());
   ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.0, 0.0, 1.0, 1), 0);
   for (int i = 0; i < 15; ++i) {
-    ASSERT_TRUE(read_until(robot_.get(), gps.get()));
-    ASSERT_TRUE(read_until(robot_.get(), imu.get()));
+    ASSERT_TRUE(reads(robot_.get()));
     other_.Read();
   }
   EXPECT_NEAR(gps->lat, 50.0, 1e-3);
@@ -897,8 +951,7 @@ TEST_F(PlayercSensors, LocalisationAndRadio) {
       << playerc_error_str();
   ASSERT_EQ(playerc_wifi_subscribe(wifi.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
   EXPECT_EQ(playerc_localize_get_particles(localize.get()), -1);  // nothing read yet
-  ASSERT_TRUE(read_until(robot_.get(), localize.get()));
-  ASSERT_TRUE(read_until(robot_.get(), wifi.get()));
+  ASSERT_TRUE(reads(robot_.get()));
   other_.Read();
   ASSERT_EQ(localize->hypoth_count, 1);
   EXPECT_NEAR(localize->hypoths[0].mean.px, 1.0, 1e-9);
@@ -940,27 +993,27 @@ TEST_F(Playerc, Grips) {
   EXPECT_NEAR(gripper->outer_size.sw, 0.14, 1e-12);
   EXPECT_EQ(gripper->num_beams, 2);
   EXPECT_EQ(gripper->capacity, 1);
-  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  ASSERT_TRUE(reads(robot.get()));
   EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_OPEN);
   EXPECT_EQ(gripper->beams, 0x08U);  // 1.117 is in the can, from 1.11 to 1.17; 1.177 is not
   ASSERT_EQ(playerc_gripper_close_cmd(gripper.get()), 0);
-  for (int i = 0; i < 4; ++i) ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(reads(robot.get()));
   EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_CLOSED);
   ASSERT_EQ(playerc_gripper_store_cmd(gripper.get()), 0);
-  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  ASSERT_TRUE(reads(robot.get()));
   EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_MOVING);
   EXPECT_EQ(gripper->stored, 1);
   EXPECT_EQ(gripper->beams, 0U);
   ASSERT_EQ(playerc_gripper_stop_cmd(gripper.get()), 0);
   ASSERT_EQ(playerc_gripper_retrieve_cmd(gripper.get()), 0);
-  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  ASSERT_TRUE(reads(robot.get()));
   EXPECT_EQ(gripper->stored, 0);
   EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_CLOSED);
   testing::internal::CaptureStdout();
   playerc_gripper_printout(gripper.get(), "r1");
   EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("state 2, beams 0x08, 0 stored"));
   ASSERT_EQ(playerc_gripper_open_cmd(gripper.get()), 0);
-  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  ASSERT_TRUE(reads(robot.get()));
   EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_MOVING);
 }
 
@@ -971,8 +1024,7 @@ TEST_P(PlayercEverywhere, InputsAndOutputs) {
   ASSERT_EQ(playerc_dio_subscribe(dio.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
   ASSERT_EQ(playerc_aio_subscribe(aio.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
   EXPECT_EQ(playerc_aio_get_data(aio.get(), 0), 0.0F);
-  ASSERT_TRUE(read_until(robot.get(), dio.get()));
-  ASSERT_TRUE(read_until(robot.get(), aio.get()));
+  ASSERT_TRUE(reads(robot.get()));
   EXPECT_EQ(dio->count, 3);
   EXPECT_EQ(dio->digin, 1U);
   ASSERT_EQ(aio->voltages_count, 2);
@@ -983,8 +1035,7 @@ TEST_P(PlayercEverywhere, InputsAndOutputs) {
   EXPECT_EQ(playerc_dio_set_output(dio.get(), 9, 1), 0);  // sets the existing outputs
   EXPECT_EQ(playerc_aio_set_output(aio.get(), 0, 2.5F), 0);
   EXPECT_EQ(playerc_aio_set_output(aio.get(), 1, 2.5F), 0);  // no effect: the output does not exist
-  ASSERT_TRUE(read_until(robot.get(), dio.get()));
-  ASSERT_TRUE(read_until(robot.get(), aio.get()));
+  ASSERT_TRUE(reads(robot.get()));
   EXPECT_EQ(dio->digin, 5U);  // its own output is its third input
   EXPECT_EQ(playerc_aio_get_data(aio.get(), 1), 2.5F);
 }
@@ -1004,7 +1055,7 @@ TEST_P(PlayercEverywhere, LightsAndVoices) {
   char text[] = "hello";
   EXPECT_EQ(playerc_speech_say(speech.get(), text), 0);
   EXPECT_EQ(playerc_speech_say(speech.get(), nullptr), -1);
-  ASSERT_TRUE(read_until(robot.get(), light.get()));
+  ASSERT_TRUE(reads(robot.get()));
   EXPECT_EQ(light->enabled, 1U);
   EXPECT_EQ(light->red, 10);
   EXPECT_EQ(light->green, 20);
@@ -1021,7 +1072,7 @@ TEST_P(PlayercEverywhere, MessagesAreToldWhenTheyArrive) {
   uint8_t bytes[] = {'h', 'i'};
   player_opaque_data_t message = {2, bytes};
   ASSERT_EQ(playerc_opaque_cmd(opaque.get(), &message), 0) << playerc_error_str();
-  ASSERT_TRUE(read_until(robot.get(), opaque.get()));
+  ASSERT_TRUE(reads(robot.get()));
   ASSERT_EQ(opaque->data_count, 2);
   EXPECT_EQ(std::memcmp(opaque->data, "hi", 2), 0);
   EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
@@ -1141,13 +1192,13 @@ TEST_F(Playerc, WritesALog) {
   EXPECT_EQ(playerc_log_set_filename(log.get(), nullptr), -1);
   ASSERT_EQ(playerc_log_set_filename(log.get(), "short"), 0) << playerc_error_str();
   ASSERT_EQ(playerc_log_set_write_state(log.get(), 1), 0) << playerc_error_str();
-  for (int i = 0; i < 5; ++i) ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  for (int i = 0; i < 5; ++i) ASSERT_EQ(playerc_client_read(robot.get()), robot->id);
   ASSERT_EQ(playerc_log_get_state(log.get()), 0);
   EXPECT_EQ(log->type, PLAYER_LOG_TYPE_WRITE);
   EXPECT_EQ(log->state, 1);
   ASSERT_EQ(playerc_log_set_write_state(log.get(), 0), 0);
   EXPECT_EQ(log->state, 0);
-  ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  ASSERT_EQ(playerc_client_read(robot.get()), robot->id);
   EXPECT_THAT(test_support::read_bytes(out + "/short.jsonl"), HasSubstr("\"device\""));
   EXPECT_EQ(playerc_log_set_read_state(log.get(), 1), 0) << playerc_error_str();
   EXPECT_EQ(log->type, PLAYER_LOG_TYPE_READ);

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/library_functions.h"
 #include "sim/render/render.h"
 
 namespace sim::render::modules {
@@ -51,7 +52,10 @@ std::string loader_problem() {
   return problem == nullptr ? "unknown reason" : problem;
 }
 
-void* open(const std::string& name) { return dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL); }
+void* open(const std::string& name) {
+  const HiddenProgramNames hidden;
+  return dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+}
 
 /// @return null if no place has such a file; `places` receives the searched places.
 void* open_somewhere(const std::string& file, std::string& places) {
