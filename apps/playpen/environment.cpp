@@ -9,6 +9,7 @@ const std::vector<EnvironmentVariable>& environment_variables() {
        false},
       {"NO_COLOR", "If it is set, the command prints no colours.", false},
       {"PLAYPEN_CLIENTS", "How many clients must have joined before simulated time begins.", true},
+      {"PLAYPEN_DESK", "Where the programs of a run ask for its world.", true},
       {"PLAYPEN_DURATION", "Simulated seconds after which a run ends.", true},
       {"PLAYPEN_ENCODING", "How a program talks to a server: cbor or json.", false},
       {"PLAYPEN_GRADE", "The number by which a grader knows the report of a run.", true},

@@ -3,12 +3,18 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "commands.h"
+#include "playerlike/connect/open_session.h"
+#include "playerlike/host/host.h"
 #include "playerlike/host/kept_results.h"
 #include "playerlike/host/program.h"
+#include "playerlike/host/program_desk.h"
+#include "playerlike/process/log.h"
 #include "playerlike/server/server.h"
 #include "preload.h"
 #include "run_outputs.h"
@@ -118,6 +124,56 @@ int verdict(const RunRequest& request, const sim::WorldDescription& world,
   return kOk;
 }
 
+/// The world of a run with several programs: this process serves it.
+class ServedWorld {
+ public:
+  /// @param world  with the settings applied.
+  ServedWorld(const sim::WorldDescription& world, const playerlike::RunSettings& settings)
+      : world_(world), settings_(settings) {}
+
+  /// Starts the server. @return its TCP port.
+  int serve() {
+    const sim::LogHook log = [](sim::LogLevel level, std::string_view text) {
+      // The terminal of the programs is not the place for a line about each connection.
+      if (level >= sim::LogLevel::kWarning) playerlike::log_to_stderr()(level, text);
+    };
+    playerlike::RunSettings settings = settings_;
+    settings.virtual_time = false;  // that is for programs
+    settings.quiet_end = false;
+    settings.kept_run.clear();
+    settings.open_real_robot = playerlike::open_real_robot;
+    if (!settings.time_mode && !world_.simulation.time_mode_given) {
+      settings.time_mode = sim::TimeMode::kPaced;
+      settings.time_factor = 1.0;
+      std::cerr << "playpen: several programs share the world of this run, so simulated time "
+                   "follows the wall clock (--time lockstep decides otherwise)\n";
+    }
+    host_ = playerlike::Host::create(world_, settings, log);
+    playerlike::ServerSettings server;
+    server.port = 0;
+    server.player_port = settings.player_port;
+    server_.emplace(host_, server, log);
+    for (const std::string& line : server_->player_port_lines()) std::cerr << line << '\n';
+    return server_->port();
+  }
+
+  /// Ends the run, if there is one. @return whether there is one.
+  bool finish(const playerlike::ProgramEnd& end) {
+    if (!host_) return false;
+    if (end.request) host_->note_end_request(*end.request);
+    if (!end.signal) host_->note_program_ends(end.status);
+    host_->finish();
+    server_.reset();
+    return true;
+  }
+
+ private:
+  const sim::WorldDescription& world_;
+  const playerlike::RunSettings& settings_;
+  std::shared_ptr<playerlike::Host> host_;
+  std::optional<playerlike::Server> server_;
+};
+
 }  // namespace
 
 int run(RunRequest request) {
@@ -154,12 +210,18 @@ int run(RunRequest request) {
   playerlike::EnvironmentChanges environment = playerlike::run_environment(world_file, settings);
   add_libraries_folder(environment);
   if (settings.virtual_time) virtual_time.emplace().add_to(environment);
+  ServedWorld served(world, settings);
+  playerlike::ProgramDesk desk(settings.clients.value_or(1) > 1 || !in_lockstep(settings, world),
+                               [&served] { return served.serve(); });
+  environment["PLAYPEN_DESK"] = desk.name();
   playerlike::RunWatch watch;
   watch.kept = &kept;
+  watch.desk = &desk;
   watch.tell = [](const std::string& text) { std::cerr << "playpen: " << text << '\n'; };
   bool completed = false;
   watch.on_end = [&](const playerlike::ProgramEnd& program_end) {
     try {
+      if (served.finish(program_end)) return;
       completed = playerlike::complete_results(kept, world, settings, program_end);
     } catch (const std::exception& e) {
       std::cerr << "playpen: results of the run are missing: " << e.what() << '\n';
@@ -169,7 +231,8 @@ int run(RunRequest request) {
 
   viewer.reset();  // the window has nothing left to show
 
-  return verdict(request, world, end, completed);
+  const int status = verdict(request, world, end, completed);
+  return desk.conflict().empty() ? status : kProgramFailed;
 }
 
 }  // namespace playpen

@@ -32,7 +32,8 @@ struct CoreAccess;
 /// - "localhost" and "127.0.0.1": the simulation of this process. The environment variable
 ///   PLAYPEN_WORLD names its world file; the default is the SyRoTek arena. If PLAYPEN_WORLD is
 ///   "tcp://HOST[:PORT]" or "player://HOST[:PORT]", it is that server.
-/// - "sim:FILE": a simulation of that world file in this process.
+/// - "sim:FILE": a simulation of that world file in this process; a new one when all clients of the
+///   earlier one are gone.
 /// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`). Its default TCP
 ///   port is 4000.
 /// - "player://HOST[:PORT]": a Player server, e.g. of a real robot; the default TCP port is that of

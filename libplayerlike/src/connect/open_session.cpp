@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "connect/run_desk.h"
 #include "host/onlookers.h"
 #include "playerlike/process/log.h"
 #include "remote/player_session.h"
@@ -27,8 +28,9 @@ struct Registry {
   std::mutex mutex;
   std::map<std::string, std::shared_ptr<Host>> hosts;  // key: full path of the world file
   std::unique_ptr<Onlookers> onlookers;                // at the first host, if they are wanted
-  int results = 0;                                     // number of hosts that write results
-  std::set<std::string> replaced_hosts;                // host names that the run's world replaced
+  int results = 0;                       // number of hosts so far, which write results
+  const Host* clock_host = nullptr;      // whose time is that of the program's sleeps
+  std::set<std::string> replaced_hosts;  // host names that the run's world replaced
   const pid_t process = getpid();
 
   static Registry& instance() {
@@ -70,11 +72,17 @@ std::string full_path(const std::string& file) {
   return file.empty() ? file : std::filesystem::absolute(file).lexically_normal().string();
 }
 
-std::shared_ptr<Host> host_of(const std::string& file) {
-  Registry& registry = Registry::instance();
-  const std::lock_guard lock(registry.mutex);
+/// The simulation of a world file. The caller has locked the registry.
+/// @param renew  replaces a simulation that all clients have left by a new one.
+std::shared_ptr<Host> host_of(Registry& registry, const std::string& file, bool renew) {
   std::shared_ptr<Host>& host = registry.hosts[full_path(file)];
-  if (host) return host;
+  if (host && !(renew && host->is_abandoned())) return host;
+  if (host) {
+    virtual_time::detach(*host->clock());
+    host->finish();
+    if (registry.clock_host == host.get()) registry.clock_host = nullptr;
+    host.reset();
+  }
   try {
     RunSettings settings = RunSettings::from_environment();
     // The first world of a program writes its results into the requested folder. Each further world
@@ -91,8 +99,8 @@ std::shared_ptr<Host> host_of(const std::string& file) {
     }
     settings.open_real_robot = open_real_robot;
     prepare_drawing(settings);
-    // A program has one virtual clock, which belongs to the first world.
-    const bool virtual_time_wanted = settings.virtual_time && registry.results == 0;
+    // A program has one virtual clock, which belongs to the first world that still exists.
+    const bool virtual_time_wanted = settings.virtual_time && registry.clock_host == nullptr;
     settings.virtual_time = virtual_time_wanted && virtual_time::active();
     // Window and Player ports belong to this process: programs that it starts must not use them.
     unsetenv("PLAYPEN_VIEW");
@@ -114,6 +122,7 @@ std::shared_ptr<Host> host_of(const std::string& file) {
     }
     host->watch_program();
     ++registry.results;
+    if (virtual_time_wanted) registry.clock_host = host.get();
     if (settings.virtual_time) {
       if (host->time().mode == sim::TimeMode::kLockstep) {
         virtual_time::attach(host->clock());
@@ -130,6 +139,12 @@ std::shared_ptr<Host> host_of(const std::string& file) {
     throw;
   }
   return host;
+}
+
+std::unique_ptr<Session> connect_embedded(const std::string& file, int port, bool renew) {
+  Registry& registry = Registry::instance();
+  const std::lock_guard lock(registry.mutex);
+  return host_of(registry, file, renew)->connect(port);
 }
 
 constexpr std::string_view kFilePrefix = "sim:";
@@ -241,6 +256,12 @@ const std::map<std::string, std::string>& variables_at_start() {
 }
 [[maybe_unused]] const bool kVariablesAreRead = !variables_at_start().empty();
 
+// Whether this is the world that `playpen run` has chosen.
+bool is_world_of_run(const std::string& file) {
+  const auto world = variables_at_start().find("PLAYPEN_WORLD");
+  return file == (world == variables_at_start().end() ? "" : world->second);
+}
+
 [[noreturn]] void refuse_while_graded(const std::string& what) {
   const std::string message =
       "this program is run by 'playpen grade', and " + what +
@@ -301,7 +322,7 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
       throw SessionError(SessionError::Code::kBadArgument,
                          "\"sim:\" must be followed by the name of a world file");
     }
-    return host_of(file)->connect(port);
+    return connect_embedded(file, port, /*renew=*/true);
   }
   if (host.starts_with(kPlayerPrefix)) {
     return connect_to_player(player_server(host, port), port);
@@ -316,7 +337,12 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
     return connect_to_player(player_server_of_world(file, port), port);
   }
   if (file.starts_with(kTcpPrefix)) return connect_to_server(file, port);
-  return host_of(file)->connect(port);
+  if (is_world_of_run(file)) {
+    if (const std::optional<int> server = served_world_port()) {
+      return connect_to_server("tcp://127.0.0.1:" + std::to_string(*server), port);
+    }
+  }
+  return connect_embedded(file, port, /*renew=*/false);
 }
 
 std::unique_ptr<Session> open_real_robot(const std::string& server, int port) {
@@ -342,6 +368,7 @@ void close_embedded_hosts() {
   }
   registry.hosts.clear();
   registry.results = 0;
+  registry.clock_host = nullptr;
 }
 
 }  // namespace playerlike

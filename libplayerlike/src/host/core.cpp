@@ -99,6 +99,7 @@ std::shared_ptr<Client> Host::Core::add_client(int port, EventRole role,
                                                std::function<void()> notify) {
   const Lock lock = lock_with_priority();
   auto client = clients_.add(port, role, std::move(notify));
+  had_client_ = had_client_ || !client->onlooker;
   changed_.notify_all();  // a paced clock may wait for its first client
   return client;
 }
@@ -620,6 +621,7 @@ std::vector<std::string> Host::Core::unrepeatable() const {
     why.emplace_back("simulated time went on without a client that did not read for " +
                      std::to_string(settings_.silence_limit_s) + " s of wall time");
   }
+  if (results_.conflict_noted()) why.emplace_back(kConflictWhy);
   if (driven_by_hand_) why.emplace_back("a robot was driven by hand");
   if (onlooker_acted_) {
     why.emplace_back("a client on a Player port commanded a robot or changed the world");

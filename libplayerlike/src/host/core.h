@@ -132,6 +132,7 @@ class Host::Core {
   void give_way(Lock& lock) const;
   void yield_to_priority_waiters() const;
   void adopt(Client& client, ThreadId thread_id);
+  [[nodiscard]] bool is_abandoned() const { return had_client_ && !clients_.any_but_onlookers(); }
   [[nodiscard]] bool over() const { return ended_ || simulation_.finished(); }
   [[nodiscard]] bool paced() const { return pace_.by_wall_clock(); }
   [[nodiscard]] bool in_turns() const noexcept {
@@ -224,6 +225,7 @@ class Host::Core {
   std::unique_ptr<Window> window_;
   std::thread pacer_;
 
+  bool had_client_ = false;
   bool mode_chosen_ = false;  ///< the world or a setting has set the time mode
   bool stop_pacing_ = false;
   bool ended_ = false;

@@ -47,6 +47,10 @@ std::unique_ptr<EventClient> Host::connect_events(int port, std::function<void()
   return std::make_unique<EventClient>(shared_from_this(), std::move(client));
 }
 
+bool Host::is_abandoned() const {
+  return InsideCore(*core_)->locked([this] { return core_->is_abandoned(); });
+}
+
 bool Host::advance(std::chrono::microseconds slice) { return core_->advance_for(slice); }
 void Host::check_silence() { core_->check_silence(); }
 void Host::watch_program() {

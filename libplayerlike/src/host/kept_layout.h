@@ -13,6 +13,8 @@
 namespace playerlike {
 
 inline constexpr std::uint64_t kKeptMagic = 0x706c617970656e31;  // "playpen1"
+/// Why a run with KeptHeader::conflict may not be repeatable.
+inline constexpr const char* kConflictWhy = "another program asked for the world in vain";
 inline constexpr std::size_t kKeptHeaderSize = 4096;
 /// Size of the whole memory; the system allocates only the pages in use.
 inline constexpr std::size_t kKeptSize = std::size_t{128} << 20U;
@@ -22,10 +24,11 @@ inline constexpr std::size_t kMostKeptBeams = 4096;
 
 /// The header of the memory.
 struct KeptHeader {
-  std::uint64_t magic = 0;               ///< kKeptMagic
-  std::atomic<std::uint32_t> phase{0};   ///< a KeptRun::Phase
-  std::atomic<std::uint32_t> noted{0};   ///< the first signal that requested the end; 0: none
-  std::atomic<std::int32_t> process{0};  ///< process id of the host
+  std::uint64_t magic = 0;                 ///< kKeptMagic
+  std::atomic<std::uint32_t> phase{0};     ///< a KeptRun::Phase
+  std::atomic<std::uint32_t> noted{0};     ///< the first signal that requested the end; 0: none
+  std::atomic<std::int32_t> process{0};    ///< process id of the host
+  std::atomic<std::uint32_t> conflict{0};  ///< nonzero after KeptRun::note_conflict()
   // The following is valid if robots > 0. Places are offsets from the beginning of the memory
   // [bytes].
   std::atomic<std::uint32_t> robots{0};

@@ -103,8 +103,14 @@ RunEnd run_end(const ProgramEnd& end) {
 }
 
 /// Updates the report's numbers to the last step.
-std::string completed_report(ordered_json report, const LastStep& last, const ProgramEnd& end) {
+/// @param conflict  see KeptRun::note_conflict().
+std::string completed_report(ordered_json report, const LastStep& last, const ProgramEnd& end,
+                             bool conflict) {
   ordered_json& run = report.at("run");
+  if (conflict) {
+    run["repeatable"] = false;
+    run["repeatable_why"] = {kConflictWhy};
+  }
   if (run.at("steps") != last.step.steps) run["state_hash"] = nullptr;
   run["steps"] = last.step.steps;
   run["sim_time"] = sim::to_seconds(last.step.now_ns);
@@ -336,8 +342,10 @@ bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
     }
   };
   if (phase != KeptRun::Phase::kReported) {
-    attempt("no report: ",
-            [&] { write_report(settings.output_folder, completed_report(report, *last, end)); });
+    attempt("no report: ", [&] {
+      write_report(settings.output_folder,
+                   completed_report(report, *last, end, header->conflict != 0));
+    });
   }
   attempt("no pictures: ",
           [&] { complete_pictures(memory, *header, *last, report, world, settings); });

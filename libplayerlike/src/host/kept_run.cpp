@@ -55,6 +55,8 @@ KeptRun::Phase KeptRun::phase() const noexcept {
                                                            : Phase::kNone;
 }
 
+void KeptRun::note_conflict() const noexcept { header_->conflict = 1; }
+
 int KeptRun::interrupt_noted() const noexcept {
   const std::uint32_t signal = header_->noted;
   return signal < NSIG ? static_cast<int>(signal) : 0;

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "host/supervisor.h"
+#include "playerlike/host/program_desk.h"
 #include "sim/core/number_text.h"
 #include "sim/world/realism.h"
 #include "sim/world/view_mode.h"
@@ -56,6 +57,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kTimeToEnd(1500);
 constexpr std::chrono::milliseconds kPollPeriod(20);
 constexpr std::chrono::milliseconds kSlowPollPeriod(200);
+constexpr std::chrono::milliseconds kDoubtPeriod(2);  ///< while ProgramDesk::is_busy()
 
 /// Blocks the relevant signals in this thread while a program runs, so that they can be read one by
 /// one from a descriptor. Signals that this process ignores, as under nohup, stay ignored.
@@ -337,6 +339,7 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   changes["PLAYPEN_VIRTUAL_TIME"] =
       settings.virtual_time ? std::optional<std::string>("1") : std::nullopt;
   changes["PLAYPEN_STATE"] = path_or_nothing(settings.kept_run);
+  changes["PLAYPEN_DESK"] = std::nullopt;
   changes["PLAYPEN_RUN"] = settings.quiet_end ? std::optional<std::string>("1") : std::nullopt;
   return changes;
 }
@@ -363,6 +366,15 @@ ProgramEnd run_program(const std::vector<std::string>& command,
       if (watch.on_end) watch.on_end(result);
       program.release();
       return result;
+    }
+    if (watch.desk != nullptr && watch.desk->conflict().empty()) {
+      watch.desk->handle(program.program());
+      if (!watch.desk->conflict().empty()) {
+        if (watch.tell) watch.tell(watch.desk->conflict());
+        if (watch.kept != nullptr) watch.kept->note_conflict();
+        static_cast<void>(requests.note(SIGTERM));
+        program.send_signal(SIGTERM);
+      }
     }
     if (program.take_stopped() && watch.tell) {
       watch.tell("the program has stopped itself (SIGSTOP): kill -CONT " +
@@ -393,9 +405,13 @@ ProgramEnd run_program(const std::vector<std::string>& command,
         !std::exchange(killed, true)) {
       program.kill_all();
     }
-    signals.wait({program.descriptor()}, requests.first() && !killed
-                                             ? Clock::duration(kPollPeriod)
-                                             : Clock::duration(kSlowPollPeriod));
+    std::vector<int> descriptors = {program.descriptor()};
+    Clock::duration at_most = requests.first() && !killed ? kPollPeriod : kSlowPollPeriod;
+    if (watch.desk != nullptr && watch.desk->conflict().empty()) {
+      for (const int descriptor : watch.desk->descriptors()) descriptors.push_back(descriptor);
+      if (watch.desk->is_busy()) at_most = kDoubtPeriod;
+    }
+    signals.wait(descriptors, at_most);
   }
 }
 

@@ -41,6 +41,9 @@ class Results {
     recorder_->goals().note(robot, place, tolerance_m, simulation_.now_ns());
   }
 
+  /// See KeptRun::note_conflict().
+  [[nodiscard]] bool conflict_noted() const noexcept { return kept_ && kept_->conflict_noted(); }
+
   [[nodiscard]] sim::SceneSnapshot scene() const { return recorder_->scene(simulation_); }
 
   std::map<int, RunLog> logs;  ///< by port; the logs that clients have asked for

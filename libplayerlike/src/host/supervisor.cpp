@@ -23,6 +23,7 @@
 #include <string_view>
 #include <utility>
 
+#include "host/processes.h"
 #include "process/end_of_program.h"
 
 namespace playerlike {
@@ -85,11 +86,12 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return result;
 }
 
-/// The parents of all living processes.
-std::map<pid_t, pid_t> parents_of_processes() {
-  std::map<pid_t, pid_t> parents;
+}  // namespace
+
+std::map<pid_t, ProcessState> living_processes() {
+  std::map<pid_t, ProcessState> processes;
   DIR* const folder = opendir("/proc");
-  if (folder == nullptr) return parents;
+  if (folder == nullptr) return processes;
   while (const dirent* entry = readdir(folder)) {
     const auto number = static_cast<pid_t>(std::strtol(entry->d_name, nullptr, 10));
     if (number <= 0) continue;
@@ -100,19 +102,21 @@ std::map<pid_t, pid_t> parents_of_processes() {
     if (name_end == std::string::npos || text.size() < name_end + 5) continue;
     if (text[name_end + 2] == 'Z') continue;
     const long parent = std::strtol(text.c_str() + name_end + 4, nullptr, 10);
-    parents[number] = static_cast<pid_t>(parent);
+    processes[number] = {static_cast<pid_t>(parent), text[name_end + 2], text};
   }
   closedir(folder);
-  return parents;
+  return processes;
 }
+
+namespace {
 
 /// The living descendants of this process, except for the spared children and their descendants.
 std::vector<pid_t> descendants(const std::set<pid_t>& spared) {
-  const std::map<pid_t, pid_t> parents = parents_of_processes();
+  const std::map<pid_t, ProcessState> processes = living_processes();
   std::vector<pid_t> found = {getpid()};
   for (std::size_t i = 0; i < found.size(); ++i) {
-    for (const auto& [process, parent] : parents) {
-      if (parent == found[i] && !spared.contains(process)) found.push_back(process);
+    for (const auto& [process, state] : processes) {
+      if (state.parent == found[i] && !spared.contains(process)) found.push_back(process);
     }
   }
   found.erase(found.begin());
@@ -431,8 +435,8 @@ std::set<pid_t> children() {
     for (pid_t child = 0; file >> child;) found.insert(child);
     return found;
   }
-  for (const auto& [process, parent] : parents_of_processes()) {
-    if (parent == getpid()) found.insert(process);
+  for (const auto& [process, state] : living_processes()) {
+    if (state.parent == getpid()) found.insert(process);
   }
   return found;
 }

@@ -25,7 +25,9 @@ namespace playerlike {
 ///   set, it means "localhost" instead, with a warning: this supports programs that name a real
 ///   robot's host.
 ///
-/// All clients with the same world file share one simulation, which exists until the program ends.
+/// All clients with the same world file share one simulation. That of "localhost" exists until the
+/// program ends, as on a Player server. That of "sim:FILE" ends with its last client: the next one
+/// starts a new simulation.
 /// @param port  Player port: a robot's port, or 4000 for all robots. Not the TCP port of a Playpen
 ///              server, but that of a Player server.
 /// @throws SessionError, sim::ConfigError.

@@ -36,6 +36,9 @@ class Host : public std::enable_shared_from_this<Host> {
   /// @throws SessionError kNoSuchDevice if no robot has that port; the message lists the ports.
   [[nodiscard]] std::unique_ptr<Session> connect(int port);
 
+  /// Whether there were clients and all have left. Onlookers do not count.
+  [[nodiscard]] bool is_abandoned() const;
+
   /// @name For servers and other event loops
   ///
   /// In lockstep, the event loop must call advance() to step a simulation with such clients.

@@ -37,6 +37,8 @@ class KeptRun {
   [[nodiscard]] Phase phase() const noexcept;
   /// The first signal that the host has noted as a request to end its run; 0: none.
   [[nodiscard]] int interrupt_noted() const noexcept;
+  /// Tells the host that another program of the run has asked for its world in vain.
+  void note_conflict() const noexcept;
 
  private:
   int descriptor_ = -1;

@@ -18,6 +18,8 @@
 /// settings to the program's embedded simulation (RunSettings::from_environment).
 namespace playerlike {
 
+class ProgramDesk;
+
 /// Error for a program that cannot be started, with a text for the user.
 class ProgramError : public std::runtime_error {
  public:
@@ -66,7 +68,9 @@ struct ProgramEnd {
 
 /// Data and callbacks that run_program() needs for the simulated run in its program.
 struct RunWatch {
-  const KeptRun* kept = nullptr;                      ///< current data of the program's host
+  const KeptRun* kept = nullptr;  ///< current data of the program's host
+  /// Where programs of the run ask for its world; a conflict ends the run.
+  ProgramDesk* desk = nullptr;
   std::function<void(const std::string&)> tell = {};  ///< receives messages for the user
   /// Called when the program and all its descendants have ended, while signals are still blocked.
   /// It runs in this process or, if this process was killed, in another process that then ends.
