@@ -237,10 +237,15 @@ std::vector<Outline> solids_of(const sim::ArenaDescription& arena) {
   return solids;
 }
 
-std::vector<Vec2> body_at(const sim::Polygon& footprint, const sim::Pose& X_WB) {
-  std::vector<Vec2> body;
-  for (const Vec2& p_B : footprint) body.push_back(X_WB * p_B);
-  return body;
+// The parts of a robot's body; none if it is not solid.
+std::vector<Outline> body_at(const sim::RobotModel& model, const sim::Pose& X_WB) {
+  std::vector<Outline> parts;
+  for (const sim::Polygon& part : sim::body_parts(model)) {
+    std::vector<Vec2> outline;
+    for (const Vec2& p_B : part) outline.push_back(X_WB * p_B);
+    if (model.solid) parts.emplace_back(std::move(outline));
+  }
+  return parts;
 }
 
 }  // namespace
@@ -279,14 +284,16 @@ void measure_clearances(RunData& run) {
     Track& track = run.tracks[i];
     if (models[i] == nullptr) continue;
     for (std::size_t row = 0; row < track.X_WB.size(); ++row) {
-      const Outline body(body_at(models[i]->footprint, track.X_WB[row]));
+      const std::vector<Outline> body = body_at(*models[i], track.X_WB[row]);
       double least_m = std::numeric_limits<double>::infinity();
-      for (const Outline& solid : solids) least_m = distance_m(body, solid, least_m);
+      const auto note = [&](const Outline& solid) {
+        for (const Outline& part : body) least_m = distance_m(part, solid, least_m);
+      };
+      for (const Outline& solid : solids) note(solid);
       for (std::size_t k = 0; k < run.tracks.size(); ++k) {
         const Track& other = run.tracks[k];
         if (k == i || models[k] == nullptr || row >= other.X_WB.size()) continue;
-        least_m =
-            distance_m(body, Outline(body_at(models[k]->footprint, other.X_WB[row])), least_m);
+        for (const Outline& part : body_at(*models[k], other.X_WB[row])) note(part);
       }
       if (!std::isfinite(least_m)) {  // the world has no solid objects
         track.clearance_m.clear();

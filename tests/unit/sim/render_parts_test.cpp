@@ -95,6 +95,43 @@ TEST(RenderParts, CropShowsThatPartAlone) {
   EXPECT_THROW(SceneRenderer{options}, std::invalid_argument);
 }
 
+// A robot with two arms: the floor is visible between them. 1 m is 924 px: x px = 38 + 924 x, y px
+// = 962 - 924 y. A marking under the robot, at x = 0.25 to 0.75, does not cover it.
+TEST(RenderParts, GapsOfABodyShowTheFloorAndMarkingsLieBeneathRobots) {
+  SceneSnapshot scene = scene_of(1);  // at (0.5, 0.5)
+  scene.robots[0].parts = {{{-0.1, -0.1}, {0.0, -0.1}, {0.0, 0.1}, {-0.1, 0.1}},
+                           {{0.0, 0.04}, {0.1, 0.04}, {0.1, 0.1}, {0.0, 0.1}},
+                           {{0.0, -0.1}, {0.1, -0.1}, {0.1, -0.04}, {0.0, -0.04}}};
+  RenderOptions options = plain();
+  options.part = ScenePart{{0.0, 0.0}, {1.0, 1.0}, false};
+  const auto at = [&](const Image& image, double x_m, double y_m) {
+    return pixel(image, 38.0 + 924.0 * x_m, 962.0 - 924.0 * y_m);
+  };
+  Image image = draw_scene(scene, options);
+  EXPECT_TRUE(is_blue(at(image, 0.45, 0.57)));
+  EXPECT_TRUE(is_blue(at(image, 0.55, 0.57)));
+  EXPECT_TRUE(is_blue(at(image, 0.55, 0.43)));
+  EXPECT_FALSE(is_blue(at(image, 0.57, 0.5))) << "between the arms";
+  EXPECT_TRUE(is_blue(at(image, 0.5, 0.57))) << "no line where two parts meet";
+
+  ObstacleDescription marking;
+  marking.name = "zone";
+  marking.center = {0.5, 0.5};
+  marking.size = {0.5, 0.5};
+  marking.colour = Colour{0xff, 0, 0, 0xff};
+  marking.solid = false;
+  scene.arena.obstacles = {marking};
+  image = draw_scene(scene, options);
+  EXPECT_TRUE(is_blue(at(image, 0.55, 0.57)));
+  EXPECT_TRUE(is_red(at(image, 0.57, 0.5)));
+  EXPECT_TRUE(is_red(at(image, 0.35, 0.35)));
+  // A solid block at the right has a shadow at its lower right, a marking has none.
+  const Rgb floor = at(image, 0.85, 0.45);  // away from the grid of 0.1 m
+  EXPECT_EQ(at(image, 0.753, 0.45), floor);
+  scene.arena.obstacles[0].solid = true;
+  EXPECT_NE(at(draw_scene(scene, options), 0.753, 0.45), floor);
+}
+
 TEST(RenderParts, ALargeWorldCanBeShownInASmallPart) {
   SceneSnapshot scene = scene_of(1);
   scene.arena.size = {20000.0, 20000.0};
