@@ -252,14 +252,15 @@ bool Gripper::is_stopped_at(const StepContext& now, double gap_m) const {
     const Vec2 p_WA = X_WG * Vec2(0.0, side * gap_m);
     const Vec2 p_WC = X_WG * Vec2(params_.length_m, side * gap_m);
     if (now.physics.is_inside_solid(p_WA, params_.height_m, now.robot) ||
-        !now.physics.is_line_free(p_WA, p_WC, params_.height_m, now.robot, nothing())) {
+        !now.physics.is_line_free(p_WA, p_WC, params_.height_m, now.robot, nothing(), true)) {
       return true;
     }
   }
   return false;
 }
 
-// Whether an object breaks the beam across the gap at x in G.
+// Whether an object breaks the beam across the gap at x in G. Of what is not solid only objects do
+// that grippers take.
 bool Gripper::is_broken(const StepContext& now, double x_m) const {
   const double half_m = 0.5 * gap_m();
   const Pose X_WG = now.body.X_WB * X_BG_;
@@ -268,10 +269,20 @@ bool Gripper::is_broken(const StepContext& now, double x_m) const {
     const auto reach = reach_across(X_BG_.inverse() * held_->X_BT, thing, x_m, x_m);
     if (reach && reach->first <= half_m && reach->second >= -half_m) return true;
   }
+  const Pose X_GW = X_WG.inverse();
+  for (const ObstacleDescription& thing : now.world.arena.obstacles) {
+    if (thing.solid || !thing.portable || thing.carried_by >= 0 ||
+        thing.state != ObstacleState::kExtended ||
+        !reaches_height(thing.height_m, params_.height_m)) {
+      continue;
+    }
+    const auto reach = reach_across(X_GW * pose_of(thing), thing, x_m, x_m);
+    if (reach && reach->first <= half_m && reach->second >= -half_m) return true;
+  }
   const Vec2 p_WA = X_WG * Vec2(x_m, half_m);
   const Vec2 p_WC = X_WG * Vec2(x_m, -half_m);
   return now.physics.is_inside_solid(p_WA, params_.height_m, now.robot) ||
-         !now.physics.is_line_free(p_WA, p_WC, params_.height_m, now.robot, nothing());
+         !now.physics.is_line_free(p_WA, p_WC, params_.height_m, now.robot, nothing(), true);
 }
 
 void Gripper::measure(const StepContext& context) {

@@ -117,7 +117,7 @@ void Bodies::add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int 
   } else if (o.shape == ObstacleShape::kCircle) {
     FixtureInfo* info = new_part();
     info->cylinder = static_cast<int>(cylinders_.size());
-    cylinders_.push_back({o.center, radius_m(o), o.height_m, index, o.bottom_m});
+    cylinders_.push_back({o.center, radius_m(o), o.height_m, index, o.bottom_m, o.solid});
     attach(body, circle_shape(o.center, radius_m(o)), info, 0.0F);
   } else if (o.shape == ObstacleShape::kBox || is_one_polygon(corners)) {
     FixtureInfo* info = new_part();
@@ -241,8 +241,8 @@ void Bodies::change_obstacle(int index, const ObstacleDescription& now) {
     FixtureInfo* info = infos_[parts.first_info + part].get();
     info->height_m = standing_height_m(now);
     if (info->cylinder >= 0) {
-      cylinders_[static_cast<std::size_t>(info->cylinder)] = {now.center, radius_m(now),
-                                                              standing_height_m(now), index};
+      cylinders_[static_cast<std::size_t>(info->cylinder)] = {
+          now.center, radius_m(now), standing_height_m(now), index, now.solid};
       attach(&body, circle_shape(now.center, radius_m(now)), info, 0.0F);
     } else if (parts.count == 1) {
       attach(&body, polygon_shape(corners), info, 0.0F);
@@ -342,7 +342,7 @@ int Bodies::add_moving_obstacle(int index, const ObstacleDescription& o) {
   d.info = new_info(Contact::Kind::kObstacle, index, o.height_m);
   d.info->solid = o.solid;
   if (d.round) {
-    d.round_load.push_back({Vec2::Zero(), r.radius_m, d.height_m, index});
+    d.round_load.push_back({Vec2::Zero(), r.radius_m, d.height_m, index, o.solid});
   }
   has_pushable_ = has_pushable_ || r.pushable;
   if (r.pushable) d.obstacle.friction_mps2 = o.friction * kGravity_mps2;

@@ -38,6 +38,7 @@ struct Cylinder {
   double height_m;
   int obstacle;  ///< its index in the arena
   double bottom_m = 0.0;
+  bool solid = true;
 };
 
 struct Edge {

@@ -182,8 +182,8 @@ bool PhysicsWorld::is_inside_solid(const Vec2& p_W, double height_m, int own_rob
 }
 
 bool PhysicsWorld::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, int own_robot,
-                                const Contact& target) const {
-  return impl_->sensor_view.is_line_free(p_WA, p_WC, height_m, own_robot, target);
+                                const Contact& target, bool solid_only) const {
+  return impl_->sensor_view.is_line_free(p_WA, p_WC, height_m, own_robot, target, solid_only);
 }
 
 double PhysicsWorld::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m,

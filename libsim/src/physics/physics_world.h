@@ -163,8 +163,10 @@ class PhysicsWorld {
   /// that contains the line's start is ignored.
   /// @param own_robot  robot whose body is ignored, or -1.
   /// @param target     an obstacle or a robot that is ignored too; its member `robot` is not used.
+  /// @param solid_only  ignores what is not solid, too.
   [[nodiscard]] bool is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m,
-                                  int own_robot, const Contact& target) const;
+                                  int own_robot, const Contact& target,
+                                  bool solid_only = false) const;
 
   /// Writes the state, or reads the state of a world with the same arena and robots. It does not
   /// include what robots carry; the caller restores that with set_load().

@@ -289,7 +289,8 @@ void SensorView::visit_cylinders(const Vec2& low, const Vec2& high, Visitor visi
 // The least fraction of the line from A to C at which it enters a round obstacle at a height, or at
 // any; 1 if it enters none. Exact, while circles in Box2D have a skin.
 double SensorView::cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC,
-                                     std::optional<double> height_m, const Contact* ignored) {
+                                     std::optional<double> height_m, const Contact* ignored,
+                                     bool solid_only) {
   if (bodies_.cylinders().empty()) return 1.0;
   const double length_m = (p_WC - p_WA).norm();
   const Vec2 along = (p_WC - p_WA) / length_m;
@@ -297,6 +298,7 @@ double SensorView::cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC,
   visit_cylinders(p_WA.cwiseMin(p_WC), p_WA.cwiseMax(p_WC), [&](const Cylinder& cylinder) {
     if (height_m && !spans_height(cylinder.bottom_m, cylinder.height_m, *height_m)) return;
     if (is_within(cylinder, p_WA)) return;
+    if (solid_only && !cylinder.solid) return;
     if (ignored != nullptr && ignored->kind == Contact::Kind::kObstacle &&
         ignored->index == cylinder.obstacle) {
       return;
@@ -442,12 +444,12 @@ void SensorView::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
 }
 
 bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, int own_robot,
-                              const Contact& target) {
+                              const Contact& target, bool solid_only) {
   struct Blocked : b2RayCastCallback {
     float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float) override {
       const FixtureInfo& info = info_of(fixture);
       const bool wanted = info.kind == target_kind && info.index == target_index;
-      if (info.cylinder >= 0) return -1.0F;
+      if (info.cylinder >= 0 || (solid_only && !info.solid)) return -1.0F;
       if (info.body >= 0 || wanted) return -1.0F;
       if (!spans_height(info.bottom_m, info.height_m, height_m)) return -1.0F;
       blocked = true;
@@ -456,8 +458,10 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
     double height_m = 0.0;
     Contact::Kind target_kind = Contact::Kind::kRobot;
     int target_index = -1;
+    bool solid_only = false;
     bool blocked = false;
   } callback;
+  callback.solid_only = solid_only;
   callback.height_m = height_m;
   callback.target_kind = target.kind;
   callback.target_index = target.index;
@@ -470,6 +474,7 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
       p_WA, p_WC,
       [&](int robot) {
         return robot != own_robot && robot != target_robot &&
+               (!solid_only || bodies_.robot(robot).details->info->solid) &&
                reaches_height(bodies_.robot(robot).details->height_m, height_m);
       },
       [&](float) {
@@ -481,7 +486,7 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
     if (robot == own_robot || robot == target_robot) continue;
     if (entry_of_superstructures(bodies_.robot(robot), p_WA, p_WC, height_m) < 1.0) return false;
   }
-  if (cast_at_cylinders(p_WA, p_WC, height_m, &target) < 1.0) return false;
+  if (cast_at_cylinders(p_WA, p_WC, height_m, &target, solid_only) < 1.0) return false;
   bodies_.world().RayCast(&callback, to_box2d(p_WA), to_box2d(p_WC));
   return !callback.blocked;
 }
@@ -561,7 +566,7 @@ double SensorView::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_m
     closest.fraction = std::min(closest.fraction, static_cast<float>(share));
   }
   return std::min(static_cast<double>(closest.fraction),
-                  cast_at_cylinders(p_WL, end, std::nullopt, nullptr)) *
+                  cast_at_cylinders(p_WL, end, std::nullopt, nullptr, false)) *
          range_max_m;
 }
 

@@ -40,7 +40,7 @@ class SensorView {
   void collect_faces(const Vec2& low, const Vec2& high, int own_robot, std::vector<Face>& faces);
   [[nodiscard]] bool is_inside_solid(const Vec2& p_W, double height_m, int own_robot);
   [[nodiscard]] bool is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m,
-                                  int own_robot, const Contact& target);
+                                  int own_robot, const Contact& target, bool solid_only);
   [[nodiscard]] double ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m,
                                   int own_robot);
 
@@ -79,7 +79,8 @@ class SensorView {
   template <typename Visitor>
   void visit_cylinders(const Vec2& low, const Vec2& high, Visitor visit);
   [[nodiscard]] double cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC,
-                                         std::optional<double> height_m, const Contact* ignored);
+                                         std::optional<double> height_m, const Contact* ignored,
+                                         bool solid_only);
   static void append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out);
   [[nodiscard]] static double entry_of_superstructures(const Robot& r, const Vec2& p_WA,
                                                        const Vec2& p_WC,
