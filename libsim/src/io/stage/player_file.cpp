@@ -621,18 +621,21 @@ class PlayerFile {
       if (address.interface != "position2d") continue;
       requires_one = true;
       if (!driver_of(address).empty()) {
-        other = &address;
+        if (other == nullptr || address.key == key) other = &address;
       } else if (owner_of(address) == &robot &&
                  (best == nullptr || (address.key == key && best->key != key))) {
         best = &address;
       }
     }
-    if (best != nullptr) return local_index(robot, "position2d", best->index);
+    const int index = best == nullptr ? 0 : local_index(robot, "position2d", best->index);
+    if (best != nullptr && (other == nullptr || other->key != key || best->key == key)) {
+      return index;
+    }
     if (other == nullptr) return requires_one ? std::nullopt : std::optional(0);
     report_.note("position of " + driver.name, other->place,
                  "the driver " + in_quotes(driver.name) + " uses the robot's position, not " +
                      in_quotes(other->text) + " of the driver " + in_quotes(driver_of(*other)));
-    return 0;
+    return index;
   }
 
   bool leave_out_without_position(const OtherDriver& driver) {
