@@ -320,6 +320,10 @@ class PlayerFile {
       everywhere_.emplace_back(&robot, address);
       return true;
     }
+    if (const RobotDraft* owner = owner_of(address); owner != nullptr && owner != &robot) {
+      taken_twice(address, owner->stage_name);
+      return true;
+    }
     if (address.interface == "position2d") {
       if (!bound_.emplace(&robot, "position2d").second) return false;
       note_port(robot, address);
@@ -338,6 +342,17 @@ class PlayerFile {
       return true;
     }
     return false;
+  }
+
+  void taken_twice(const Address& address, const std::string& owner) {
+    if (must_match_) {
+      report_.error(address.place, "stage/bad-address", "an address that no other driver has",
+                    in_quotes(address.text) + ", which " + owner + " has",
+                    "robots that share a port have different indexes, as in \"position2d:1\"");
+      return;
+    }
+    report_.note("address " + address.text, address.place,
+                 "the address " + in_quotes(address.text) + " is left out: " + owner + " has it");
   }
 
   /// Notes an address of an interface that every robot or world has, if it has another index there.
