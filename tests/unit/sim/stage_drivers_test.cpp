@@ -301,6 +301,20 @@ TEST(StageDrivers, APlannerWhoseOutputIsTheRobotDrivesStraight) {
   EXPECT_THAT(world.notes, testing::ElementsAre(HasSubstr("w.cfg:3: the robot's position drives")));
 }
 
+TEST(StageDrivers, ThatReadThePositionOfAnotherDriverUseTheRobots) {
+  const WorldDescription world = read(
+      "driver ( name \"nd\" provides [\"position2d:1\"] requires\n"
+      "  [\"output:::position2d:0\" \"input:::position2d:2\" \"ranger:0\"] )\n"
+      "driver ( name \"amcl\" provides [\"localize:0\" \"position2d:2\"] requires\n"
+      "  [\"odometry:::position2d:0\" \"ranger:0\" \"laser:::map:0\"] )\n");
+  ASSERT_THAT(world.robots[0].drivers, SizeIs(1));
+  EXPECT_EQ(world.robots[0].drivers[0].settings.at("position"), "0");
+  EXPECT_THAT(world.notes,
+              Contains(HasSubstr("w.cfg:4: the driver \"nd\" uses the robot's position, "
+                                 "not \"input:::position2d:2\" of the driver "
+                                 "\"amcl\"")));
+}
+
 TEST(StageDrivers, AnglesAreInTheUnitOfTheFile) {
   const WorldDescription world = read(
       "unit_angle \"radians\" unit_length \"cm\"\n"

@@ -639,5 +639,30 @@ TEST_F(StageFiles, TheSpeedOfStagesWindowIsAnOptionHere) {
               ElementsAre(HasSubstr("unless --time 2 gives")));
 }
 
+TEST_F(StageFiles, TwoRobotsCannotHaveOneAddress) {
+  const std::string robots =
+      "position ( name \"a\" size [0.4 0.4 0.2] )\n"
+      "position ( name \"b\" size [0.4 0.4 0.2] pose [2 0 0 0] )\n";
+  const std::string config =
+      folder_.write("w.cfg",
+                    "driver ( name \"stage\" provides [\"simulation:0\"] worldfile \"w.world\" )\n"
+                    "driver ( name \"stage\" provides [\"position2d:0\"] model \"a\" )\n"
+                    "driver ( name \"stage\" provides [\"position2d:0\"] model \"b\" )\n");
+  const WorldDescription world = read(robots);
+  EXPECT_EQ(world.robots[0].port, 6665);
+  EXPECT_EQ(world.robots[1].port, 6666);
+  EXPECT_THAT(
+      world.notes,
+      ElementsAre(HasSubstr("w.cfg:3: the address \"position2d:0\" is left out: a has it")));
+  // Player refuses the file itself (libplayercore/devicetable.cc: "duplicate device addr").
+  try {
+    static_cast<void>(load_world(config));
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.issues().front().id, "stage/bad-address");
+    EXPECT_EQ(error.issues().front().line, 3);
+  }
+}
+
 }  // namespace
 }  // namespace sim

@@ -320,6 +320,10 @@ class PlayerFile {
       everywhere_.emplace_back(&robot, address);
       return true;
     }
+    if (const RobotDraft* owner = owner_of(address); owner != nullptr && owner != &robot) {
+      taken_twice(address, owner->stage_name);
+      return true;
+    }
     if (address.interface == "position2d") {
       if (!bound_.emplace(&robot, "position2d").second) return false;
       note_port(robot, address);
@@ -338,6 +342,17 @@ class PlayerFile {
       return true;
     }
     return false;
+  }
+
+  void taken_twice(const Address& address, const std::string& owner) {
+    if (must_match_) {
+      report_.error(address.place, "stage/bad-address", "an address that no other driver has",
+                    in_quotes(address.text) + ", which " + owner + " has",
+                    "robots that share a port have different indexes, as in \"position2d:1\"");
+      return;
+    }
+    report_.note("address " + address.text, address.place,
+                 "the address " + in_quotes(address.text) + " is left out: " + owner + " has it");
   }
 
   /// Notes an address of an interface that every robot or world has, if it has another index there.
@@ -621,18 +636,21 @@ class PlayerFile {
       if (address.interface != "position2d") continue;
       requires_one = true;
       if (!driver_of(address).empty()) {
-        other = &address;
+        if (other == nullptr || address.key == key) other = &address;
       } else if (owner_of(address) == &robot &&
                  (best == nullptr || (address.key == key && best->key != key))) {
         best = &address;
       }
     }
-    if (best != nullptr) return local_index(robot, "position2d", best->index);
+    const int index = best == nullptr ? 0 : local_index(robot, "position2d", best->index);
+    if (best != nullptr && (other == nullptr || other->key != key || best->key == key)) {
+      return index;
+    }
     if (other == nullptr) return requires_one ? std::nullopt : std::optional(0);
     report_.note("position of " + driver.name, other->place,
                  "the driver " + in_quotes(driver.name) + " uses the robot's position, not " +
                      in_quotes(other->text) + " of the driver " + in_quotes(driver_of(*other)));
-    return 0;
+    return index;
   }
 
   bool leave_out_without_position(const OtherDriver& driver) {
