@@ -242,7 +242,7 @@ void Bodies::change_obstacle(int index, const ObstacleDescription& now) {
     info->height_m = standing_height_m(now);
     if (info->cylinder >= 0) {
       cylinders_[static_cast<std::size_t>(info->cylinder)] = {
-          now.center, radius_m(now), standing_height_m(now), index, now.solid};
+          now.center, radius_m(now), standing_height_m(now), index, now.bottom_m, now.solid};
       attach(&body, circle_shape(now.center, radius_m(now)), info, 0.0F);
     } else if (parts.count == 1) {
       attach(&body, polygon_shape(corners), info, 0.0F);
@@ -342,7 +342,7 @@ int Bodies::add_moving_obstacle(int index, const ObstacleDescription& o) {
   d.info = new_info(Contact::Kind::kObstacle, index, o.height_m);
   d.info->solid = o.solid;
   if (d.round) {
-    d.round_load.push_back({Vec2::Zero(), r.radius_m, d.height_m, index, o.solid});
+    d.round_load.push_back({Vec2::Zero(), r.radius_m, d.height_m, index, o.bottom_m, o.solid});
   }
   has_pushable_ = has_pushable_ || r.pushable;
   if (r.pushable) d.obstacle.friction_mps2 = o.friction * kGravity_mps2;
