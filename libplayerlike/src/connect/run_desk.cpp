@@ -69,7 +69,7 @@ struct Desk {
       auto* made = new Desk;
       const char* const value = std::getenv("PLAYPEN_DESK");
       if (value != nullptr && std::strlen(value) + 1 < sizeof made->name) {
-        std::strcpy(made->name, value);
+        std::copy_n(value, std::strlen(value) + 1, made->name);
       }
       made->connect();
       if (made->descriptor >= 0) pthread_atfork(before_fork, after_fork, after_fork_in_child);
