@@ -83,12 +83,16 @@ void add_picture_options(CommandLine& line, CLI::App& command,
 }
 
 void add_robot_port(CLI::App& command, playerlike::RunSettings& settings,
-                    const std::string& expected) {
+                    const std::string& expected, int* free_port) {
   add_parsed(command, "--port",
              "Player port of the first robot, the one with the lowest port; others keep their "
              "distance to it [the world's]",
-             "PORT", expected, [&settings](const std::string& text) {
+             "PORT", expected, [&settings, free_port](const std::string& text) {
                int port = 0;
+               if (free_port != nullptr && text == "0") {
+                 *free_port = 0;
+                 return true;
+               }
                const bool good = playerlike::parse_robot_port(text, port);
                if (good) settings.robot_port = port;
                return good;

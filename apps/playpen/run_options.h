@@ -19,9 +19,10 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
                       const std::string& default_time);
 
 /// Adds --port.
-/// @param expected  description of its values, for messages.
+/// @param expected   description of its values, for messages.
+/// @param free_port  of a server: what becomes 0 by the value 0, which is no robot's port; or nullptr.
 void add_robot_port(CLI::App& command, playerlike::RunSettings& settings,
-                    const std::string& expected);
+                    const std::string& expected, int* free_port = nullptr);
 
 /// Adds the options for the contents of pictures and films: --follow, --crop, --hide and
 /// --colour-by.

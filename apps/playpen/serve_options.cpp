@@ -80,7 +80,8 @@ void add_serve(CommandLine& line) {
   add_world(line, command, request->world);
   add_robot_port(command, request->settings,
                  std::string(playerlike::kRobotPortExpected) +
-                     "; --tcp-port sets the port of Playpen's and MORSE's clients");
+                     "; --tcp-port sets the port of Playpen's and MORSE's clients",
+                 &server.port);  // 0 was its value for any free TCP port
   add_port(command, "--tcp-port",
            "TCP port of Playpen's and MORSE's clients; 0: any free one [4000]", server.port);
   command

@@ -284,7 +284,6 @@ TEST_F(PlaypenServe, BadOptionsAreRefusedByNameAndValue) {
   for (const Case& c : std::vector<Case>{{"--tcp-port", "65536"},
                                          {"--tcp-port", "http"},
                                          {"--port", "4000"},
-                                         {"--port", "0"},
                                          {"--stream-port", "70000"},
                                          {"--sync-port", "x"},
                                          {"--player-port", "65536"},

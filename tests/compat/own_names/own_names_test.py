@@ -78,7 +78,7 @@ class Programs:
 
     def server(self):
         """The address of a new server."""
-        command = [self.playpen, "serve", self.world, "--port", "0", "--time", "lockstep", "--out",
+        command = [self.playpen, "serve", self.world, "--tcp-port", "0", "--time", "lockstep", "--out",
                    str(self.folder / "served")]
         self.servers.append(subprocess.Popen(command, stdout=subprocess.PIPE, text=True))
         return re.fullmatch(r"listening on (\S+)\n", self.servers[-1].stdout.readline())[1]
