@@ -75,6 +75,31 @@ struct Rig {
   Simulation::DeviceId gripper;
 };
 
+// A marking under the paddles does not disturb. A portable can that is not solid is an object like
+// others.
+TEST(Gripper, IgnoresMarkingsAndTakesObjectsThatAreNotSolid) {
+  const std::string marking =
+      R"({"name": "line", "center": [1.13, 1], "size": [0.5, 0.5], "solid": false})";
+  Rig empty(marking);
+  empty.run(10);
+  EXPECT_FALSE(empty.reading().outer_beam);
+  EXPECT_FALSE(empty.reading().inner_beam);
+  ASSERT_FALSE(empty.grip(Action::kClose));
+  empty.run(150);
+  EXPECT_EQ(empty.reading().state, GripperState::kClosed);
+  EXPECT_FALSE(empty.reading().holding);
+
+  // The inner beam is at x = 1.107, the side of the can; the outer one at 1.147.
+  Rig rig(marking + R"(, {"name": "can", "center": [1.127, 1], "size": [0.041, 0.04],)" +
+          R"("portable": true, "solid": false})");
+  rig.run(10);
+  EXPECT_TRUE(rig.reading().inner_beam);
+  EXPECT_TRUE(rig.reading().outer_beam);
+  ASSERT_FALSE(rig.grip(Action::kClose));
+  rig.run(150);
+  EXPECT_TRUE(rig.reading().holding);
+}
+
 TEST(ReachAcross, IsThatOfThePartInTheStrip) {
   // A box of 0.2 x 0.1 centred at (0.3, 0.05): x = 0.2 .. 0.4, y = 0 .. 0.1.
   const Vec2 size(0.2, 0.1);
