@@ -20,7 +20,8 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
 
 /// Adds --port.
 /// @param expected   description of its values, for messages.
-/// @param free_port  of a server: what becomes 0 by the value 0, which is no robot's port; or nullptr.
+/// @param free_port  of a server: what becomes 0 by the value 0, which is no robot's port; or
+/// nullptr.
 void add_robot_port(CLI::App& command, playerlike::RunSettings& settings,
                     const std::string& expected, int* free_port = nullptr);
 
