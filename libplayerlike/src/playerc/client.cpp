@@ -122,13 +122,12 @@ void Client::end_round() {
 
 void* Client::deliver() {
   if (mode == PLAYERC_DATAMODE_PUSH) return deliver_next();
+  if (pending_.empty()) return nullptr;
   const std::weak_ptr<const char> exists = exists_;
-  bool any = false;
-  while (deliver_next() != nullptr) {
-    if (exists.expired()) return nullptr;  // a callback has destroyed the client
-    any = true;
+  void* const own_id = id;
+  while (!exists.expired() && deliver_next() != nullptr) {  // a callback may destroy the client
   }
-  return any ? id : nullptr;
+  return own_id;
 }
 
 void* Client::deliver_next() {

@@ -41,9 +41,9 @@ class Client final : public playerc_client_t {
   [[nodiscard]] bool peek(std::chrono::milliseconds timeout);
   /// Waits for a round of data. @throws PlayerError also at the end of the run.
   void read_round();
-  /// Delivers what one read delivers. @return PULL: the client itself; PUSH: the next device with
-  /// new data, or the client itself after a round without data. Null if there was nothing to
-  /// deliver, or if a callback has destroyed the client.
+  /// Delivers what one read delivers. @return PULL: the client itself, also if a callback has
+  /// destroyed it; PUSH: the next device with new data, or the client itself after a round without
+  /// data. Null if there was nothing to deliver.
   void* deliver();
 
   void add(Device& device);
