@@ -83,7 +83,7 @@ void add_picture_options(CommandLine& line, CLI::App& command,
 }
 
 void add_robot_port(CLI::App& command, playerlike::RunSettings& settings,
-                    const std::string& expected, int* free_port) {
+                    const std::string& expected, std::optional<int>* free_port) {
   add_parsed(command, "--port",
              "Player port of the first robot, the one with the lowest port; others keep their "
              "distance to it [the world's]",

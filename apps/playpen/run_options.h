@@ -23,7 +23,7 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
 /// @param free_port  of a server: what becomes 0 by the value 0, which is no robot's port; or
 /// nullptr.
 void add_robot_port(CLI::App& command, playerlike::RunSettings& settings,
-                    const std::string& expected, int* free_port = nullptr);
+                    const std::string& expected, std::optional<int>* free_port = nullptr);
 
 /// Adds the options for the contents of pictures and films: --follow, --crop, --hide and
 /// --colour-by.
