@@ -27,6 +27,7 @@
 #include "sim/devices/localization.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/rangers.h"
+#include "sim/world/limits.h"
 
 namespace CCMorse {
 
@@ -384,7 +385,7 @@ MorseRanger::MorseRanger(const MorseRobot& aRobot, const std::string& aName, con
     : MorseSensor(aRobot, aName, aType, aClass) {
   // Bounds the value that a server sends.
   const auto count = static_cast<std::size_t>(
-      std::clamp(GetProperty("count", 0.0), 0.0, double{sim::RangerParams::kMaxTransducers}));
+      std::clamp(GetProperty("count", 0.0), 0.0, double{sim::kMostTransducers}));
   for (std::size_t i = 0; i < count; ++i) {
     const std::string number = std::to_string(i);
     mMounts.push_back({GetProperty(("mount_x_" + number).c_str(), 0.0),

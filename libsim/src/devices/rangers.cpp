@@ -14,6 +14,7 @@
 #include "sim/devices/laser.h"
 #include "sim/devices/robot_snapshot.h"
 #include "sim/io/reader.h"
+#include "sim/world/limits.h"
 #include "sim/world/outline.h"
 
 namespace sim {
@@ -224,7 +225,7 @@ constexpr Field kRangerSettings[] = {
     height_field<&RangerParams::height_m>("above the floor; lower obstacles are not seen"),
     field<&RangerParams::X_BS>("mounts", "m, degrees",
                                "poses of the transducers on the body, X_BS; at most 1024 of them")
-        .counting(0, RangerParams::kMaxTransducers)
+        .counting(0, kMostTransducers)
         .property_name("mount")
         .listing_elements(),
     field<&RangerParams::ranges_max_m>(
@@ -242,7 +243,7 @@ constexpr Field kRangerSettings[] = {
 };
 SIM_FIELDS(RangerParams, kRangerSettings)
 
-static_assert(RangerParams::kMaxTransducers == 1024, "the texts above say so");
+static_assert(kMostTransducers == 1024, "the texts above say so");
 
 constexpr Field kInfrared[] = {
     include<InfraredParams, RangerParams>(),

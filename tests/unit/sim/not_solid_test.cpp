@@ -17,7 +17,8 @@ namespace sim {
 namespace {
 
 using testing::Each;
-using testing::IsEmpty;
+using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::SizeIs;
 
 // r1 stands at (1, 1) and faces along x; its laser is 0.1 m high and looks straight ahead.
@@ -134,7 +135,8 @@ model ( name "box" size [0.1 0.1 0.1] pose [0 3 0 0] )
   EXPECT_EQ(world.robots[0].pose.x_m, 0.0) << "it stands on the line and in the other robot";
   EXPECT_TRUE(find_robot_model(world, world.robots[0].model)->solid);
   EXPECT_FALSE(find_robot_model(world, world.robots[1].model)->solid);
-  EXPECT_THAT(world.notes, IsEmpty());
+  EXPECT_THAT(world.notes,
+              ElementsAre(HasSubstr("w.world:6: robots drive through this floor plan")));
 }
 
 }  // namespace

@@ -368,11 +368,11 @@ TEST(ReadWorld, FilesThatCannotBeReadAreExplained) {
 
 TEST(ReadWorld, FilesWithStagesExtensionMayBeJson) {
   const test_support::TemporaryFolder folder;
-  // An extension alone does not make a file of Stage, and neither does an empty file.
+  // An extension alone does not make a file of Stage, unless the file is empty.
   EXPECT_THAT(issues_of_file(folder.write("json.world", "// ours\n{}")), testing::IsEmpty());
   const std::vector<ConfigIssue> empty = issues_of_file(folder.write("empty.world", " \n"));
   ASSERT_THAT(empty, SizeIs(1));
-  EXPECT_EQ(empty[0].id, "file/empty");
+  EXPECT_EQ(empty[0].id, "stage/empty");
 }
 
 TEST(ReadWorld, TextsBeyondTheLimitsAreRefused) {

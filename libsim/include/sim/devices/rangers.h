@@ -29,9 +29,6 @@ struct RangerParams {
   std::vector<double> heights_m;  ///< of each transducer; empty: height_m
   double range_min_m = 0.0;       ///< least range, for clients, [0, 1000]; ranges are not changed
   double intensity = 0.0;         ///< of each echo, for clients, [0, 1e6]; 0: none is measured
-
-  /// Maximum number of transducers of a ranger.
-  static constexpr int kMaxTransducers = 1024;
 };
 
 /// Infrared rangers; by default a ring of eight single rays around an S1R, with 0.8 m range.

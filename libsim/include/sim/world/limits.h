@@ -26,6 +26,9 @@ inline constexpr std::size_t kMostBodyParts = 16;
 /// Maximum number of superstructures of a robot model.
 inline constexpr std::size_t kMostSuperstructures = 32;
 
+/// Maximum number of transducers of an infrared ranger or sonar.
+inline constexpr std::size_t kMostTransducers = 1024;
+
 /// Heights that differ by less are equal [m]: sums such as 0.37 - 0.02 + 0.05 + 0.01 and 0.41
 /// differ by rounding only.
 inline constexpr double kSameHeight_m = 1e-6;

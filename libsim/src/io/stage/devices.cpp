@@ -9,7 +9,7 @@
 #include "io/document.h"
 #include "io/stage/colours.h"
 #include "io/stage/draft.h"
-#include "sim/devices/rangers.h"
+#include "sim/world/limits.h"
 
 namespace sim::io::stage {
 namespace {
@@ -156,7 +156,6 @@ Pose first_ray(const Transducer& transducer) {
 /// Transducers with one ray each, or none: a sonar. Programs see the settings of the first one.
 void add_ring(const std::vector<Transducer>& transducers, const Mount& mount, double frequency_hz,
               const Context& context, RobotDraft& robot) {
-  constexpr std::size_t kMost = RangerParams::kMaxTransducers;
   const Transducer first = transducers.empty() ? Transducer{} : transducers.front();
   Json sonar;
   double range_max_m = transducers.empty() ? first.range_max_m : 0.0;
@@ -166,10 +165,10 @@ void add_ring(const std::vector<Transducer>& transducers, const Mount& mount, do
   std::vector<double> ranges_m;
   std::vector<double> heights_m;
   for (const Transducer& transducer : transducers) {
-    if (mounts.size() == kMost) {
-      context.report.note(
-          "transducers", transducer.place,
-          "a ring of at most " + std::to_string(kMost) + " transducers; further ones are left out");
+    if (mounts.size() == kMostTransducers) {
+      context.report.note("transducers", transducer.place,
+                          "a ring of at most " + std::to_string(kMostTransducers) +
+                              " transducers; further ones are left out");
       break;
     }
     ranges_m.push_back(range_of(transducer.range_max_m));

@@ -11,6 +11,7 @@
 
 #include "io/document.h"
 #include "io/stage/left_out.h"
+#include "io/stage/version.h"
 #include "sim/core/number_text.h"
 #include "sim/world/limits.h"
 #include "sim/world/outline.h"
@@ -88,7 +89,7 @@ class Translator {
   };
 
   void read_world(const std::string& name) {
-    read_version();
+    read_version(root_, units_, report_);
     const Properties world(root_, units_, report_);
     constexpr double kLengths[] = {1.0, 0.01, 0.001};
     units_.length_m = kLengths[world.choice("unit_length", 0, {"m", "cm", "mm"})];
@@ -121,57 +122,6 @@ class Translator {
       text += ", unless --time " + rounded_text(factor, 3) + " gives the factor of this file";
     }
     report_.note(key, world.place_of(key), text);
-  }
-
-  /// Properties in the user's files that differ between the versions of Stage; the first of each.
-  struct Signs {
-    const Property* pose_of_four = nullptr;
-    const Property* turning_pose = nullptr;  ///< of three numbers, the last of which is not 0
-    const Property* size_of_two = nullptr;
-    const Property* size_of_three = nullptr;
-    const Property* old_device = nullptr;  ///< what only models of Stage 2 and early 3 have
-  };
-
-  static void look_for(const Entity& entity, Signs& signs) {
-    if (is_window(entity.type)) return;
-    const auto first = [](const Property*& sign, const Property& property) {
-      if (sign == nullptr) sign = &property;
-    };
-    for (const Property& property : entity.properties) {
-      if (property.place.file->starts_with(kShippedFolder)) continue;
-      const std::size_t count = property.values.size();
-      if (property.name == "pose" && count >= 4) first(signs.pose_of_four, property);
-      if (property.name == "pose" && count == 3 && property.values[2].number != 0.0) {
-        first(signs.turning_pose, property);
-      }
-      if (property.name == "size" && count == 2) first(signs.size_of_two, property);
-      if (property.name.starts_with("size") && count == 3) first(signs.size_of_three, property);
-      if (property.name == "laser_return" || property.name == "scount" || entity.type == "laser") {
-        first(signs.old_device, property);
-      }
-    }
-    for (const Entity& child : entity.children) look_for(child, signs);
-  }
-
-  /// Stage 2 is flat: sizes [x y], poses [x y heading]. Later versions have sizes [x y z], poses
-  /// [x y z heading], and refuse a size of two numbers (Worldfile::ReadTuple() of
-  /// libstage/worldfile.cc).
-  void read_version() {
-    Signs signs;
-    look_for(root_, signs);
-    if (signs.pose_of_four == nullptr && signs.turning_pose != nullptr) {
-      units_.three_number_poses_turn = true;
-      report_.note("poses", signs.turning_pose->place,
-                   "poses of three numbers are read as [x y heading], as in Stage 2");
-    }
-    const Property* flat = signs.size_of_two;
-    if (flat == nullptr && signs.size_of_three == nullptr && signs.pose_of_four == nullptr) {
-      flat = signs.old_device;
-    }
-    if (flat == nullptr) return;
-    units_.flat = true;
-    report_.note("flat", flat->place,
-                 "a world of Stage 2 is flat: all sensors see all models, at any height");
   }
 
   [[nodiscard]] Context context() { return {units_, report_, interval_s_}; }
@@ -218,8 +168,6 @@ class Translator {
         in_quotes(entity.type),
         near.empty() ? "is an include missing?" : "did you mean " + in_quotes(near) + "?");
   }
-
-  static bool is_window(const std::string& type) { return type == "window" || type == "gui"; }
 
   /// Height of what stands on a model above the model's foot.
   [[nodiscard]] double stacked_height_m(const Properties& model, const Body& body) const {
@@ -627,7 +575,7 @@ class Translator {
     const auto take = [&](std::vector<Piece>& pieces, const char* pointer) {
       Json list = Json::array();
       for (Piece& piece : pieces) {
-        if (piece.z_min_m >= reach_m) {
+        if (piece.z_min_m > reach_m + kSameHeight_m) {
           report_.note("overhead", piece.place,
                        "parts above all robots and their sensors are left out");
           continue;
