@@ -33,7 +33,7 @@ class TwoPlatforms : public testing::Test {
   /// `playpen serve` with Player's protocol, until it listens there.
   void serve(const std::vector<std::string>& options) {
     std::vector<std::string> command = {PLAYPEN_COMMAND, "serve", world_,   "--out",   out_,
-                                        "--tcp-port",        "0",     "--time", "lockstep"};
+                                        "--tcp-port",    "0",     "--time", "lockstep"};
     command.insert(command.end(), options.begin(), options.end());
     server_.emplace(command);
     ASSERT_TRUE(server_->read_until(": r1\n")) << server_->finish().err;

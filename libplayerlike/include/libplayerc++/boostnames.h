@@ -52,6 +52,7 @@ template <typename R, typename T, typename O>
 auto bind(R (T::*aF)() const, O aO) -> decltype(std::bind(aF, aO)) {
   return std::bind(aF, aO);
 }
+/// @cond
 template <typename R, typename T, typename P, typename O, typename A>
 auto bind(R (T::*aF)(P), O aO, A aA) -> decltype(std::bind(aF, aO, aA)) {
   return std::bind(aF, aO, aA);
@@ -68,6 +69,7 @@ template <typename R, typename T, typename P, typename Q, typename O, typename A
 auto bind(R (T::*aF)(P, Q) const, O aO, A aA, B aB) -> decltype(std::bind(aF, aO, aA, aB)) {
   return std::bind(aF, aO, aA, aB);
 }
+/// @endcond
 
 /// The type of PlayerClient::mMutex.
 typedef PlayerCc::mutex_t mutex;

@@ -126,7 +126,10 @@ std::vector<Case> cases() {
        11.0,
        13.0},
       {"roomba_maze", kMaze, {"out of the maze", "straight ahead"}, 60.0, 110.0, 60, 1, {}, "400"},
-      {"scorpion_wander", "examples/scorpion.json", {"13 infra-reds", "left one looks to 90 degrees"}, 8.0},
+      {"scorpion_wander",
+       "examples/scorpion.json",
+       {"13 infra-reds", "left one looks to 90 degrees"},
+       8.0},
       {"simulation", kPioneer, {"moved by 0.3", "nobody is at 42"}, 0.1, kAny, 0, 1, {"pioneer1"}},
       {"speaking", kPioneer, {"inputs"}, 1.8, 2.2},
       {"sonar_ranger",
@@ -258,7 +261,7 @@ class ProgramRun {
   [[nodiscard]] std::unique_ptr<Process> server(const std::string& time,
                                                 const std::vector<std::string>& options) const {
     std::vector<std::string> call = {
-        PLAYPEN_COMMAND,  "serve",  world(), "--out",  out(), "--duration",
+        PLAYPEN_COMMAND,  "serve",  world(), "--out",      out(), "--duration",
         case_.duration_s, "--time", time,    "--tcp-port", "0",   "--quiet"};
     call.insert(call.end(), options.begin(), options.end());
     return std::make_unique<Process>(call);
