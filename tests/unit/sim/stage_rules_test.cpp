@@ -107,8 +107,9 @@ position ( size [0.4 0.4]
   EXPECT_THAT(seen("laser_return 2"), ElementsAre(true, true));
 }
 
-TEST(StageFlat, AWindowAndSizesOfThreeNumbersAreNoSign) {
+TEST(StageFlat, SizesOfTheWindowAndOfTheWorldAreNoSign) {
   StageRun world(R"(
+size [16 16]
 window ( size [700 700] )
 model ( size [1 1 0.1] pose [3 0 0 0] laser_return 1 )
 position ( size [0.4 0.4 0.2] laser ( samples 3 fov 90 range_max 8 ) ))");

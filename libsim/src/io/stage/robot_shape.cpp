@@ -144,7 +144,8 @@ SeveralParts several_parts(const std::vector<RobotDraft::Part>& parts) {
     return area_m2(a.first) > area_m2(b.first);
   });
   SeveralParts several;
-  for (auto& [piece, top_m] : pieces) {
+  for (auto& [outline, top_m] : pieces) {
+    Polygon& piece = outline;  // lambdas cannot capture what a declaration of several names binds
     const bool hidden = std::any_of(several.outlines.begin(), several.outlines.end(),
                                     [&](const Polygon& larger) { return contains(larger, piece); });
     if (hidden) continue;

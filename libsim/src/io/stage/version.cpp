@@ -25,7 +25,10 @@ void look_for(const Entity& entity, Signs& signs) {
     if (property.name == "pose" && count == 3 && property.values[2].number != 0.0) {
       first(signs.turning_pose, property);
     }
-    if (property.name == "size" && count == 2) first(signs.size_of_two, property);
+    // Later versions do not read a size of the world itself.
+    if (property.name == "size" && count == 2 && !entity.type.empty()) {
+      first(signs.size_of_two, property);
+    }
     if (property.name.starts_with("size") && count == 3) first(signs.size_of_three, property);
     if (property.name == "laser_return" || property.name == "scount" || entity.type == "laser") {
       first(signs.old_device, property);
