@@ -108,7 +108,7 @@ int main(int argc, char** argv) {
   }
   // The first one with a ranger, else the first one.
   std::size_t first = 0;
-  while (first < robots.size() && robots[first].rangers.empty()) ++first;
+  while (first < robots.size() && !interop::sees(robots[first])) ++first;
   interop::Robot& robot = robots[first < robots.size() ? first : 0];
   interop::switch_on(robot);
   interop::measure(world);

@@ -14,7 +14,8 @@ using Stg::ModelPosition;
 using Stg::ModelRanger;
 using Stg::Pose;
 
-/// A robot with its rangers, in the order in which Player gives them their indices.
+/// A robot with its rangers, in the order in which Player gives them their indices; some may have
+/// no sensor.
 struct Robot {
   ModelPosition* body;
   std::vector<ModelRanger*> rangers;
@@ -23,9 +24,15 @@ struct Robot {
 inline void find_rangers(Model* model, std::vector<ModelRanger*>& found) {
   for (Model* child : model->GetChildren()) {
     auto* ranger = dynamic_cast<ModelRanger*>(child);
-    if (ranger != nullptr && !ranger->GetSensors().empty()) found.push_back(ranger);
+    if (ranger != nullptr) found.push_back(ranger);
     find_rangers(child, found);
   }
+}
+
+/// Whether a robot has a ranger with a sensor.
+inline bool sees(const Robot& robot) {
+  return std::any_of(robot.rangers.begin(), robot.rangers.end(),
+                     [](ModelRanger* ranger) { return !ranger->GetSensors().empty(); });
 }
 
 /// @param blind_ones  also those without rangers.
@@ -36,7 +43,7 @@ inline std::vector<Robot> find_robots(Stg::World& world, bool blind_ones = false
     if (body == nullptr || dynamic_cast<ModelPosition*>(body->Parent()) != nullptr) continue;
     Robot robot{body, {}};
     find_rangers(body, robot.rangers);
-    if (blind_ones || !robot.rangers.empty()) robots.push_back(robot);
+    if (blind_ones || sees(robot)) robots.push_back(robot);
   }
   // The set of models is ordered by address.
   std::sort(robots.begin(), robots.end(),

@@ -32,6 +32,7 @@ Pose wander(const Robot& robot, std::mt19937& random) {
   double farthest = 0.0, heading = 0.0;
   for (int tries = 0; tries < 4; ++tries) {
     const auto& sensors = robot.rangers[random() % robot.rangers.size()]->GetSensors();
+    if (sensors.empty()) continue;
     const auto& sensor = sensors[random() % sensors.size()];
     if (sensor.ranges.empty()) continue;
     const std::size_t beam = random() % sensor.ranges.size();
