@@ -2,6 +2,8 @@
 // Robots of real Stage and their rangers, for the programs of this folder that link libstage.
 #pragma once
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <stage.hh>
@@ -77,4 +79,22 @@ inline void switch_on(Robot& robot) {
   }
 }
 
+/// Updates all models in the caller's thread: a worker per update takes most of the time, and races
+/// with the robots' moves. Call it after World::Load(), in a program without access control and
+/// with the pthread_create() below.
+inline void run_alone(Stg::World& world) {
+  world.worker_threads = 0;
+  for (Model* model : world.GetAllModels()) model->event_queue_num = 0;
+  for (std::size_t i = 1; i < world.event_queues.size(); ++i) {
+    for (; !world.event_queues[i].empty(); world.event_queues[i].pop()) {
+      world.event_queues[0].push(world.event_queues[i].top());
+    }
+  }
+}
+
 }  // namespace interop
+
+/// Takes the place of the C library's: Stage starts its workers with it, and they must not exist.
+extern "C" int pthread_create(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*) {
+  return 0;
+}

@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
   std::fflush(stdout);
   Stg::World world(argv[1]);
   if (!world.Load(argv[1])) return 1;
+  interop::run_alone(world);
   world.Start();
   std::cout.rdbuf(out);
   std::cout.precision(9);
@@ -127,7 +128,7 @@ int main(int argc, char** argv) {
         continue;
       }
       write_scan(robot);
-      if (places[i].size() < 4) places[i].push_back(robot.body->GetGlobalPose());
+      if (places[i].size() < 5) places[i].push_back(robot.body->GetGlobalPose());
       if (least_range(robot) > 1.2) wide[i].push_back(robot.body->GetGlobalPose());
       ++done;
     }
@@ -191,5 +192,5 @@ int main(int argc, char** argv) {
     body->SetPose(starts[i]);
   }
   std::cout.flush();
-  std::_Exit(0);  // Stage's threads do not end
+  std::_Exit(0);  // Stage's destructors wait for its threads
 }
