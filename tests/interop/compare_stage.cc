@@ -402,7 +402,7 @@ class Comparison {
         // As Stage's plugin publishes them: all samples of a single sensor, the first one of each
         // of several.
         const std::vector<Scan>& sensors = scans_[ranger];
-        Scan scan = sensors.front();
+        Scan scan = sensors.empty() ? Scan() : sensors.front();
         if (sensors.size() > 1) {
           scan = {};
           for (const Scan& s : sensors) {

@@ -99,7 +99,7 @@ fi
 
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig:$prefix/lib64/pkgconfig
 read -ra stage_flags <<<"$(pkg-config --cflags stage)"
-g++ -std=gnu++14 -O1 -fpermissive -w "${stage_flags[@]}" "$here/stage_scans.cc" -o "$out/stage_scans" \
+g++ -std=gnu++14 -O1 -fpermissive -fno-access-control -w "${stage_flags[@]}" "$here/stage_scans.cc" -o "$out/stage_scans" \
   -L"$prefix/lib" -L"$prefix/lib64" -lstage -Wl,-rpath,"$prefix/lib:$prefix/lib64"
 read -ra eigen_flags <<<"$(pkg-config --cflags eigen3)"
 g++ -std=c++20 -O2 "${eigen_flags[@]}" -I"$root/libsim/include" "$here/compare_stage.cc" \

@@ -53,6 +53,13 @@ def read(path):
         return file.read()
 
 
+def says(output):
+    """What matters of a program's output: errors and warnings, else its last line."""
+    lines = [line.strip() for line in output.split("\n") if line.strip()]
+    wrong = [line for line in lines if re.search(r"rror|warning: |terminate|no device|there is no|ended with|never", line)]
+    return " | ".join(dict.fromkeys(wrong[:4] or lines[-1:]))[:400]
+
+
 def programs_below(folder, skip):
     found, seen = [], set()
     for root, folders, files in os.walk(folder):
@@ -156,7 +163,7 @@ class Runner:
             code, output = run([self.playpen, "run", world, "--duration", str(arguments.seconds), "--out", out, "--",
                                 os.path.join(place, "playpen")], arguments.timeout, folder)
             result = {"world": world if os.sep not in world else os.path.relpath(world, folder), "exit": code,
-                      "path": self.path_m(out), "last": output.strip()[-300:]}
+                      "path": self.path_m(out), "says": says(output)}
             if best is None or (result["path"] or 0.0) > (best["path"] or 0.0):
                 best = result
             if (result["path"] or 0.0) >= 0.2:
@@ -172,7 +179,7 @@ class Runner:
                       shlex.quote(self.playpen), shlex.quote(world), arguments.seconds, shlex.quote(out), shlex.quote(out),
                       shlex.quote(out), arguments.seconds + 10, shlex.quote(os.path.join(place, "real"))))
         code, output = run(["unshare", "-n", "bash", "-c", script], arguments.timeout + arguments.seconds, folder)
-        record["served"] = {"exit": code, "path": self.path_m(out), "last": output.strip()[-300:]}
+        record["served"] = {"exit": code, "path": self.path_m(out), "says": says(output)}
         return record
 
 
@@ -194,7 +201,7 @@ def summary(records):
         count["drive with Playpen"] += drives
         if ours and not drives:
             lines.append("does not drive: %s in %s: %s" % (record["program"], record["run"]["world"],
-                                                           record["run"]["last"].replace("\n", " | ")[-200:]))
+                                                           record["run"]["says"]))
         served = record.get("served")
         if served:
             count["run with the real library"] += 1

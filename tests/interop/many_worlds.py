@@ -127,7 +127,7 @@ class Runner:
         flags = subprocess.run(["pkg-config", "--cflags", "stage"], stdout=subprocess.PIPE, check=True, env=dict(
             os.environ, PKG_CONFIG_PATH=prefix + "/lib/pkgconfig:" + prefix + "/lib64/pkgconfig")).stdout.decode().split()
         for program in ("stage_drive", "stage_scans"):
-            subprocess.run(["g++", "-std=gnu++14", "-O1", "-fpermissive", "-w", *flags, HERE + "/" + program + ".cc", "-o",
+            subprocess.run(["g++", "-std=gnu++14", "-O1", "-fpermissive", "-fno-access-control", "-w", *flags, HERE + "/" + program + ".cc", "-o",
                             self.bin + "/" + program, "-L" + prefix + "/lib", "-L" + prefix + "/lib64", "-lstage",
                             "-Wl,-rpath," + prefix + "/lib:" + prefix + "/lib64"], check=True)
         flags = subprocess.run(["pkg-config", "--cflags", "eigen3"], stdout=subprocess.PIPE, check=True).stdout.decode().split()

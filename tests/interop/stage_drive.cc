@@ -97,6 +97,7 @@ int main(int argc, char** argv) {
   std::fflush(stdout);
   Stg::World world(argv[1]);
   if (!world.Load(argv[1])) return 1;
+  interop::run_alone(world);
   world.Start();
   std::cout.rdbuf(out);
   std::cout.precision(9);
@@ -108,7 +109,7 @@ int main(int argc, char** argv) {
   }
   // The first one with a ranger, else the first one.
   std::size_t first = 0;
-  while (first < robots.size() && robots[first].rangers.empty()) ++first;
+  while (first < robots.size() && !interop::sees(robots[first])) ++first;
   interop::Robot& robot = robots[first < robots.size() ? first : 0];
   interop::switch_on(robot);
   interop::measure(world);
@@ -118,5 +119,5 @@ int main(int argc, char** argv) {
   StageRobot driven(world, robot);
   interop::drive(driven, std::atof(argv[2]));
   std::cout.flush();
-  std::_Exit(0);  // Stage's threads do not end
+  std::_Exit(0);  // Stage's destructors wait for its threads
 }

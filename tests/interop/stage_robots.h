@@ -2,6 +2,8 @@
 // Robots of real Stage and their rangers, for the programs of this folder that link libstage.
 #pragma once
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <stage.hh>
@@ -14,7 +16,8 @@ using Stg::ModelPosition;
 using Stg::ModelRanger;
 using Stg::Pose;
 
-/// A robot with its rangers, in the order in which Player gives them their indices.
+/// A robot with its rangers, in the order in which Player gives them their indices; some may have
+/// no sensor.
 struct Robot {
   ModelPosition* body;
   std::vector<ModelRanger*> rangers;
@@ -23,9 +26,15 @@ struct Robot {
 inline void find_rangers(Model* model, std::vector<ModelRanger*>& found) {
   for (Model* child : model->GetChildren()) {
     auto* ranger = dynamic_cast<ModelRanger*>(child);
-    if (ranger != nullptr && !ranger->GetSensors().empty()) found.push_back(ranger);
+    if (ranger != nullptr) found.push_back(ranger);
     find_rangers(child, found);
   }
+}
+
+/// Whether a robot has a ranger with a sensor.
+inline bool sees(const Robot& robot) {
+  return std::any_of(robot.rangers.begin(), robot.rangers.end(),
+                     [](ModelRanger* ranger) { return !ranger->GetSensors().empty(); });
 }
 
 /// @param blind_ones  also those without rangers.
@@ -36,7 +45,7 @@ inline std::vector<Robot> find_robots(Stg::World& world, bool blind_ones = false
     if (body == nullptr || dynamic_cast<ModelPosition*>(body->Parent()) != nullptr) continue;
     Robot robot{body, {}};
     find_rangers(body, robot.rangers);
-    if (blind_ones || !robot.rangers.empty()) robots.push_back(robot);
+    if (blind_ones || sees(robot)) robots.push_back(robot);
   }
   // The set of models is ordered by address.
   std::sort(robots.begin(), robots.end(),
@@ -70,4 +79,22 @@ inline void switch_on(Robot& robot) {
   }
 }
 
+/// Updates all models in the caller's thread: a worker per update takes most of the time, and races
+/// with the robots' moves. Call it after World::Load(), in a program without access control and
+/// with the pthread_create() below.
+inline void run_alone(Stg::World& world) {
+  world.worker_threads = 0;
+  for (Model* model : world.GetAllModels()) model->event_queue_num = 0;
+  for (std::size_t i = 1; i < world.event_queues.size(); ++i) {
+    for (; !world.event_queues[i].empty(); world.event_queues[i].pop()) {
+      world.event_queues[0].push(world.event_queues[i].top());
+    }
+  }
+}
+
 }  // namespace interop
+
+/// Takes the place of the C library's: Stage starts its workers with it, and they must not exist.
+extern "C" int pthread_create(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*) {
+  return 0;
+}
