@@ -259,7 +259,7 @@ TEST_F(PlaypenServe, PortIsThatOfTheFirstRobotInBothProtocols) {
     const std::string& line = server_->output();
     const std::string server =
         "tcp://127.0.0.1" + line.substr(line.find(':'), line.find('\n') - line.find(':'));
-    PlayerCc::PlayerClient robot(server, std::stoi(port));
+    PlayerCc::PlayerClient robot(server, static_cast<uint32_t>(std::stoi(port)));
     PlayerCc::Position2dProxy position(&robot, 0);
     EXPECT_THROW(PlayerCc::PlayerClient(server, 6665), PlayerCc::PlayerError);
     return;

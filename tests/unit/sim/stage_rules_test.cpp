@@ -27,9 +27,6 @@ using testing::Not;
 using testing::SizeIs;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr const char* kBlock =
-    " block ( points 4 point[0] [0 0] point[1] [0 1] point[2] [1 1] "
-    "point[3] [1 0] z [0 1] ) ";
 
 /// A world of Stage that runs.
 class StageRun {
