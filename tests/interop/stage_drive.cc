@@ -93,14 +93,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   Stg::Init(&argc, &argv);
-  std::streambuf* const out = std::cout.rdbuf();
-  std::fflush(stdout);
   Stg::World world(argv[1]);
-  if (!world.Load(argv[1])) return 1;
-  interop::run_alone(world);
-  world.Start();
-  std::cout.rdbuf(out);
-  std::cout.precision(9);
+  if (!interop::start(world, argv[1])) return 1;
   std::vector<interop::Robot> robots = interop::find_robots(world, true);
   std::cout << "\nresolution " << 1.0 / world.Resolution() << "\nrobots " << robots.size() << '\n';
   if (robots.empty()) {

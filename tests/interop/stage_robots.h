@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iostream>
 #include <stage.hh>
 #include <vector>
 
@@ -90,6 +91,18 @@ inline void run_alone(Stg::World& world) {
       world.event_queues[0].push(world.event_queues[i].top());
     }
   }
+}
+
+/// Loads a world and starts it without Stage's threads; std::cout is as before. Stage writes about
+/// its progress to the standard output. @return whether Stage can load it.
+inline bool start(Stg::World& world, const char* path) {
+  std::streambuf* const out = std::cout.rdbuf();
+  if (!world.Load(path)) return false;
+  run_alone(world);
+  world.Start();
+  std::cout.rdbuf(out);
+  std::cout.precision(9);
+  return true;
 }
 
 }  // namespace interop

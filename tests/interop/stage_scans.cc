@@ -84,15 +84,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   Stg::Init(&argc, &argv);
-  // Stage writes about its progress to the standard output.
-  std::streambuf* const out = std::cout.rdbuf();
-  std::fflush(stdout);
   Stg::World world(argv[1]);
-  if (!world.Load(argv[1])) return 1;
-  interop::run_alone(world);
-  world.Start();
-  std::cout.rdbuf(out);
-  std::cout.precision(9);
+  if (!interop::start(world, argv[1])) return 1;
   std::vector<Robot> robots = find_robots(world);
   // resolution METRES; then for each robot that has rangers: robot NAME X Y YAW
   std::cout << "\nresolution " << 1.0 / world.Resolution() << '\n';

@@ -57,7 +57,7 @@ def called_names(libraries):
 class Programs:
     def __init__(self, folder, arguments):
         self.folder = pathlib.Path(folder)
-        self.compiler, self.playpen, self.world, self.library, *self.includes = arguments
+        self.compiler, self.playpen, self.world, self.player_library, *self.includes = arguments
         self.flags = ["-w", "-fno-builtin", "-O1"]
         self.servers = []
         self.main = self.folder / "main.o"
@@ -70,8 +70,8 @@ class Programs:
         source = self.folder / "names.c"
         source.write_text("".join(definition.format(n) + "\n" for n in names), encoding="utf-8")
         program = self.folder / "program"
-        done = run(self.compiler, *self.flags, str(source), str(self.main), self.library,
-                   f"-Wl,-rpath,{pathlib.Path(self.library).parent}", "-o", str(program))
+        done = run(self.compiler, *self.flags, str(source), str(self.main), self.player_library,
+                   f"-Wl,-rpath,{pathlib.Path(self.player_library).parent}", "-o", str(program))
         if done.returncode != 0:
             sys.exit(done.stderr)
         return str(program)

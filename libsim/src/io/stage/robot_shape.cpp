@@ -87,14 +87,31 @@ bool has_room_below(const RobotDraft::Part& part, const std::vector<RobotDraft::
 
 /// The convex outlines that together are a part. Those that are no area for a robot are left out.
 std::vector<Polygon> convex_pieces(const RobotDraft::Part& part) {
-  Polygon outline = convex_outline(part.points);
-  if (!is_hollowed(part.points, outline)) {
-    reduce_corners(outline, kMostCorners);
-    return {outline};
+  std::vector<Polygon> pieces{convex_outline(part.points)};
+  if (is_hollowed(part.points, pieces.front())) {
+    pieces = convex_parts_of(part.points, kMostCorners);
+  } else {
+    reduce_corners(pieces.front(), kMostCorners);
   }
-  std::vector<Polygon> pieces = convex_parts_of(part.points, kMostCorners);
   std::erase_if(pieces, [](const Polygon& piece) { return !is_superstructure(piece); });
   return pieces;
+}
+
+/// Pieces without those that lie within a larger one which hides them. The largest come first.
+/// @param hides  whether a piece hides another one that lies within it.
+template <typename Hides>
+std::vector<Superstructure> without_hidden(std::vector<Superstructure> pieces, Hides hides) {
+  std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
+    return area_m2(a.outline) > area_m2(b.outline);
+  });
+  std::vector<Superstructure> kept;
+  for (Superstructure& piece : pieces) {
+    const bool hidden = std::any_of(kept.begin(), kept.end(), [&](const auto& larger) {
+      return hides(larger, piece) && contains(larger.outline, piece.outline);
+    });
+    if (!hidden) kept.push_back(std::move(piece));
+  }
+  return kept;
 }
 
 /// What is higher than the body, the largest parts first. Parts within others that are at least as
@@ -107,56 +124,27 @@ std::vector<Superstructure> higher_parts(const std::vector<RobotDraft::Part>& pa
     if (top_m < height_m + kHigher_m) continue;
     const bool has_gap = part.bottom_m > height_m && part.bottom_m < top_m - kHigher_m;
     for (Polygon& piece : convex_pieces(part)) {
-      if (!is_superstructure(piece)) continue;
       higher.push_back({std::move(piece), top_m, has_gap ? part.bottom_m : 0.0});
     }
   }
-  std::stable_sort(higher.begin(), higher.end(), [](const auto& a, const auto& b) {
-    return area_m2(a.outline) > area_m2(b.outline);
+  return without_hidden(std::move(higher), [](const auto& larger, const auto& piece) {
+    return larger.height_m >= piece.height_m && larger.bottom_m <= piece.bottom_m;
   });
-  std::vector<Superstructure> seen;
-  for (auto& part : higher) {
-    const bool hidden = std::any_of(seen.begin(), seen.end(), [&](const auto& larger) {
-      return larger.height_m >= part.height_m && larger.bottom_m <= part.bottom_m &&
-             contains(larger.outline, part.outline);
-    });
-    if (!hidden) seen.push_back(std::move(part));
-  }
-  return seen;
 }
 
-/// The convex parts of a body that is not convex, and up to which height all of them reach. Parts
-/// within others are left out, since they add nothing to the outline.
-struct SeveralParts {
-  std::vector<Polygon> outlines;
-  double height_m = kGreatestRobotHeight_m;
-};
-
-SeveralParts several_parts(const std::vector<RobotDraft::Part>& parts) {
-  std::vector<std::pair<Polygon, double>> pieces;
+/// The solid pieces of a body that is not convex. Those within others are left out, since they add
+/// nothing to the outline.
+std::vector<Superstructure> solid_pieces(const std::vector<RobotDraft::Part>& parts) {
+  std::vector<Superstructure> pieces;
   for (const RobotDraft::Part& part : parts) {
     if (!part.solid) continue;
-    for (Polygon& piece : convex_pieces(part)) {
-      if (is_superstructure(piece)) pieces.emplace_back(std::move(piece), part.top_m);
-    }
+    for (Polygon& piece : convex_pieces(part)) pieces.push_back({std::move(piece), part.top_m});
   }
-  std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
-    return area_m2(a.first) > area_m2(b.first);
-  });
-  SeveralParts several;
-  for (auto& [outline, top_m] : pieces) {
-    Polygon& piece = outline;  // lambdas cannot capture what a declaration of several names binds
-    const bool hidden = std::any_of(several.outlines.begin(), several.outlines.end(),
-                                    [&](const Polygon& larger) { return contains(larger, piece); });
-    if (hidden) continue;
-    several.outlines.push_back(std::move(piece));
-    several.height_m = std::min(several.height_m, top_m);
-  }
-  return several;
+  return without_hidden(std::move(pieces), [](const auto&, const auto&) { return true; });
 }
 
 /// The share of a convex outline that none of the parts covers.
-double uncovered_share(const Polygon& whole, const std::vector<Polygon>& parts) {
+double uncovered_share(const Polygon& whole, const std::vector<Superstructure>& parts) {
   constexpr int kSamples = 100;  // along the longer side of the box around the outline
   Vec2 low = whole.front();
   Vec2 high = low;
@@ -171,8 +159,8 @@ double uncovered_share(const Polygon& whole, const std::vector<Polygon>& parts) 
     for (double y = low.y() + 0.5 * spacing_m; y < high.y(); y += spacing_m) {
       if (!is_inside(whole, {x, y})) continue;
       ++within;
-      if (std::none_of(parts.begin(), parts.end(), [&](const Polygon& part) {
-            return is_inside(part, {x, y});
+      if (std::none_of(parts.begin(), parts.end(), [&](const Superstructure& part) {
+            return is_inside(part.outline, {x, y});
           })) {
         ++uncovered;
       }
@@ -253,17 +241,21 @@ void set_body(Report& report, RobotDraft& robot) {
   }
   robot.model["footprint"] = points_json(outline);
   constexpr double kConvex = 0.02;  // a smaller share of the area does not matter
-  SeveralParts several = several_parts(robot.parts);
-  if (several.outlines.size() > 1 && uncovered_share(outline, several.outlines) > kConvex) {
-    if (several.outlines.size() > kMostBodyParts) {
+  const std::vector<Superstructure> several = solid_pieces(robot.parts);
+  if (several.size() > 1 && uncovered_share(outline, several) > kConvex) {
+    if (several.size() > kMostBodyParts) {
       report.note("body of many parts", robot.place,
                   "a body has at most " + std::to_string(kMostBodyParts) +
                       " convex parts; others become the convex outline around them");
     } else {
       Json parts = Json::array();
-      for (const Polygon& part : several.outlines) parts.push_back(points_json(part));
+      double lowest_top_m = kGreatestRobotHeight_m;  // up to which all parts reach
+      for (const Superstructure& part : several) {
+        parts.push_back(points_json(part.outline));
+        lowest_top_m = std::min(lowest_top_m, part.height_m);
+      }
       robot.model["footprint"] = std::move(parts);
-      if (!overhangs) height_m = several.height_m;
+      if (!overhangs) height_m = lowest_top_m;
     }
   }
   robot.model["height"] = neat(std::clamp(height_m, kLeastLength_m, kGreatestRobotHeight_m));
