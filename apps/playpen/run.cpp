@@ -14,6 +14,7 @@
 #include "playerlike/host/kept_results.h"
 #include "playerlike/host/program.h"
 #include "playerlike/host/program_desk.h"
+#include "playerlike/host/real_robots.h"
 #include "playerlike/process/log.h"
 #include "playerlike/server/server.h"
 #include "preload.h"
@@ -220,6 +221,7 @@ int run(RunRequest request) {
   watch.tell = [](const std::string& text) { std::cerr << "playpen: " << text << '\n'; };
   bool completed = false;
   watch.on_end = [&](const playerlike::ProgramEnd& program_end) {
+    playerlike::stop_real_robots(kept, playerlike::open_real_robot, watch.tell);
     try {
       if (served.finish(program_end)) return;
       completed = playerlike::complete_results(kept, world, settings, program_end);

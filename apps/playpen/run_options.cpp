@@ -173,6 +173,8 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
               "repeated",
               "ROBOT=SERVER", playerlike::kRealRobotChoiceExpected, playerlike::parse_real_robot,
               settings.real_robots);
+  command.add_flag("--take-over", settings.take_over,
+                   "Take over real robots from other clients that are in charge of them");
 }
 
 CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world) {

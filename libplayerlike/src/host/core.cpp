@@ -47,7 +47,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       lockstep_(clients_, simulation_.world().simulation.start_gate_clients,
                 settings_.silence_limit_s, warn_),
       pace_(sim::to_seconds(step_ns_), simulation_.world().simulation.time_factor),
-      inputs_(simulation_, warn_, mirror_.get()),
+      inputs_(simulation_, robots_, warn_, mirror_.get()),
       stalled_time_warning_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
       results_(
           settings_, simulation_, [this] { return time_locked(); }, warn_, mirror_.get()),
@@ -109,10 +109,12 @@ void Host::Core::remove_client(Client& client) noexcept {
   if (client.closed.exchange(true)) return;
   // Its last commands are still applied.
   if (!ended_) inputs_.apply(client);
+  const std::vector<int> left = inputs_.commanders.note_gone(&client);
   client.drawings.close();
   inputs_.registry.leave(client.number);
   if (turns_) Turns::instance().resume_client_thread(&client);
   clients_.remove(client);
+  if (!ended_) inputs_.stop(left);
   changed_.notify_all();
 }
 
@@ -143,6 +145,7 @@ void Host::Core::subscribe(Client& client, DeviceId device) {
   client.require_open();
   require_readable(client, device.robot);
   clients_.subscribe(client, device);
+  inputs_.commanders.note_opened(client, device);
   if (client.is_programs() && stalled_time_warning_.note_needs_time()) set_busy_alarm();
 }
 
@@ -439,6 +442,7 @@ bool Host::Core::advance() {
   if (progress_.note_step(now)) stalled_time_warning_.dismiss_alarm();
   if (mirror_) mirror_->before_step();
   inputs_.before_step(clients_);
+  stop_unwatched();
   publish_blackboard();
   simulation_.step();
   if (mirror_) note_losses();
@@ -459,9 +463,11 @@ bool Host::Core::advance() {
 
 void Host::Core::note_losses() {
   for (const Mirror::Loss& loss : mirror_->after_step()) {
-    warn_(loss.text + (loss.ends_run ? "; the run ends" : "; the run continues without it"));
+    warn_(loss.text + (loss.ends_run     ? "; the run ends"
+                       : loss.is_passing ? "; it is made again as soon as possible"
+                                         : "; the run continues without it"));
     if (loss.ends_run) results_.real_robot_lost = true;
-    clients_.note_loss(loss);
+    if (!loss.is_passing) clients_.note_loss(loss);
   }
 }
 
@@ -621,6 +627,7 @@ std::vector<std::string> Host::Core::unrepeatable() const {
     why.emplace_back("simulated time went on without a client that did not read for " +
                      std::to_string(settings_.silence_limit_s) + " s of wall time");
   }
+  if (inputs_.commanders.has_stopped()) why.emplace_back("a watchdog has stopped a robot");
   if (results_.conflict_noted()) why.emplace_back(kConflictWhy);
   if (driven_by_hand_) why.emplace_back("a robot was driven by hand");
   if (onlooker_acted_) {

@@ -64,6 +64,12 @@ class Host::Core {
   Answer answer(Client& client, const Request& request);
   void send(Client& client, DeviceId device, const sim::Command& command);
 
+  // See Commander and Host::set_active().
+  std::optional<std::string> command(Commanders::Who who, DeviceId device,
+                                     const sim::Command& command);
+  void commander_gone(Commanders::Who who) noexcept;
+  std::optional<std::string> set_active(DeviceId device, bool active);
+
   void wait(Client& client);
   int take(Client& client, ReadingSink& sink);
   bool peek(Client& client, std::chrono::milliseconds timeout);
@@ -144,6 +150,10 @@ class Host::Core {
   }
 
   void subscribe(Client& client, DeviceId device);
+  void unsubscribe(Client& client, DeviceId device);
+  Charge take_charge(Client& client, const TakeChargeRequest& what);
+  /// Stops robots whose watchdog has heard nothing for too long.
+  void stop_unwatched();
   /// Throws SessionError kNotAvailable if the world hides something from this client.
   /// @param robot  whose sensors to read; -1: data of no robot, such as objects and the map.
   void require_readable(const Client& client, int robot) const;

@@ -74,6 +74,9 @@ bool Host::cancel_alarm(AlarmId alarm) {
 void Host::with_simulation(const std::function<void(sim::Simulation&)>& action) {
   core_->locked([&] { action(core_->simulation_); });
 }
+std::optional<std::string> Host::set_active(DeviceId device, bool active) {
+  return core_->set_active(device, active);
+}
 void Host::set_step_credit(std::optional<std::uint64_t> steps) {
   core_->change_step_limit([&](Pace& pace) { pace.set_limit(steps); });
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/clients.h"
+#include "host/commanders.h"
 #include "host/view_controls.h"
 #include "playerlike/session/layer_registry.h"
 
@@ -25,8 +26,12 @@ class Inputs {
  public:
   /// @param simulation  must outlive this object.
   /// @param mirror  takes the commands for robots that mirror real ones; null: there are none.
-  explicit Inputs(sim::Simulation& simulation, Warn warn, Mirror* mirror = nullptr)
-      : simulation_(simulation), mirror_(mirror), warn_(std::move(warn)) {}
+  Inputs(sim::Simulation& simulation, const std::vector<RobotInfo>& robots, Warn warn,
+         Mirror* mirror = nullptr)
+      : commanders(simulation, robots),
+        simulation_(simulation),
+        mirror_(mirror),
+        warn_(std::move(warn)) {}
 
   /// Stores a command for the next step; the caller holds the client's input mutex, not the host's.
   /// Of successive commands to one device that replace each other, only the last is stored. @return
@@ -36,8 +41,15 @@ class Inputs {
   /// Applies the clients' commands for the next step, then the user's commands from the window.
   void before_step(const Clients& clients);
   void apply(Client& client);
-  /// Executes a command in the simulation, or sends it to the real robot that the device mirrors.
-  void execute(DeviceId device, const sim::Command& command);
+  /// Executes a command in the simulation, or sends it to the real robot that the device mirrors:
+  /// the only way to command a device. @return nothing on success, otherwise the reason.
+  std::optional<std::string> execute(DeviceId device, const sim::Command& command);
+  /// Executes a command of somebody who is not a client, at once.
+  /// @return as execute().
+  std::optional<std::string> execute_for(Commanders::Who who, DeviceId device,
+                                         const sim::Command& command);
+  /// Stops robots that nobody commands any more.
+  void stop(const std::vector<int>& robots);
   void apply_drawings(Client& client);
   /// Allocates a client's draw queue.
   void reserve_drawings(Client& client);
@@ -46,6 +58,7 @@ class Inputs {
 
   /// The owners of the layers.
   LayerRegistry registry;
+  Commanders commanders;
   /// Steering by hand; only in a run with a window.
   std::optional<HandDrive> hand;
 

@@ -38,6 +38,7 @@ struct KeptHeader {
   std::uint64_t scans = 0;               ///< two KeptScan for each robot
   std::atomic<std::uint64_t> report{0};  ///< JSON, see kept_text(); its numbers may be outdated
   std::atomic<std::uint64_t> scene{0};   ///< JSON: the other contents of a picture
+  std::atomic<std::uint64_t> motors{0};  ///< JSON: a list of RealMotors, also if robots is 0
 };
 static_assert(sizeof(KeptHeader) <= kKeptHeaderSize);
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);

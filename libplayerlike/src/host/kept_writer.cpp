@@ -251,6 +251,14 @@ void KeptWriter::keep_looks(const std::string& report, const sim::Simulation& si
   if (!lasers_.empty()) keep_scene(simulation);
 }
 
+void KeptWriter::keep_motors(const std::vector<RealMotors>& motors) {
+  json list = json::array();
+  for (const RealMotors& one : motors) {
+    list.push_back({one.robot, one.server, one.port, one.device.robot, one.device.device});
+  }
+  keep_text(header_->motors, motors_, list.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
 void KeptWriter::keep_scene(const sim::Simulation& simulation) {
   const sim::LayerStack& stack = simulation.layers();
   json layers = json::array();

@@ -328,6 +328,8 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
     real_robots += (real_robots.empty() ? "" : ",") + choice.text();
   }
   changes["PLAYPEN_REAL"] = text_unless_empty(real_robots);
+  changes["PLAYPEN_TAKE_OVER"] =
+      settings.take_over ? std::optional<std::string>("1") : std::nullopt;
   changes["PLAYPEN_SEED"] =
       settings.seed ? std::optional(std::to_string(*settings.seed)) : std::nullopt;
   changes["PLAYPEN_DURATION"] =

@@ -65,9 +65,7 @@ struct Host::Core::RequestHandler {
     }
     core.subscribe(client, what.device);
   }
-  void operator()(const UnsubscribeRequest& what) const {
-    core.locked([&] { core.clients_.unsubscribe(client, what.device); });
-  }
+  void operator()(const UnsubscribeRequest& what) const { core.unsubscribe(client, what.device); }
   void operator()(const ReplaceRequest& what) const {
     const Lock lock = core.lock_with_priority();
     client.require_open();
@@ -86,6 +84,7 @@ struct Host::Core::RequestHandler {
   void operator()(const NoteLooksRequest& what) const {
     core.count_data_reads(client, what.count, what.has_data);
   }
+  Charge operator()(const TakeChargeRequest& what) const { return core.take_charge(client, what); }
   // An embedded simulation has no connection that could be slow or lost.
   void operator()(const AnswerTimeoutRequest&) const {}
   void operator()(const RetriesRequest&) const {}
@@ -227,6 +226,9 @@ struct Host::Core::RequestHandler {
   }
   void operator()(const RestoreStateRequest& what) const {
     const Lock lock = lock_changeable();
+    if (const auto refusal = core.simulation_.refusal_of_mirrored()) {
+      throw SessionError(SessionError::Code::kNotAvailable, *refusal);
+    }
     core.saved_states_.restore(what.name, core.simulation_);
   }
 

@@ -27,6 +27,7 @@ Results::Results(const RunSettings& settings, sim::Simulation& simulation,
   if (!settings.output_folder.empty()) std::filesystem::create_directories(settings.output_folder);
   recorder_ = std::make_unique<Recorder>(settings, simulation, mirror);
   kept_ = KeptWriter::open(settings.kept_run);
+  if (kept_ && mirror != nullptr) kept_->keep_motors(mirror->motors());
   if (kept_ && !settings.output_folder.empty()) {
     kept_->keep_looks(report_text(simulation_, *recorder_, {}, RunEnd{}), simulation_);
     kept_->keep_step({}, *recorder_, simulation_);

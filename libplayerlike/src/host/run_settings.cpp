@@ -373,6 +373,7 @@ RunSettings RunSettings::from_environment() {
                  into<int>(settings.robot_port, parse_robot_port));
   variables.read("PLAYPEN_PLAYER_PORT", kTcpPortExpected,
                  into<int>(settings.player_port, parse_tcp_port));
+  settings.take_over = is_set("PLAYPEN_TAKE_OVER");
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
   settings.virtual_time = is_set("PLAYPEN_VIRTUAL_TIME");
@@ -518,6 +519,9 @@ void RunSettings::apply_to(sim::WorldDescription& world) const {
   }
   apply_interface_choices(world, interfaces);
   bind_real_robots(world, real_robots);
+  for (sim::RobotDescription& robot : world.robots) {
+    if (robot.real && take_over) robot.real->take_over = true;
+  }
   if (robot_port) move_ports(world, *robot_port);
   require_real_time(world);
 }

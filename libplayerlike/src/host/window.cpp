@@ -17,7 +17,7 @@ Host::Core::Window::Window(Core& core, int socket)
     : core_(core),
       hand_(core.inputs_.hand.emplace(core.robots_,
                                       [this](DeviceId device, const sim::Command& command) {
-                                        core_.inputs_.execute(device, command);
+                                        static_cast<void>(core_.inputs_.execute(device, command));
                                       })) {
   link_ = std::make_unique<ViewerLink>(socket, *this);
 }

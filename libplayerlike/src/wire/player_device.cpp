@@ -88,6 +88,7 @@ std::optional<std::string> CommonDevice::text_answer(std::string_view payload) c
 }
 
 std::optional<std::string> CommonDevice::request(std::uint8_t subtype, std::string_view payload) {
+  if (auto own = own_property(subtype, payload)) return own;
   switch (subtype) {
     case PLAYER_CAPABILITIES_REQ:
       return has_capability(payload) ? std::optional(empty_payload()) : std::nullopt;

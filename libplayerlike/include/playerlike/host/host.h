@@ -83,7 +83,12 @@ class Host : public std::enable_shared_from_this<Host> {
   /// @return whether it was still set. If not, it has been notified or is being notified.
   bool cancel_alarm(AlarmId alarm);
 
-  /// Calls `action` with the simulation between two steps. `action` must not call the host.
+  /// Switches a device on or off, see sim::Simulation::set_active(). A real robot whose motors are
+  /// switched off stops. @return nothing on success, otherwise the reason.
+  std::optional<std::string> set_active(DeviceId device, bool active);
+
+  /// Calls `action` with the simulation between two steps. `action` must not call the host, and
+  /// must not command devices: Commander does.
   void with_simulation(const std::function<void(sim::Simulation&)>& action);
 
   /// Limits the number of further steps, for clock synchronisation; nullopt (initially): no limit.
@@ -126,6 +131,7 @@ class Host : public std::enable_shared_from_this<Host> {
  private:
   friend class InProcessSession;
   friend class EventClient;
+  friend class Commander;
   friend class InsideCore;
   class Core;
   explicit Host(std::unique_ptr<Core> core);

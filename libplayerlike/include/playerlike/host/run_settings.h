@@ -17,9 +17,14 @@ namespace playerlike {
 
 class Session;
 
-/// Connects to a real robot: opens a session with a server ("player://..." or "tcp://...") and,
-/// at a Playpen server, a robot's Player port. It throws SessionError if that fails.
-using OpenRealRobot = std::function<std::unique_ptr<Session>(const std::string& server, int port)>;
+/// Where a real robot is.
+struct RealRobotPlace {
+  std::string server;       ///< "player://..." or "tcp://..."
+  int port = 0;             ///< Player port of the robot at a Playpen server
+  double timeout_s = 10.0;  ///< of connecting [s]
+};
+/// Connects to a real robot: opens a session with its server. It throws SessionError if that fails.
+using OpenRealRobot = std::function<std::unique_ptr<Session>(const RealRobotPlace& place)>;
 
 /// Binds a robot of the world to a real one. It overrides the server in the world.
 struct RealRobotChoice {
@@ -71,6 +76,7 @@ struct RunSettings {
                                   ///< the others keep their distance to it
   std::vector<InterfaceChoice> interfaces;   ///< override the world's order of devices
   std::vector<RealRobotChoice> real_robots;  ///< override the world's "real"
+  bool take_over = false;  ///< real robots from other clients that are in charge of them
   /// Connects to the real robots of the world; empty: a world with real robots is refused.
   OpenRealRobot open_real_robot;
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
@@ -105,8 +111,8 @@ struct RunSettings {
   /// PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground,
   /// mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
   /// descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
-  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_INTERFACES
-  /// and PLAYPEN_REAL (choices, separated by commas).
+  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_TAKE_OVER,
+  /// PLAYPEN_INTERFACES and PLAYPEN_REAL (choices, separated by commas).
   /// @throws sim::ConfigError naming the variable, the expected value and the actual value.
   [[nodiscard]] static RunSettings from_environment();
 

@@ -129,7 +129,8 @@ class Simulation {
   /// path length); the view mode; the layers of clients; arena_events(), scores() and verdict().
   /// The timers and traps of the arena controller start anew.
   /// Invalidates references to devices and readings.
-  void reset();
+  /// @return nothing on success, otherwise the reason: refusal_of_mirrored().
+  std::optional<std::string> reset();
 
   /// Switches a device on or off; initially all are on. An inactive device makes no readings (its
   /// schedule continues), refuses commands and does not act: motors stop unless another device
@@ -142,10 +143,11 @@ class Simulation {
   /// whatever pushes it; its sensors and the clock continue. A resumed robot continues with its
   /// last command. Later calls of set_robot_dynamics() make exceptions.
   ///
-  /// @return nothing on success, otherwise the reason.
+  /// @return nothing on success, otherwise the reason: refusal_of_mirrored().
   std::optional<std::string> set_dynamics(bool on);
   /// Suspends or resumes the dynamics of one robot.
-  /// @return nothing on success, otherwise the reason: no such robot.
+  /// @return nothing on success, otherwise the reason: no such robot, or one that mirrors a real
+  /// one.
   std::optional<std::string> set_robot_dynamics(int robot, bool on);
   /// Suspends or resumes the dynamics of an object by name.
   /// @return nothing on success, otherwise the reason: no such object, or one that never moves by
@@ -182,6 +184,10 @@ class Simulation {
   /// @return nothing on success, otherwise the reason.
   std::optional<std::string> set_object_fiducial(const std::string& name, int fiducial);
 
+  /// Why the whole world can neither be put back nor held fast: a robot mirrors a real one
+  /// (RobotDescription::real), for which that would have no effect. Such a robot cannot be placed
+  /// either. @return nullopt if no robot does.
+  [[nodiscard]] std::optional<std::string> refusal_of_mirrored() const;
   /// Puts a robot where its real counterpart is (RobotDescription::real), between two steps. From
   /// the first call on, the robot moves in no other way, whatever its commands are. It may overlap
   /// obstacles, and no collisions are counted for it. The first call adds no path length.
