@@ -42,8 +42,8 @@ Charge Host::Core::take_charge(Client& client, const TakeChargeRequest& what) {
   return {true, inputs_.commanders.take_stopped(robot)};
 }
 
-void Host::Core::stop_unwatched() {
-  for (const int robot : inputs_.commanders.overdue(WallClock::now())) {
+void Host::Core::stop_unwatched(WallClock::time_point now) {
+  for (const int robot : inputs_.commanders.overdue(now)) {
     warn_("robot " + robots_[static_cast<std::size_t>(robot)].name +
           " is stopped: nothing has arrived from who is in charge of it");
     inputs_.stop({robot});

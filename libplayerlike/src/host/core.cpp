@@ -442,7 +442,7 @@ bool Host::Core::advance() {
   if (progress_.note_step(now)) stalled_time_warning_.dismiss_alarm();
   if (mirror_) mirror_->before_step();
   inputs_.before_step(clients_);
-  stop_unwatched();
+  stop_unwatched(now);
   publish_blackboard();
   simulation_.step();
   if (mirror_) note_losses();

@@ -153,7 +153,7 @@ class Host::Core {
   void unsubscribe(Client& client, DeviceId device);
   Charge take_charge(Client& client, const TakeChargeRequest& what);
   /// Stops robots whose watchdog has heard nothing for too long.
-  void stop_unwatched();
+  void stop_unwatched(WallClock::time_point now);
   /// Throws SessionError kNotAvailable if the world hides something from this client.
   /// @param robot  whose sensors to read; -1: data of no robot, such as objects and the map.
   void require_readable(const Client& client, int robot) const;

@@ -207,6 +207,8 @@ std::unique_ptr<RealLink> Mirror::Robot::connect(const Binding* earlier, double 
   if (earlier != nullptr && !(*earlier == binding)) {
     throw SessionError(SessionError::Code::kNotAvailable, "the robot has other devices now");
   }
+  // The end of the run waits for an attempt to connect again.
+  if (earlier != nullptr) session->request(AnswerTimeoutRequest{timeout_s});
   std::set<std::pair<int, int>> subscribed;
   const auto subscribe = [&](DeviceId device) {
     if (subscribed.insert({device.robot, device.device}).second) {

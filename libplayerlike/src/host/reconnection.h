@@ -16,9 +16,9 @@ namespace playerlike {
 /// the members.
 class Reconnection {
  public:
-  /// Time between two attempts, and limit of an attempt [s].
+  /// Time between two attempts, and limit of each step of an attempt [s].
   static constexpr double kPause_s = 0.25;
-  static constexpr double kAttempt_s = 1.0;
+  static constexpr double kAttempt_s = 0.75;
 
   /// Makes a connection. It throws SessionError if that fails.
   using Connect = std::function<std::unique_ptr<RealLink>()>;

@@ -92,6 +92,13 @@ TEST_F(CommandersTest, ARobotThatNobodyHasCommandedIsNotStopped) {
   EXPECT_THAT(commanders_.note_closed(a_, {7, 0}), IsEmpty()) << "there is no such robot";
 }
 
+TEST_F(CommandersTest, WhoOnlyLooksOnKeepsNoRobotGoing) {
+  b_.onlooker = true;
+  open(b_, 0);
+  drive(&a_, 0);
+  EXPECT_THAT(commanders_.note_gone(&a_), ElementsAre(0));
+}
+
 TEST_F(CommandersTest, SimulatedRobotsOfMorseDriveOn) {
   drive(&a_, 0, Kind::kMorse);
   EXPECT_THAT(commanders_.note_gone(&a_), IsEmpty());
