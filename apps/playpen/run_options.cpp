@@ -213,6 +213,7 @@ void add_run(CommandLine& line) {
   command.callback([request, &line] {
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
     request->command = line.program;
+    request->call = line.call;
     line.status = run(*request);
   });
 }

@@ -174,7 +174,7 @@ TEST_F(PlaypenEnds, ACrashLeavesTheResultsOfItsLastStep) {
   };
   const std::vector<Case> cases = {
       {"segv", {{"by", "signal"}, {"signal", "SIGSEGV"}}, "gdb -ex run --args"},
-      {"null", {{"by", "signal"}, {"signal", "SIGSEGV"}}, "playpen run --real-sleep"},
+      {"null", {{"by", "signal"}, {"signal", "SIGSEGV"}}, "-- gdb -ex run --args"},
       {"abort", {{"by", "signal"}, {"signal", "SIGABRT"}}, "was ended by signal 6"},
       {"throw", {{"by", "signal"}, {"signal", "SIGABRT"}}, "thrown by the program"},
       {"kill", {{"by", "signal"}, {"signal", "SIGKILL"}}, "was ended by signal 9"},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "devices/debug_types.h"
 #include "devices/errors.h"
 #include "session/checks.h"
 #include "sim/devices/laser.h"
@@ -16,7 +17,9 @@ namespace playerlike {
 using PlayerCc::detail::Elements;
 using PlayerCc::detail::thread_number;
 
-ClientCore::ClientCore(std::unique_ptr<Session> session) : session_(std::move(session)) {}
+ClientCore::ClientCore(std::unique_ptr<Session> session) : session_(std::move(session)) {
+  keep_debug_types();
+}
 
 ClientCore::~ClientCore() { session_->close(); }
 
