@@ -52,10 +52,10 @@ class Recorder {
   [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation) const;
 
   /// Completes trajectory.csv. observe() must not be called afterwards. @throws std::runtime_error
-  /// if writing fails.
+  /// with the reason if rows are missing; the rows before them are complete.
   void close_trajectory();
   /// Completes the film and the pictures in snapshots/. observe() must not be called afterwards.
-  /// @throws std::runtime_error if writing fails.
+  /// @throws std::runtime_error if writing fails or the run has ended before the film begins.
   void close_film();
 
  private:
@@ -65,8 +65,9 @@ class Recorder {
     sim::SimTime driven_ns = 0;  // updated in each step, like the trail
   };
   void extend_trails(const sim::Simulation& simulation);
-  void write_rows(const sim::Simulation& simulation);
-  void flush_trajectory();
+  [[nodiscard]] std::string rows(const sim::Simulation& simulation) const;
+  /// Writes whole rows. After the first failure, nothing is written any more.
+  void write_to_trajectory(const std::string& rows, sim::SimTime now_ns);
 
   /// Times k * period, k = 0, 1, ...
   class Clock {
@@ -86,6 +87,8 @@ class Recorder {
   bool active_ = false;
   std::string trajectory_file_;
   std::ofstream trajectory_;
+  std::uintmax_t trajectory_size_ = 0;  // of its whole rows [bytes]
+  std::string trajectory_problem_;      // why the rest is missing; "": nothing is missing
   std::string snapshot_folder_;
   std::unique_ptr<PictureThread> pictures_;  // null without film and pictures
   std::vector<Trail> trails_;
