@@ -61,15 +61,12 @@ void print_results(const playerlike::RunSettings& settings) {
             << (folder / "canvas.png").string() << ", " << (folder / "layers").string() << '/';
   if (settings.snapshot_period_s) std::cout << ", " << (folder / "snapshots").string() << '/';
   std::cout << '\n';
-  if (!settings.film.empty()) std::cout << "film: " << settings.film << '\n';
+  if (!settings.film.empty() && fs::exists(settings.film)) {
+    std::cout << "film: " << settings.film << '\n';
+  }
 }
 
 void pace_for_view(playerlike::RunSettings& settings, const sim::WorldDescription& world) {
-  if (settings.time_mode == sim::TimeMode::kLockstep) {
-    throw std::runtime_error(
-        "--view shows a run in real time, so it can't go with --time lockstep; leave that out, or "
-        "give a factor such as --time 4");
-  }
   if (settings.time_mode || world.simulation.time_mode == sim::TimeMode::kPaced) return;
   settings.time_mode = sim::TimeMode::kPaced;
   settings.time_factor = 1.0;

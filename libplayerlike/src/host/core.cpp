@@ -59,6 +59,7 @@ Host::Core::~Core() { stop(); }
 void Host::Core::start() {
   if (settings_.view_socket) window_ = std::make_unique<Window>(*this, *settings_.view_socket);
   const Lock lock = lock_with_priority();  // the window's thread may be running already
+  if (window_) pace_.watch_from(sim::from_seconds(settings_.film_from_s));
   if (simulation_.world().simulation.time_mode != sim::TimeMode::kPaced) return;
   pace_.follow_wall_clock();
   pacer_ = std::thread([this] { pace(); });
@@ -244,7 +245,12 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
       if (began) changed_.notify_all();
       changed_.wait(lock);
     } else if (!client.onlooker && may_advance(all_known_waiting)) {
-      all_known_waiting = !advance();
+      if (is_too_early()) {
+        wait_for_next_step(lock);
+        all_known_waiting = false;
+      } else {
+        all_known_waiting = !advance();
+      }
     } else {
       if (began) changed_.notify_all();
       wait_for_others(lock, client);
@@ -262,6 +268,18 @@ void Host::Core::wait_for_others(Lock& lock, const Client& client) {
   if (changed_.wait_until(lock, deadline) == std::cv_status::timeout) {
     lockstep_.note_silence(WallClock::now());
   }
+}
+
+bool Host::Core::is_too_early() {
+  if (!pace_.watched(simulation_.now_ns())) return false;
+  if (settings_.quiet_end && interrupted() != 0) return false;  // the step ends the run
+  return pace_.is_too_early(simulation_.now_ns(), WallClock::now());
+}
+
+void Host::Core::wait_for_next_step(Lock& lock) {
+  // A signal that ends the run wakes nobody.
+  constexpr std::chrono::milliseconds kLook(50);
+  changed_.wait_until(lock, std::min(pace_.due(), WallClock::now() + kLook));
 }
 
 void Host::Core::wait(Client& client) {
@@ -397,6 +415,8 @@ bool Host::Core::advance_for(std::chrono::microseconds slice) {
   if (in_turns() || !may_advance()) return false;
   const auto end = WallClock::now() + slice;
   do {
+    // The server asks again ten times a second.
+    if (is_too_early()) return false;
     advance();
     if (!may_advance()) return false;
     // Another thread waits in lock_with_priority().

@@ -162,6 +162,11 @@ class Host::Core {
   /// @param all_known_waiting  the caller knows that all clients wait.
   [[nodiscard]] bool may_advance(bool all_known_waiting = false);
   void wait_for_others(Lock& lock, const Client& client);
+  /// Whether the next step of a lockstep run has to wait, because people watch; see
+  /// Pace::is_too_early().
+  [[nodiscard]] bool is_too_early();
+  /// Waits until the next step is due, or for something else.
+  void wait_for_next_step(Lock& lock);
   [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
   EventClient::Outcome begin(Client& client, ThreadId thread_id, bool wants_data,
                              std::optional<sim::SimTime> wake_ns);

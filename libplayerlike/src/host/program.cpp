@@ -299,6 +299,7 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   };
   changes["PLAYPEN_RECORD_FPS"] = number_unless(settings.film_fps, defaults.film_fps);
   changes["PLAYPEN_RECORD_SPEED"] = number_unless(settings.film_speed, defaults.film_speed);
+  changes["PLAYPEN_RECORD_FROM"] = number_unless(settings.film_from_s, defaults.film_from_s);
   changes["PLAYPEN_SNAPSHOT_EVERY"] =
       settings.snapshot_period_s ? std::optional(sim::shortest_text(*settings.snapshot_period_s))
                                  : std::nullopt;

@@ -38,7 +38,8 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
   std::unique_ptr<sim::render::FilmWriter> film;
   if (!settings.film.empty()) {
     film = std::make_unique<sim::render::FilmWriter>(settings.film, settings.film_fps);
-    film_clock_ = Clock(settings.film_speed / settings.film_fps);
+    film_clock_ = Clock(settings.film_speed / settings.film_fps, settings.film_from_s);
+    film_begin_s_ = settings.film_from_s;
   }
   if (settings.snapshot_period_s && !settings.output_folder.empty()) {
     snapshot_folder_ = (folder / kSnapshotFolder).string();
@@ -57,7 +58,8 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
 std::uint64_t Recorder::Clock::due(sim::SimTime now_ns) {
   if (period_s_ <= 0.0) return 0;
   // The tolerance covers rounding errors; it is far smaller than a step.
-  const double periods = sim::to_seconds(now_ns) / period_s_ * (1.0 + 1e-12) + 1e-9;
+  const double periods = (sim::to_seconds(now_ns) - from_s_) / period_s_ * (1.0 + 1e-12) + 1e-9;
+  if (periods < 0.0) return 0;
   const std::uint64_t past = static_cast<std::uint64_t>(periods) + 1;
   const std::uint64_t count = past - std::min(reported_, past);
   reported_ = past;
@@ -85,6 +87,7 @@ void Recorder::observe(const sim::Simulation& simulation) {
   const auto frames = static_cast<int>(film_clock_.due(now_ns));
   const bool picture = snapshot_clock_.due(now_ns) > 0;
   if (frames == 0 && !picture) return;
+  if (frames > 0) film_begin_s_.reset();
   pictures_->add({.scene = scene(simulation),
                   .film_frames = frames,
                   .picture = picture ? picture_file(now_ns) : std::string()});
@@ -170,6 +173,9 @@ void Recorder::close_film() {
   // The thread is released even if finish() throws; a second call does nothing.
   const std::unique_ptr<PictureThread> pictures = std::move(pictures_);
   if (pictures) pictures->finish();
+  if (!pictures || !film_begin_s_) return;
+  throw std::runtime_error("there is no film, since the run has ended before the film's begin at " +
+                           sim::shortest_text(*film_begin_s_) + " s (--record-from)");
 }
 
 }  // namespace playerlike

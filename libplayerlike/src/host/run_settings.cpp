@@ -196,6 +196,10 @@ bool parse_film_speed(const std::string& text, double& speed) {
   return parse_within(text, 0.01, 1000.0, speed);
 }
 
+bool parse_film_start(const std::string& text, double& from_s) {
+  return parse_within(text, 0.0, kLongest_s, from_s);
+}
+
 bool parse_film_size(const std::string& text, sim::render::RenderOptions& options) {
   constexpr int kLeast = 64;
   constexpr int kMost = 4096;
@@ -338,6 +342,8 @@ RunSettings RunSettings::from_environment() {
                  into<double>(settings.film_fps, parse_film_fps));
   variables.read("PLAYPEN_RECORD_SPEED", kFilmSpeedExpected,
                  into<double>(settings.film_speed, parse_film_speed));
+  variables.read("PLAYPEN_RECORD_FROM", kFilmStartExpected,
+                 into<double>(settings.film_from_s, parse_film_start));
   using PictureParser = bool (*)(const std::string&, sim::render::RenderOptions&);
   const auto read_picture = [&](const char* name, const char* expected, PictureParser parse) {
     variables.read(name, expected,

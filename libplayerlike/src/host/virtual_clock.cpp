@@ -45,6 +45,8 @@ bool Host::Core::VirtualClock::step(Lock& lock) {
       !Turns::instance().somebody_waits_for_time()) {
     return false;
   }
+  // Turns asks again after some milliseconds.
+  if (core_.is_too_early()) return false;
   core_.advance();
   core_.give_way(lock);
   return true;
