@@ -191,6 +191,7 @@ int run(RunRequest request) {
   playerlike::RunWatch watch;
   watch.kept = &kept;
   watch.desk = &desk;
+  watch.standstill_s = playerlike::silence_limit_s_of_environment();
   watch.tell = [](const std::string& text) { std::cerr << "playpen: " << text << '\n'; };
   bool completed = false;
   watch.on_end = [&](const playerlike::ProgramEnd& program_end) {

@@ -210,7 +210,10 @@ TEST_F(VirtualTime, SoDoesOneThatCatchesAllErrors) {
 }
 
 TEST_F(VirtualTime, SoDoesOneThatNeitherReadsNorSleeps) {
-  EXPECT_EQ(run("command_for_ever", {"--duration", "2"}).status, 0);
+  const ProcessResult result = run("command_for_ever", {"--duration", "2"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("was ended while it went on without calling Read()"),
+                                Not(HasSubstr("in its sleep"))));
   EXPECT_DOUBLE_EQ(sim_time(), 2.0);
   EXPECT_NEAR(robot().at("path_length").get<double>(), 0.02, 0.002);
   const json first = report().at("run").at("state_hash");

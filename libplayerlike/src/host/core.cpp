@@ -6,6 +6,7 @@
 #include <exception>
 #include <utility>
 
+#include "host/busy_alarm.h"
 #include "host/virtual_clock.h"
 #include "host/window.h"
 #include "process/end_of_program.h"
@@ -177,39 +178,6 @@ void Host::Core::send(Client& client, DeviceId device, const sim::Command& comma
   if (!full) return;
   const Lock lock = lock_with_priority();
   inputs_.apply(client);
-}
-
-// --- Programs that do not advance time
-
-void Host::Core::set_busy_alarm() {
-  if (!paced() && !over() && simulation_.now_ns() == 0) stalled_time_warning_.set_alarm();
-}
-
-void Host::Core::count_data_reads(Client& client, int count, bool has_data) {
-  if (!client.is_programs()) return;
-  bool must_check = false;
-  {
-    const std::lock_guard input(client.input_mutex);
-    must_check = StalledTimeWarning::count_data_reads(client, now_ns(), count, has_data);
-  }
-  if (must_check) check_stalled_time(client);
-}
-
-void Host::Core::check_stalled_time(Client& client) {
-  const Lock lock = lock_with_priority();
-  const ThreadId self = this_thread_id();
-  const bool others =
-      in_turns() ? VirtualClock::others_take_turns(self) : lockstep_.others_may_wait(self);
-  stalled_time_warning_.check(client, simulation_.now_ns(), paced() || over() || others);
-}
-
-void Host::Core::note_program_ends(int status) {
-  const Lock lock = lock_with_priority();
-  results_.program_status = status;
-  stalled_time_warning_.dismiss_alarm();
-  // A program that ends with an error status needs no advice.
-  if (!paced() && !ended_ && simulation_.now_ns() == 0 && status == 0)
-    stalled_time_warning_.note_end();
 }
 
 // --- Waiting
@@ -456,13 +424,15 @@ void Host::Core::publish_blackboard() {
 
 bool Host::Core::advance() {
   const auto now = WallClock::now();
-  if (progress_.note_step(now)) stalled_time_warning_.dismiss_alarm();
+  if (progress_.note_step(now)) stalled_time_warning_.note_first_step(!paced());
+  if (tells_of_endless_run_) tell_of_endless_run(now);
   if (mirror_) mirror_->before_step();
   inputs_.before_step(clients_);
   publish_blackboard();
   simulation_.step();
   if (mirror_) note_losses();
   now_ns_.store(simulation_.now_ns(), std::memory_order_release);
+  if (watches_program_) note_step_for_alarm(simulation_.now_ns());
   pace_.count_step();
   results_.observe();
   clients_.distribute(results_.logs);

@@ -150,6 +150,10 @@ class Host::Core {
   void count_data_reads(Client& client, int count, bool has_data);
   void check_stalled_time(Client& client);
   void set_busy_alarm();
+  /// See Host::watch_program().
+  void watch_program();
+  /// Tells the user of a program that runs without `playpen run` that its run has no end.
+  void tell_of_endless_run(WallClock::time_point now);
   void prefer_real_time(const std::string& reason);
 
   /// Waits until the client has data (if wants_data), until simulated time wake_ns (if set) or
@@ -230,6 +234,8 @@ class Host::Core {
   std::unique_ptr<Window> window_;
   std::thread pacer_;
 
+  bool watches_program_ = false;  ///< the program in whose process this is
+  bool tells_of_endless_run_ = false;
   bool had_client_ = false;
   bool mode_chosen_ = false;  ///< the world or a setting has set the time mode
   bool stop_pacing_ = false;

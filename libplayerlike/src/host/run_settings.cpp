@@ -308,6 +308,14 @@ bool parse_snapshot_period(const std::string& text, double& period_s) {
   return parse_within(text, 0.001, kLongest_s, period_s);
 }
 
+double silence_limit_s_of_environment() {
+  double limit_s = RunSettings{}.silence_limit_s;
+  const std::string text(environment("PLAYPEN_SILENCE_LIMIT"));
+  double given_s = 0.0;
+  if (!text.empty() && parse_positive_seconds(text, given_s)) limit_s = given_s;
+  return limit_s;
+}
+
 RunSettings RunSettings::from_environment() {
   RunSettings settings;
   Variables variables;

@@ -153,6 +153,10 @@ struct RunSettings {
 void apply_interface_choices(sim::WorldDescription& world,
                              const std::vector<InterfaceChoice>& choices);
 
+/// The value of PLAYPEN_SILENCE_LIMIT, or the default of RunSettings::silence_limit_s if it has no
+/// valid one.
+[[nodiscard]] double silence_limit_s_of_environment();
+
 /// Parses the frames per second of a film, 1..240.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_film_fps(const std::string& text, double& frames_per_second);
