@@ -317,6 +317,18 @@ TEST_F(VirtualTime, ARunThatTheWallClockHadASayInIsNotRepeatable) {
   EXPECT_THAT(whys(), ElementsAre(HasSubstr("several threads")));
 }
 
+TEST_F(VirtualTime, WithRealSleepOnlyAProgramOfOneThreadIsRepeatable) {
+  static_cast<void>(run("look_at_the_clock", {"--real-sleep", "--duration", "1"}));
+  EXPECT_EQ(report().at("run").at("repeatable"), true);
+  // Its other thread has no client.
+  static_cast<void>(run("take_speeds_from_a_thread", {"--real-sleep"}));
+  EXPECT_THAT(whys(), ElementsAre(HasSubstr("several threads")));
+  // Playpen's own thread that draws hides those of the program.
+  static_cast<void>(run("look_at_the_clock", {"--real-sleep", "--duration", "1", "--record",
+                                              folder_ / "film", "--record-fps", "1"}));
+  EXPECT_THAT(whys(), ElementsAre(HasSubstr("unknown whether the program has threads")));
+}
+
 TEST_F(VirtualTime, WhoComputesForTooLongHoldsUpNobodyAndTheReportSaysSo) {
   ProcessOptions options;
   options.environment = {{"PLAYPEN_SILENCE_LIMIT", "0.2"}};

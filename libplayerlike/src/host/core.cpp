@@ -11,6 +11,7 @@
 #include "host/window.h"
 #include "process/end_of_program.h"
 #include "sim/core/number_text.h"
+#include "virtual_time/program_threads.h"
 
 namespace playerlike {
 namespace {
@@ -616,10 +617,17 @@ std::vector<std::string> Host::Core::unrepeatable() const {
   if (onlooker_acted_) {
     why.emplace_back("a client on a Player port commanded a robot or changed the world");
   }
-  if (!paced() && lockstep_.several_owners() && (!turns_ || !Turns::instance().active())) {
-    why.emplace_back(
-        "the program has several threads or there were several programs, and time was "
-        "not virtual: what they do side by side is chance");
+  if (!paced() && (!turns_ || !Turns::instance().active())) {
+    const ProgramThreads threads = watches_program_ ? program_threads() : ProgramThreads::kNone;
+    if (lockstep_.several_owners() || threads == ProgramThreads::kSome) {
+      why.emplace_back(
+          "the program has several threads or there were several programs, and time was "
+          "not virtual: what they do side by side is chance");
+    } else if (threads == ProgramThreads::kUnknown) {
+      why.emplace_back(
+          "time was not virtual, and it is unknown whether the program has threads of its own "
+          "beside those that Playpen started in it");
+    }
   }
   return why;
 }
