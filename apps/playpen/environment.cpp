@@ -28,6 +28,7 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"PLAYPEN_REALISM", "The level of realism: ideal, course or real.", true},
       {"PLAYPEN_RECORD", "The film to record.", true},
       {"PLAYPEN_RECORD_FPS", "Frames per second of the film.", true},
+      {"PLAYPEN_RECORD_FROM", "Simulated time at which the film begins [s].", true},
       {"PLAYPEN_RECORD_SPEED", "Simulated seconds per second of the film.", true},
       {"PLAYPEN_RECORD_SIZE", "Size of the film in pixels, such as 640x480.", true},
       {"PLAYPEN_FOLLOW", "The robot that pictures follow.", true},

@@ -6,10 +6,12 @@
 #include <exception>
 #include <utility>
 
+#include "host/busy_alarm.h"
 #include "host/virtual_clock.h"
 #include "host/window.h"
 #include "process/end_of_program.h"
 #include "sim/core/number_text.h"
+#include "virtual_time/program_threads.h"
 
 namespace playerlike {
 namespace {
@@ -59,6 +61,7 @@ Host::Core::~Core() { stop(); }
 void Host::Core::start() {
   if (settings_.view_socket) window_ = std::make_unique<Window>(*this, *settings_.view_socket);
   const Lock lock = lock_with_priority();  // the window's thread may be running already
+  if (window_) pace_.watch_from(sim::from_seconds(settings_.film_from_s));
   if (simulation_.world().simulation.time_mode != sim::TimeMode::kPaced) return;
   pace_.follow_wall_clock();
   pacer_ = std::thread([this] { pace(); });
@@ -181,39 +184,6 @@ void Host::Core::send(Client& client, DeviceId device, const sim::Command& comma
   inputs_.apply(client);
 }
 
-// --- Programs that do not advance time
-
-void Host::Core::set_busy_alarm() {
-  if (!paced() && !over() && simulation_.now_ns() == 0) stalled_time_warning_.set_alarm();
-}
-
-void Host::Core::count_data_reads(Client& client, int count, bool has_data) {
-  if (!client.is_programs()) return;
-  bool must_check = false;
-  {
-    const std::lock_guard input(client.input_mutex);
-    must_check = StalledTimeWarning::count_data_reads(client, now_ns(), count, has_data);
-  }
-  if (must_check) check_stalled_time(client);
-}
-
-void Host::Core::check_stalled_time(Client& client) {
-  const Lock lock = lock_with_priority();
-  const ThreadId self = this_thread_id();
-  const bool others =
-      in_turns() ? VirtualClock::others_take_turns(self) : lockstep_.others_may_wait(self);
-  stalled_time_warning_.check(client, simulation_.now_ns(), paced() || over() || others);
-}
-
-void Host::Core::note_program_ends(int status) {
-  const Lock lock = lock_with_priority();
-  results_.program_status = status;
-  stalled_time_warning_.dismiss_alarm();
-  // A program that ends with an error status needs no advice.
-  if (!paced() && !ended_ && simulation_.now_ns() == 0 && status == 0)
-    stalled_time_warning_.note_end();
-}
-
 // --- Waiting
 
 bool Host::Core::program_takes_part() const {
@@ -247,7 +217,12 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
       if (began) changed_.notify_all();
       changed_.wait(lock);
     } else if (!client.onlooker && may_advance(all_known_waiting)) {
-      all_known_waiting = !advance();
+      if (is_too_early()) {
+        wait_for_next_step(lock);
+        all_known_waiting = false;
+      } else {
+        all_known_waiting = !advance();
+      }
     } else {
       if (began) changed_.notify_all();
       wait_for_others(lock, client);
@@ -265,6 +240,18 @@ void Host::Core::wait_for_others(Lock& lock, const Client& client) {
   if (changed_.wait_until(lock, deadline) == std::cv_status::timeout) {
     lockstep_.note_silence(WallClock::now());
   }
+}
+
+bool Host::Core::is_too_early() {
+  if (!pace_.watched(simulation_.now_ns())) return false;
+  if (settings_.quiet_end && interrupted() != 0) return false;  // the step ends the run
+  return pace_.is_too_early(simulation_.now_ns(), WallClock::now());
+}
+
+void Host::Core::wait_for_next_step(Lock& lock) {
+  // A signal that ends the run wakes nobody.
+  constexpr std::chrono::milliseconds kLook(50);
+  changed_.wait_until(lock, std::min(pace_.due(), WallClock::now() + kLook));
 }
 
 void Host::Core::wait(Client& client) {
@@ -400,6 +387,8 @@ bool Host::Core::advance_for(std::chrono::microseconds slice) {
   if (in_turns() || !may_advance()) return false;
   const auto end = WallClock::now() + slice;
   do {
+    // The server asks again ten times a second.
+    if (is_too_early()) return false;
     advance();
     if (!may_advance()) return false;
     // Another thread waits in lock_with_priority().
@@ -439,7 +428,8 @@ void Host::Core::publish_blackboard() {
 
 bool Host::Core::advance() {
   const auto now = WallClock::now();
-  if (progress_.note_step(now)) stalled_time_warning_.dismiss_alarm();
+  if (progress_.note_step(now)) stalled_time_warning_.note_first_step(!paced());
+  if (tells_of_endless_run_) tell_of_endless_run(now);
   if (mirror_) mirror_->before_step();
   inputs_.before_step(clients_);
   stop_unwatched(now);
@@ -447,6 +437,7 @@ bool Host::Core::advance() {
   simulation_.step();
   if (mirror_) note_losses();
   now_ns_.store(simulation_.now_ns(), std::memory_order_release);
+  if (watches_program_) note_step_for_alarm(simulation_.now_ns());
   pace_.count_step();
   results_.observe();
   clients_.distribute(results_.logs);
@@ -633,10 +624,17 @@ std::vector<std::string> Host::Core::unrepeatable() const {
   if (onlooker_acted_) {
     why.emplace_back("a client on a Player port commanded a robot or changed the world");
   }
-  if (!paced() && lockstep_.several_owners() && (!turns_ || !Turns::instance().active())) {
-    why.emplace_back(
-        "the program has several threads or there were several programs, and time was "
-        "not virtual: what they do side by side is chance");
+  if (!paced() && (!turns_ || !Turns::instance().active())) {
+    const ProgramThreads threads = watches_program_ ? program_threads() : ProgramThreads::kNone;
+    if (lockstep_.several_owners() || threads == ProgramThreads::kSome) {
+      why.emplace_back(
+          "the program has several threads or there were several programs, and time was "
+          "not virtual: what they do side by side is chance");
+    } else if (threads == ProgramThreads::kUnknown) {
+      why.emplace_back(
+          "time was not virtual, and it is unknown whether the program has threads of its own "
+          "beside those that Playpen started in it");
+    }
   }
   return why;
 }

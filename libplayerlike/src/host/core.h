@@ -160,6 +160,10 @@ class Host::Core {
   void count_data_reads(Client& client, int count, bool has_data);
   void check_stalled_time(Client& client);
   void set_busy_alarm();
+  /// See Host::watch_program().
+  void watch_program();
+  /// Tells the user of a program that runs without `playpen run` that its run has no end.
+  void tell_of_endless_run(WallClock::time_point now);
   void prefer_real_time(const std::string& reason);
 
   /// Waits until the client has data (if wants_data), until simulated time wake_ns (if set) or
@@ -172,6 +176,11 @@ class Host::Core {
   /// @param all_known_waiting  the caller knows that all clients wait.
   [[nodiscard]] bool may_advance(bool all_known_waiting = false);
   void wait_for_others(Lock& lock, const Client& client);
+  /// Whether the next step of a lockstep run has to wait, because people watch; see
+  /// Pace::is_too_early().
+  [[nodiscard]] bool is_too_early();
+  /// Waits until the next step is due, or for something else.
+  void wait_for_next_step(Lock& lock);
   [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
   EventClient::Outcome begin(Client& client, ThreadId thread_id, bool wants_data,
                              std::optional<sim::SimTime> wake_ns);
@@ -235,6 +244,8 @@ class Host::Core {
   std::unique_ptr<Window> window_;
   std::thread pacer_;
 
+  bool watches_program_ = false;  ///< the program in whose process this is
+  bool tells_of_endless_run_ = false;
   bool had_client_ = false;
   bool mode_chosen_ = false;  ///< the world or a setting has set the time mode
   bool stop_pacing_ = false;

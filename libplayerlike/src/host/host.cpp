@@ -54,7 +54,7 @@ bool Host::is_abandoned() const {
 bool Host::advance(std::chrono::microseconds slice) { return core_->advance_for(slice); }
 void Host::check_silence() { core_->check_silence(); }
 void Host::watch_program() {
-  core_->locked([this] { core_->stalled_time_warning_.watch(); });
+  core_->locked([this] { core_->watch_program(); });
 }
 void Host::note_program_ends(int status) { InsideCore(*core_)->note_program_ends(status); }
 void Host::note_end_request(int signal) {

@@ -29,6 +29,9 @@ struct KeptHeader {
   std::atomic<std::uint32_t> noted{0};     ///< the first signal that requested the end; 0: none
   std::atomic<std::int32_t> process{0};    ///< process id of the host
   std::atomic<std::uint32_t> conflict{0};  ///< nonzero after KeptRun::note_conflict()
+  // For KeptRun::progress().
+  std::atomic<std::uint64_t> made_steps{0};
+  std::atomic<std::int64_t> now_ns{0};
   // The following is valid if robots > 0. Places are offsets from the beginning of the memory
   // [bytes].
   std::atomic<std::uint32_t> robots{0};

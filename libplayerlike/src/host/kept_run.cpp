@@ -55,6 +55,10 @@ KeptRun::Phase KeptRun::phase() const noexcept {
                                                            : Phase::kNone;
 }
 
+KeptRun::Progress KeptRun::progress() const noexcept {
+  return {header_->process, header_->made_steps, header_->now_ns};
+}
+
 void KeptRun::note_conflict() const noexcept { header_->conflict = 1; }
 
 int KeptRun::interrupt_noted() const noexcept {

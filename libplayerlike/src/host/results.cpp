@@ -14,6 +14,8 @@ namespace {
 constexpr std::chrono::seconds kKeepingPeriod(1);
 // Minimum period of KeptWriter::keep_looks(); the state is stored after each step.
 constexpr std::chrono::milliseconds kLooksPeriod(50);
+// How much the report may grow between two writes of the results.
+constexpr std::uint64_t kReportGrowth = 64 << 10;
 
 }  // namespace
 
@@ -23,7 +25,8 @@ Results::Results(const RunSettings& settings, sim::Simulation& simulation,
       simulation_(simulation),
       time_(std::move(time)),
       warn_(std::move(warn)),
-      mirror_(mirror) {
+      mirror_(mirror),
+      report_room_(settings.output_folder) {
   if (!settings.output_folder.empty()) std::filesystem::create_directories(settings.output_folder);
   recorder_ = std::make_unique<Recorder>(settings, simulation, mirror);
   kept_ = KeptWriter::open(settings.kept_run);
@@ -32,6 +35,7 @@ Results::Results(const RunSettings& settings, sim::Simulation& simulation,
     kept_->keep_looks(report_text(simulation_, *recorder_, {}, RunEnd{}), simulation_);
     kept_->keep_step({}, *recorder_, simulation_);
   }
+  if (!settings.output_folder.empty()) hold_room_for({});
   if (settings.quiet_end) note_interrupts(kept_ ? &kept_->noted() : nullptr);
 }
 
@@ -62,7 +66,9 @@ void Results::keep_report(WallClock::time_point now) {
   last_kept_ = now;
   try {
     const FileLimitErrors limit_errors;
-    write_report(settings_.output_folder, signed_report(report_now(), settings_.grading));
+    const std::string report = signed_report(report_now(), settings_.grading);
+    write_report(settings_.output_folder, report);
+    hold_room_for(report);
   } catch (const std::exception& e) {
     if (!std::exchange(write_failure_warned_, true)) {
       warn_(std::string("results of the run cannot be written at present: ") + e.what());
@@ -90,6 +96,7 @@ void Results::write() {
       kept_->keep_step(time, *recorder_, simulation_);
       kept_->keep_looks(report, simulation_);
     }
+    report_room_.release();
     attempt(kMissingResults,
             [&] { write_report(folder, signed_report(report, settings_.grading)); });
   }
@@ -103,6 +110,11 @@ void Results::write() {
   }
   attempt("the recording is not complete: ", [&] { recorder_->close_film(); });
   set_phase(KeptRun::Phase::kDone);
+}
+
+void Results::hold_room_for(const std::string& report) {
+  // Without the room, the last report is written if it fits.
+  static_cast<void>(report_room_.hold(2 * report.size() + kReportGrowth));
 }
 
 std::string Results::report_now() const {

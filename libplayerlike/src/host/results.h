@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host/client.h"
+#include "host/disk_room.h"
 #include "host/kept_writer.h"
 #include "host/outputs.h"
 #include "host/recorder.h"
@@ -56,6 +57,8 @@ class Results {
 
  private:
   void keep_report(WallClock::time_point now);
+  /// Holds the room for a last report that is somewhat longer than this one.
+  void hold_room_for(const std::string& report);
   [[nodiscard]] std::string report_now() const;
   [[nodiscard]] RunEnd reason_of_end() const;
   void set_phase(KeptRun::Phase phase) noexcept;
@@ -65,6 +68,7 @@ class Results {
   const std::function<TimeStatistics()> time_;
   const Warn warn_;
   const Mirror* const mirror_;
+  DiskRoom report_room_;  ///< for the last report: trajectory, film and logs may fill the disk
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<KeptWriter> kept_;                ///< null unless the settings name a file
   WallClock::time_point last_looks_{};              ///< when keep_looks() was last called

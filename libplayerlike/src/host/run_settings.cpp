@@ -196,6 +196,10 @@ bool parse_film_speed(const std::string& text, double& speed) {
   return parse_within(text, 0.01, 1000.0, speed);
 }
 
+bool parse_film_start(const std::string& text, double& from_s) {
+  return parse_within(text, 0.0, kLongest_s, from_s);
+}
+
 bool parse_film_size(const std::string& text, sim::render::RenderOptions& options) {
   constexpr int kLeast = 64;
   constexpr int kMost = 4096;
@@ -304,6 +308,14 @@ bool parse_snapshot_period(const std::string& text, double& period_s) {
   return parse_within(text, 0.001, kLongest_s, period_s);
 }
 
+double silence_limit_s_of_environment() {
+  double limit_s = RunSettings{}.silence_limit_s;
+  const std::string text(environment("PLAYPEN_SILENCE_LIMIT"));
+  double given_s = 0.0;
+  if (!text.empty() && parse_positive_seconds(text, given_s)) limit_s = given_s;
+  return limit_s;
+}
+
 RunSettings RunSettings::from_environment() {
   RunSettings settings;
   Variables variables;
@@ -338,6 +350,8 @@ RunSettings RunSettings::from_environment() {
                  into<double>(settings.film_fps, parse_film_fps));
   variables.read("PLAYPEN_RECORD_SPEED", kFilmSpeedExpected,
                  into<double>(settings.film_speed, parse_film_speed));
+  variables.read("PLAYPEN_RECORD_FROM", kFilmStartExpected,
+                 into<double>(settings.film_from_s, parse_film_start));
   using PictureParser = bool (*)(const std::string&, sim::render::RenderOptions&);
   const auto read_picture = [&](const char* name, const char* expected, PictureParser parse) {
     variables.read(name, expected,

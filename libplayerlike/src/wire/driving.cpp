@@ -228,11 +228,7 @@ class Localize final : public RobotDevice {
         for (const double number : asked.cov) require_number("a covariance", number);
         const sim::Pose pose{asked.mean.px, asked.mean.py, sim::normalize_angle(asked.mean.pa)};
         const sim::SetPoseCommand command = set_pose_command(pose, asked.cov);
-        if (!sim::is_valid({*command.variance, *command.covariance})) {
-          throw SessionError(SessionError::Code::kBadArgument,
-                             "the covariance of the pose is not positive semidefinite");
-        }
-        send(command);
+        send(command);  // refuses what is no pose or no covariance
         return empty_payload();
       }
       case PLAYER_LOCALIZE_REQ_GET_PARTICLES:

@@ -37,6 +37,14 @@ class KeptRun {
   [[nodiscard]] Phase phase() const noexcept;
   /// The first signal that the host has noted as a request to end its run; 0: none.
   [[nodiscard]] int interrupt_noted() const noexcept;
+  /// How far the run is.
+  struct Progress {
+    int process = 0;          ///< process id of the host; 0: none yet
+    std::uint64_t steps = 0;  ///< made so far
+    std::int64_t now_ns = 0;  ///< simulated time
+    friend bool operator==(const Progress&, const Progress&) = default;
+  };
+  [[nodiscard]] Progress progress() const noexcept;
   /// Tells the host that another program of the run has asked for its world in vain.
   void note_conflict() const noexcept;
 

@@ -63,6 +63,9 @@ struct RunSettings {
   std::string film;           ///< .mp4 or .avi file, or folder for PNGs; "": no film
   double film_fps = 25.0;     ///< frames per second of the film, 1..240
   double film_speed = 1.0;    ///< simulated seconds per second of film, 0.01..1000
+  /// Simulated time at which the film begins, and at which a run in lockstep that is shown in a
+  /// window slows down for its viewers [s], 0..1e9.
+  double film_from_s = 0.0;
   /// Contents of pictures and films. size_px, width_px and height_px are the size of the film; the
   /// default of its longer side is 800.
   sim::render::RenderOptions pictures = default_pictures();
@@ -107,9 +110,9 @@ struct RunSettings {
 
   /// Reads the settings from the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME
   /// (lockstep, real or a factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS,
-  /// PLAYPEN_RECORD_SPEED, PLAYPEN_RECORD_SIZE, PLAYPEN_FOLLOW, PLAYPEN_CROP, PLAYPEN_HIDE,
-  /// PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground,
-  /// mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
+  /// PLAYPEN_RECORD_SPEED, PLAYPEN_RECORD_FROM, PLAYPEN_RECORD_SIZE, PLAYPEN_FOLLOW, PLAYPEN_CROP,
+  /// PLAYPEN_HIDE, PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE
+  /// (ground, mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
   /// descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
   /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_TAKE_OVER,
   /// PLAYPEN_INTERFACES and PLAYPEN_REAL (choices, separated by commas).
@@ -156,12 +159,18 @@ struct RunSettings {
 void apply_interface_choices(sim::WorldDescription& world,
                              const std::vector<InterfaceChoice>& choices);
 
+/// The value of PLAYPEN_SILENCE_LIMIT, or the default of RunSettings::silence_limit_s if it has no
+/// valid one.
+[[nodiscard]] double silence_limit_s_of_environment();
+
 /// Parses the frames per second of a film, 1..240.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_film_fps(const std::string& text, double& frames_per_second);
 /// Parses the simulated seconds per second of film, 0.01..1000.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_film_speed(const std::string& text, double& speed);
+/// Parses the simulated time at which a film begins, 0..1e9. @return whether the text is valid.
+[[nodiscard]] bool parse_film_start(const std::string& text, double& from_s);
 /// Parses the size of a film: "640x480", or the longer side, "640". Each side is 64..4096 pixels.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_film_size(const std::string& text, sim::render::RenderOptions& options);
@@ -201,6 +210,8 @@ inline constexpr const char* kRealRobotChoiceExpected =
 inline constexpr const char* kFilmFpsExpected = "a number of frames a second from 1 to 240";
 /// Description of the values that parse_film_speed() accepts, for messages.
 inline constexpr const char* kFilmSpeedExpected = "a number from 0.01 to 1000";
+/// Description of the values that parse_film_start() accepts, for messages.
+inline constexpr const char* kFilmStartExpected = "a number of seconds from 0 to 1e9";
 /// Description of the values that parse_film_size() accepts, for messages.
 inline constexpr const char* kFilmSizeExpected =
     "WIDTHxHEIGHT or the longer side, in pixels from 64 to 4096, such as 640x480";
