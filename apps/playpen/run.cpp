@@ -2,6 +2,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -192,7 +193,9 @@ int run(RunRequest request) {
   playerlike::RunWatch watch;
   watch.kept = &kept;
   watch.desk = &desk;
-  watch.standstill_s = playerlike::silence_limit_s_of_environment();
+  // With a window, the program's process draws pictures also while time is paused.
+  watch.standstill_s = request.view ? std::numeric_limits<double>::infinity()
+                                    : playerlike::silence_limit_s_of_environment();
   watch.tell = [](const std::string& text) { std::cerr << "playpen: " << text << '\n'; };
   bool completed = false;
   watch.on_end = [&](const playerlike::ProgramEnd& program_end) {
