@@ -122,8 +122,8 @@ void Recorder::write_rows(const sim::Simulation& simulation) {
   }
 }
 
-sim::SceneSnapshot Recorder::scene(const sim::Simulation& simulation) const {
-  sim::SceneSnapshot snapshot = simulation.snapshot();
+sim::SceneSnapshot Recorder::scene(const sim::Simulation& simulation, bool with_canvas) const {
+  sim::SceneSnapshot snapshot = simulation.snapshot(with_canvas);
   for (std::size_t i = 0; i < trails_.size(); ++i) {
     snapshot.robots[i].trail = trails_[i].points;
     if (!trails_[i].points.empty()) {
