@@ -195,7 +195,12 @@ Snapshot StateParts::snapshot(LayerStack& layers) {
   return snapshot;
 }
 
-std::uint64_t Simulation::state_hash() const { return state_parts().hash(impl_->layers); }
+std::uint64_t Simulation::state_hash() const {
+  StateArchive archive;
+  impl_->archive(archive);
+  return hash_of(archive.written());
+}
+
 Snapshot Simulation::save() const { return state_parts().snapshot(impl_->layers); }
 
 SnapshotReader::SnapshotReader(WorldDescription start, std::uint64_t hash, LogHook log)

@@ -494,11 +494,14 @@ TEST(HostEnd, ResultsThatAreTakenOverAreCompletedFromTheMemory) {
   const auto host = test::patient_host(two_robots(), settings);
   const auto session = host->connect(6665);
   session->request(SleepRequest{0.2});
+  host->note_end_request(SIGTERM);
   EXPECT_TRUE(host->take_over_results());
   EXPECT_FALSE(host->take_over_results());
   host->finish();
   EXPECT_FALSE(std::filesystem::exists(folder / "canvas.png")) << "the host writes none";
-  EXPECT_TRUE(complete_results(kept, two_robots(), settings, {.request = SIGTERM}));
+  ProgramEnd end;
+  end.request = SIGTERM;
+  EXPECT_TRUE(complete_results(kept, two_robots(), settings, end));
   const json report = json::parse(test_support::read_bytes(folder / "report.json"));
   EXPECT_EQ(report.at("run").at("steps"), 20);
   EXPECT_EQ(report.at("run").at("state_hash"), nullptr);

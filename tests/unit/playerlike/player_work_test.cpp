@@ -190,7 +190,7 @@ TEST_F(PlayerWork, APolygonOfManyCornersIsDrawnInPieces) {
   for (int i = 0; i < 10'000; ++i) {
     polygon.points.push_back({2.048 * i / 10'000, i % 2 == 0 ? 0.0 : 1.024});
   }
-  polygon.color = polygon.fill_color = {0, 200, 0, 0};
+  polygon.color = polygon.fill_color = {0, 200, 0, 0};  // alpha, red, green, blue
   polygon.filled = 1;
   client_.send(PLAYER_MSGTYPE_CMD, PLAYER_GRAPHICS2D_CODE, PLAYER_GRAPHICS2D_CMD_POLYGON,
                player::encode(polygon));
@@ -198,7 +198,9 @@ TEST_F(PlayerWork, APolygonOfManyCornersIsDrawnInPieces) {
   int pieces = 0;
   while (hub_.do_piece()) {
     ++pieces;
-    if (pieces < 4) EXPECT_TRUE(other_.is_answered());
+    if (pieces < 4) {
+      EXPECT_TRUE(other_.is_answered());
+    }
   }
   // 1024 rows with 10 000 corners are about 10 million comparisons, 2^20 in a piece.
   EXPECT_GE(pieces, 10);
@@ -208,7 +210,7 @@ TEST_F(PlayerWork, APolygonOfManyCornersIsDrawnInPieces) {
     ASSERT_EQ(layers.size(), 2U);
     // The edges alone, five a cell, cover everything.
     const auto cell = simulation.layers().cell(layers[1].id, 1024, 1000);
-    EXPECT_EQ(cell->colour(), (sim::Colour{0, 200, 0, 255}));
+    EXPECT_EQ(cell->colour(), (sim::Colour{200, 0, 0, 255}));
   });
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/core/error.h"
 #include "sim/core/number_text.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/robot_model.h"
@@ -650,7 +651,7 @@ TEST(ControllerWork, ATimerThatWouldDoTooMuchInAStepIsRefused) {
       "/controller/traps/0");
   // To clear the canvas costs a sixteenth, and a small canvas little.
   static_cast<void>(room(R"("timers": [{"every": 0.1, "do": [{"canvas": {}}]}])", canvas));
-  static_cast<void>(room(R"("timers": [{"every": 0.001, "do": [)" + fills + "]}]"));
+  static_cast<void>(room(R"("timers": [{"every": 0.01, "do": [)" + fills + "]}]"));
 }
 
 TEST(ControllerWork, AConfigurationOfVeryManyBlocksIsRefused) {

@@ -263,7 +263,7 @@ class Editor {
     } else if (what < 94) {
       add_layer();
     } else if (what < 98) {
-      EXPECT_EQ(stack->remove(id), id != kBaseLayer && plain.find(id) != nullptr);
+      EXPECT_EQ(stack->remove(id) != nullptr, id != kBaseLayer && plain.find(id) != nullptr);
       if (id != kBaseLayer) {
         std::erase_if(plain.layers, [id](const PlainLayer& l) { return l.info.id == id; });
       }
@@ -776,7 +776,9 @@ TEST(LayerStack, IsCopiedInPiecesWhileItChanges) {
   // Draws where the copy has been already, clears, and adds a layer, which begins the copy anew.
   LayerCopy copy = copied(stack, 1000, [&] {
     ++pieces;
-    DrawOperation cell{DrawOperation::Kind::kPixel, grey, pieces, 1};
+    DrawOperation cell;
+    cell.layer = grey;
+    cell.x0 = pieces;
     cell.value = CellValue::of(0.25F);
     if (pieces < 60) stack.draw({&cell, 1});
     if (pieces == 10) stack.base().clear();
