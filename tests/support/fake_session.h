@@ -305,7 +305,8 @@ class FakeSession final : public playerlike::Session {
   }
   playerlike::CanvasInfo operator()(const playerlike::ResizeCanvasRequest& what) {
     with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
-      registry.resize(layers, what.width, what.height);
+      registry.require_size(layers, what.width, what.height);
+      layers.resize(what.width, what.height);
       ++world_->resizes;
     });
     return (*this)(playerlike::CanvasInfoRequest{});

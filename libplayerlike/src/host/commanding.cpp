@@ -53,7 +53,7 @@ void Host::Core::stop_unwatched(WallClock::time_point now) {
 std::optional<std::string> Host::Core::command(Commanders::Who who, DeviceId device,
                                                const sim::Command& command) {
   const Lock lock = lock_with_priority();
-  if (over()) return kRunIsOver;
+  if (stands_still()) return kRunIsOver;
   if (mirror_ && pace_.paused()) return "the run is paused: real robots stand still";
   return inputs_.execute_for(who, device, command);
 }
@@ -66,7 +66,7 @@ void Host::Core::commander_gone(Commanders::Who who) noexcept {
 
 std::optional<std::string> Host::Core::set_active(DeviceId device, bool active) {
   const Lock lock = lock_with_priority();
-  if (over()) return kRunIsOver;
+  if (stands_still()) return kRunIsOver;
   simulation_.set_active(device, active);
   if (mirror_ && !active && moves_robot(simulation_.device(device.robot, device.device).type())) {
     mirror_->halt(device.robot);

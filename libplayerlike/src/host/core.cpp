@@ -18,6 +18,8 @@ namespace {
 
 // The program is ended after so many reads beyond the end of the run.
 constexpr int kReadsAfterEnd = 1000;
+// Cells of a canvas whose pictures are written so quickly that nobody has to be served meanwhile.
+constexpr std::size_t kQuicklyWritten = std::size_t{1} << 20U;
 
 void require_duration(double sleep_s) {
   if (sleep_s >= 0.0 && sleep_s <= 1e9) return;
@@ -74,7 +76,9 @@ void Host::Core::stop() noexcept {
     stop_pacing_ = true;
     changed_.notify_all();
   });
-  if (pacer_.joinable() && pacer_.get_id() != std::this_thread::get_id()) pacer_.join();
+  for (std::thread* const thread : {&pacer_, &ender_}) {
+    if (thread->joinable() && thread->get_id() != std::this_thread::get_id()) thread->join();
+  }
 }
 
 Host::Core::Lock Host::Core::lock_with_priority() const {
@@ -191,7 +195,7 @@ bool Host::Core::program_takes_part() const {
 }
 
 bool Host::Core::may_advance(bool all_known_waiting) {
-  return !paced() && !over() && !pace_.step_limit_reached() && lockstep_.gate_open() &&
+  return !paced() && !stands_still() && !pace_.step_limit_reached() && lockstep_.gate_open() &&
          program_takes_part() && (all_known_waiting || lockstep_.all_wait());
 }
 
@@ -221,7 +225,7 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
         wait_for_next_step(lock);
         all_known_waiting = false;
       } else {
-        all_known_waiting = !advance();
+        all_known_waiting = !advance(lock);
       }
     } else {
       if (began) changed_.notify_all();
@@ -234,8 +238,8 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
 
 // Waits for a change, at most until the silence limit of a client.
 void Host::Core::wait_for_others(Lock& lock, const Client& client) {
-  // A follower or onlooker waits for programs without a time limit.
-  if (!client.is_programs()) return changed_.wait(lock);
+  // A follower or onlooker waits for programs without a time limit, and all wait for the results.
+  if (!client.is_programs() || writing_) return changed_.wait(lock);
   const auto deadline = lockstep_.silence_deadline(WallClock::now());
   if (changed_.wait_until(lock, deadline) == std::cv_status::timeout) {
     lockstep_.note_silence(WallClock::now());
@@ -385,11 +389,12 @@ void Host::Core::cancel_wait(Client& client) {
 bool Host::Core::advance_for(std::chrono::microseconds slice) {
   Lock lock = lock_with_priority();
   if (in_turns() || !may_advance()) return false;
+  ends_elsewhere_ = true;  // the caller has other clients to answer
   const auto end = WallClock::now() + slice;
   do {
     // The server asks again ten times a second.
     if (is_too_early()) return false;
-    advance();
+    advance(lock);
     if (!may_advance()) return false;
     // Another thread waits in lock_with_priority().
     if (priority_waiters_.load(std::memory_order_relaxed) > 0) return true;
@@ -400,7 +405,7 @@ bool Host::Core::advance_for(std::chrono::microseconds slice) {
 void Host::Core::check_silence() {
   const Lock lock = lock_with_priority();
   // Silence matters only if clients wait for lockstep time that could advance.
-  if (paced() || over()) return;
+  if (paced() || stands_still()) return;
   if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(WallClock::now());
 }
 
@@ -426,7 +431,7 @@ void Host::Core::publish_blackboard() {
   blackboard_.publish(order);
 }
 
-bool Host::Core::advance() {
+bool Host::Core::advance(Lock& lock) {
   const auto now = WallClock::now();
   if (progress_.note_step(now)) stalled_time_warning_.note_first_step(!paced());
   if (tells_of_endless_run_) tell_of_endless_run(now);
@@ -445,7 +450,11 @@ bool Host::Core::advance() {
   if (finished) progress_.note_end();
   if (settings_.progress && simulation_.steps() % 64 == 0) progress_.show(time_locked(), false);
   if (finished || results_.real_robot_lost || (settings_.quiet_end && interrupted() != 0)) {
-    end_run();
+    if (ends_elsewhere_ && simulation_.layers().cell_count() > kQuicklyWritten) {
+      end_run_elsewhere();
+    } else {
+      end_run(lock);
+    }
   } else {
     results_.keep(now);
   }
@@ -540,7 +549,7 @@ void Host::Core::pace() {
     return gated ? lockstep_.gate_open() : settings_.start_at_once || clients_.any_but_onlookers();
   });
   pace_.begin_at(WallClock::now());
-  while (!stop_pacing_ && !over()) {
+  while (!stop_pacing_ && !stands_still()) {
     if (pace_.paused()) {
       wait_while_paused(lock);
       pace_.begin_at(WallClock::now());
@@ -548,7 +557,7 @@ void Host::Core::pace() {
     }
     if (pace_.step_limit_reached()) {
       changed_.wait(lock, [this] {
-        return !pace_.step_limit_reached() || pace_.paused() || stop_pacing_ || over();
+        return !pace_.step_limit_reached() || pace_.paused() || stop_pacing_ || stands_still();
       });
       // The client that synchronises the clock may be slow.
       pace_.skip_lost_time(WallClock::now());
@@ -562,18 +571,18 @@ void Host::Core::pace() {
       continue;
     }
     pace_.begin_step(now);
-    advance();
+    advance(lock);
     give_way(lock);
   }
 }
 
 void Host::Core::wait_while_paused(Lock& lock) {
   if (mirror_) mirror_->halt();
-  while (pace_.paused() && !stop_pacing_ && !over()) {
+  while (pace_.paused() && !stop_pacing_ && !stands_still()) {
     changed_.wait_for(lock, std::chrono::milliseconds(50));
     // No step follows that would notice the signal.
     if (settings_.quiet_end && interrupted() != 0 && !ended_) {
-      end_run();
+      end_run(lock);
       release_waiters();
     }
   }
@@ -583,15 +592,16 @@ void Host::Core::wait_while_paused(Lock& lock) {
 
 void Host::Core::finish() noexcept {
   try {
-    const Lock lock = lock_with_priority();
+    Lock lock = lock_with_priority();
     stalled_time_warning_.dismiss_alarm();
     ended_by_program_ = true;
     if (!ended_) {
       for (const auto& client : clients_) inputs_.apply(*client);
-      end_run();
+      end_run(lock);
       release_waiters();
       if (in_turns()) Turns::instance().schedule_next();
     }
+    changed_.wait(lock, [this] { return !writing_; });
     stop_pacing_ = true;
     changed_.notify_all();
   } catch (const std::exception& e) {
@@ -599,14 +609,45 @@ void Host::Core::finish() noexcept {
   }
 }
 
-void Host::Core::end_run() {
-  ended_ = true;
-  if (mirror_) mirror_->stop();
-  results_.begin_end();
-  // Threads outside of the lockstep may have drawn since the last step.
-  for (const auto& client : clients_) inputs_.apply_drawings(*client);
-  if (settings_.progress) progress_.show(time_locked(), true);
-  results_.write();
+void Host::Core::end_run(Lock& lock) {
+  ended_ = writing_ = true;
+  write_results(lock);
+}
+
+void Host::Core::end_run_elsewhere() {
+  ended_ = writing_ = true;
+  ender_ = std::thread([this] {
+    const virtual_time::Inside inside;
+    Lock lock = lock_with_priority();
+    write_results(lock);
+    release_waiters();
+  });
+}
+
+// While threads take turns, nobody else uses the simulation, and the mutex belongs to the turns.
+void Host::Core::write_results(Lock& lock) {
+  const bool may_unlock = !in_turns();
+  try {
+    if (mirror_) mirror_->stop();
+    results_.begin_end();
+    // Threads outside of the lockstep may have drawn since the last step.
+    for (const auto& client : clients_) inputs_.apply_drawings(*client);
+    if (settings_.progress) progress_.show(time_locked(), true);
+    std::optional<sim::LayerStack> layers;
+    if (!settings_.output_folder.empty()) {
+      sim::LayerCopy copy;
+      copy_layers(lock, copy, may_unlock);
+      layers = copy.take();
+    }
+    const std::function<void()> write = results_.prepare(std::move(layers));
+    if (may_unlock) lock.unlock();
+    write();
+  } catch (const std::exception& e) {
+    warn_(std::string("results of the run are missing: ") + e.what());
+  }
+  if (!lock.owns_lock()) lock = lock_with_priority();
+  writing_ = false;
+  changed_.notify_all();
   if (settings_.quiet_end) end_program_quietly_if_uncaught();
 }
 

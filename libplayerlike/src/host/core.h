@@ -113,6 +113,8 @@ class Host::Core {
   /// The picture of one layer, or of all, with size and position of the canvas at that time.
   std::vector<std::uint8_t> picture(Client& client, std::optional<sim::LayerId> layer,
                                     sim::CanvasDescription& canvas);
+  sim::LayerId create_layer(Client& client, const CreateLayerRequest& what);
+  void remove_layer(Client& client, sim::LayerId layer);
   void resize_canvas(Client& client, int width, int height);
 
   void finish() noexcept;
@@ -139,7 +141,10 @@ class Host::Core {
   void yield_to_priority_waiters() const;
   void adopt(Client& client, ThreadId thread_id);
   [[nodiscard]] bool is_abandoned() const { return had_client_ && !clients_.any_but_onlookers(); }
-  [[nodiscard]] bool over() const { return ended_ || simulation_.finished(); }
+  /// Whether no further step is made.
+  [[nodiscard]] bool stands_still() const { return ended_ || simulation_.finished(); }
+  /// Whether the run is over and its results are written, so that waits end.
+  [[nodiscard]] bool over() const { return stands_still() && !writing_; }
   [[nodiscard]] bool paced() const { return pace_.by_wall_clock(); }
   [[nodiscard]] bool in_turns() const noexcept {
     return turns_ && !paced() && Turns::instance().active();
@@ -194,12 +199,17 @@ class Host::Core {
   void publish_blackboard();
 
   /// Makes a step. @return the result of release_waiters().
-  bool advance();
+  /// @param lock  on the mutex; unlocked now and then while the results of the run are written.
+  bool advance(Lock& lock);
   /// Lets clients know of connections to real robots that were lost in this step.
   void note_losses();
   /// Ends the waits that are over. @return whether a client may have stopped waiting.
   bool release_waiters();
-  void end_run();
+  /// Ends the run and writes its results. Then the waits are over.
+  void end_run(Lock& lock);
+  /// The same, by a thread of its own; until it is done, the run has not ended for its clients.
+  void end_run_elsewhere();
+  void write_results(Lock& lock);
   /// Tells the client that a real robot is lost, if it does not know yet. @throws SessionError.
   void tell_of_loss(Client& client);
   [[nodiscard]] TimeStatistics time_locked() const;
@@ -213,6 +223,12 @@ class Host::Core {
 
   template <typename Copy>
   sim::CanvasDescription copy_in_pieces(Client& client, const Copy& copy);
+  /// Copies all layers in pieces, between which the mutex is unlocked. At the return it is locked,
+  /// and the copy equals the layers.
+  /// @param may_unlock  false: in one piece.
+  void copy_layers(Lock& lock, sim::LayerCopy& copy, bool may_unlock = true);
+  /// Throws SessionError kFinished while the results are written.
+  void require_not_writing() const;
 
   const RunSettings settings_;
   const sim::LogHook log_;
@@ -243,6 +259,8 @@ class Host::Core {
   std::unique_ptr<VirtualClock> clock_;
   std::unique_ptr<Window> window_;
   std::thread pacer_;
+  std::thread ender_;      ///< see end_run_elsewhere()
+  std::mutex copy_mutex_;  ///< for copies in pieces, one at a time; locked before the mutex
 
   bool watches_program_ = false;  ///< the program in whose process this is
   bool tells_of_endless_run_ = false;
@@ -250,6 +268,8 @@ class Host::Core {
   bool mode_chosen_ = false;  ///< the world or a setting has set the time mode
   bool stop_pacing_ = false;
   bool ended_ = false;
+  bool writing_ = false;         ///< the run has ended, and its results are being written
+  bool ends_elsewhere_ = false;  ///< the thread that makes the last step does not write the results
   bool ended_by_program_ = false;
   bool end_reported_ = false;  ///< a session has thrown because the run is over
   int reads_after_end_ = 0;

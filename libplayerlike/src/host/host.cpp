@@ -57,12 +57,8 @@ void Host::watch_program() {
   core_->locked([this] { core_->watch_program(); });
 }
 void Host::note_program_ends(int status) { InsideCore(*core_)->note_program_ends(status); }
-void Host::note_end_request(int signal) {
-  core_->locked([&] {
-    int& request = core_->results_.end_request;
-    if (request == 0) request = signal;
-  });
-}
+void Host::note_end_request(int signal) noexcept { core_->results_.note_end_request(signal); }
+bool Host::take_over_results() noexcept { return core_->results_.take_over(); }
 void Host::note_onlooker_acts() noexcept { core_->onlooker_acted_ = true; }
 void Host::thread_ended(ThreadId thread_id) noexcept {
   InsideCore(*core_)->thread_ended(thread_id);

@@ -16,8 +16,6 @@ inline constexpr std::uint64_t kKeptMagic = 0x706c617970656e31;  // "playpen1"
 /// Why a run with KeptHeader::conflict may not be repeatable.
 inline constexpr const char* kConflictWhy = "another program asked for the world in vain";
 inline constexpr std::size_t kKeptHeaderSize = 4096;
-/// Size of the whole memory; the system allocates only the pages in use.
-inline constexpr std::size_t kKeptSize = std::size_t{128} << 20U;
 /// Maximum length of a trail; at this length every second point is removed.
 inline constexpr std::size_t kMostTrailPoints = 8192;
 inline constexpr std::size_t kMostKeptBeams = 4096;

@@ -71,7 +71,6 @@ std::string completed_report(ordered_json report, const LastStep& last, const Pr
     run["repeatable"] = false;
     run["repeatable_why"] = {kConflictWhy};
   }
-  if (run.at("steps") != last.step.steps) run["state_hash"] = nullptr;
   run["steps"] = last.step.steps;
   run["sim_time"] = sim::to_seconds(last.step.now_ns);
   run["wall_time"] = last.step.wall_time_s;

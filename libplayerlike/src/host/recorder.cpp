@@ -143,8 +143,8 @@ void Recorder::write_to_trajectory(const std::string& rows, sim::SimTime now_ns)
                         sim::fixed_text(sim::to_seconds(now_ns), 2) + " s: " + std::strerror(error);
 }
 
-sim::SceneSnapshot Recorder::scene(const sim::Simulation& simulation) const {
-  sim::SceneSnapshot snapshot = simulation.snapshot();
+sim::SceneSnapshot Recorder::scene(const sim::Simulation& simulation, bool with_canvas) const {
+  sim::SceneSnapshot snapshot = simulation.snapshot(with_canvas);
   for (std::size_t i = 0; i < trails_.size(); ++i) {
     snapshot.robots[i].trail = trails_[i].points;
     if (!trails_[i].points.empty()) {

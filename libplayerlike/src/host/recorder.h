@@ -49,7 +49,9 @@ class Recorder {
     return sim::to_seconds(trails_[robot].driven_ns);
   }
   /// The current scene, with trails, goals and collisions.
-  [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation) const;
+  /// @param with_canvas  see sim::Simulation::snapshot().
+  [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation,
+                                         bool with_canvas = true) const;
 
   /// Completes trajectory.csv. observe() must not be called afterwards. @throws std::runtime_error
   /// with the reason if rows are missing; the rows before them are complete.

@@ -10,7 +10,7 @@
 namespace playerlike {
 
 void Host::Core::set_busy_alarm() {
-  if (!paced() && !over() && simulation_.now_ns() == 0) stalled_time_warning_.set_alarm();
+  if (!paced() && !stands_still() && simulation_.now_ns() == 0) stalled_time_warning_.set_alarm();
 }
 
 void Host::Core::watch_program() {

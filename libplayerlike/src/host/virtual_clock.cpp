@@ -42,13 +42,13 @@ void Host::Core::VirtualClock::wait_for_turn(Lock& lock, Client& client) {
 }
 
 bool Host::Core::VirtualClock::step(Lock& lock) {
-  if (core_.over() || core_.pace_.step_limit_reached() || !core_.lockstep_.gate_open() ||
+  if (core_.stands_still() || core_.pace_.step_limit_reached() || !core_.lockstep_.gate_open() ||
       !Turns::instance().somebody_waits_for_time()) {
     return false;
   }
   // Turns asks again after some milliseconds.
   if (core_.is_too_early()) return false;
-  core_.advance();
+  core_.advance(lock);
   core_.give_way(lock);
   return true;
 }

@@ -25,6 +25,18 @@ void PlayerDevice::command(std::uint8_t subtype, std::string_view payload) {
   static_cast<void>(payload);
 }
 
+std::unique_ptr<Drawings> PlayerDevice::drawings(std::uint8_t subtype, std::string_view payload) {
+  static_cast<void>(subtype);
+  static_cast<void>(payload);
+  return nullptr;
+}
+
+LongAnswer PlayerDevice::long_answer(std::uint8_t subtype, std::string_view payload) {
+  static_cast<void>(subtype);
+  static_cast<void>(payload);
+  return {};
+}
+
 std::optional<std::string> PlayerDevice::request(std::uint8_t subtype, std::string_view payload) {
   static_cast<void>(subtype);
   static_cast<void>(payload);

@@ -66,8 +66,13 @@ class Host : public std::enable_shared_from_this<Host> {
   /// advanced, a warning is printed.
   void note_program_ends(int status);
   /// Notes for the report that a signal has requested the end of the run. The caller must call
-  /// finish() afterwards.
-  void note_end_request(int signal);
+  /// finish() afterwards. Does not wait for the simulation.
+  void note_end_request(int signal) noexcept;
+  /// Takes the writing of the results away from the host, unless it has begun. Does not wait for
+  /// the simulation.
+  /// @return whether the host will write none. The caller then completes them, see
+  ///         complete_results(), although the host still exists.
+  [[nodiscard]] bool take_over_results() noexcept;
 
   /// Notes for the report that an onlooker has commanded a robot or changed the world, so that the
   /// run depends on the wall clock.

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -24,8 +25,11 @@ class KeptRun {
     kDone,      ///< all possible results are complete
   };
 
+  static constexpr std::size_t kSize = std::size_t{128} << 20U;  ///< [bytes]
+  /// @param size  of the memory; the system allocates only what is used. Layers of the canvas that
+  ///     do not fit are not kept [bytes].
   /// @throws std::runtime_error if the system cannot provide the memory.
-  KeptRun();
+  explicit KeptRun(std::size_t size = kSize);
   KeptRun(const KeptRun&) = delete;
   KeptRun& operator=(const KeptRun&) = delete;
   ~KeptRun();
