@@ -33,6 +33,17 @@ void add_choices(CLI::App& command, const char* name, const char* help, const ch
       ->trigger_on_parse();
 }
 
+/// Adds the options about robots that mirror real ones.
+void add_real_robots(CLI::App& command, playerlike::RunSettings& settings) {
+  add_choices(command, "--real",
+              "Let a robot of the world mirror the real one at this server [the world's]; can be "
+              "repeated",
+              "ROBOT=SERVER", playerlike::kRealRobotChoiceExpected, playerlike::parse_real_robot,
+              settings.real_robots);
+  command.add_flag("--take-over", settings.take_over,
+                   "Take over real robots from other clients that are in charge of them");
+}
+
 }  // namespace
 
 void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::ViewMode>& mode) {
@@ -174,13 +185,7 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
               "[the world's order]; can be repeated",
               "[ROBOT.]INTERFACE:INDEX=DEVICE", playerlike::kInterfaceChoiceExpected,
               playerlike::parse_interface_choice, settings.interfaces);
-  add_choices(command, "--real",
-              "Let a robot of the world mirror the real one at this server [the world's]; can be "
-              "repeated",
-              "ROBOT=SERVER", playerlike::kRealRobotChoiceExpected, playerlike::parse_real_robot,
-              settings.real_robots);
-  command.add_flag("--take-over", settings.take_over,
-                   "Take over real robots from other clients that are in charge of them");
+  add_real_robots(command, settings);
 }
 
 void require_something_to_show(const playerlike::RunSettings& settings, bool view) {
