@@ -38,20 +38,25 @@ void Host::Core::yield_to_priority_waiters() const {
   while (priority_waiters_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
 }
 
+// In a few parts, since lines across a large canvas take much longer than fills with as many cells.
 bool Host::Core::draw_some(Client& client, DrawWork& work, std::size_t cells) {
-  {
-    const Lock lock = lock_with_priority();
-    client.require_open();
-    if (!std::exchange(work.begun, true)) {
-      inputs_.apply_drawings(client);
-      inputs_.keep_own_drawings(client, work.operations);
-      sim::drop_covered(work.operations);
+  constexpr std::size_t kParts = 4;
+  const std::size_t part = std::max<std::size_t>(cells / kParts, 1);
+  for (std::size_t i = 0; i < kParts; ++i) {
+    {
+      const Lock lock = lock_with_priority();
+      client.require_open();
+      if (!std::exchange(work.begun, true)) {
+        inputs_.apply_drawings(client);
+        inputs_.keep_own_drawings(client, work.operations);
+        sim::drop_covered(work.operations);
+      }
+      work.written += simulation_.layers().draw_some(work.operations, work.progress, part);
     }
-    work.written += simulation_.layers().draw_some(work.operations, work.progress, cells);
+    if (work.progress.operation == work.operations.size()) return true;
+    yield_to_priority_waiters();
   }
-  const bool done = work.progress.operation == work.operations.size();
-  if (!done) yield_to_priority_waiters();
-  return done;
+  return false;
 }
 
 void Host::Core::copy_layers(Lock& lock, sim::LayerCopy& copy, bool may_unlock) {

@@ -226,9 +226,8 @@ struct Host::Core::RequestHandler {
     lock.unlock();
     sim::LayerStack layers = copy.take();
     auto state = std::make_shared<const sim::Snapshot>(parts.snapshot(layers));
-    lock.lock();
+    const Lock again = core.lock_with_priority();  // released before `state` is freed
     core.saved_states_.save(what.name, state);
-    lock.unlock();  // before an earlier state of this name is freed
   }
   void operator()(const RestoreStateRequest& what) const {
     Lock lock = lock_changeable();

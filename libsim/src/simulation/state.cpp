@@ -247,7 +247,7 @@ void Simulation::Impl::take_over_from(Impl& before) {
   invalidate_clearances();
   layers.resize(before.layers.width(), before.layers.height());  // keep the size that clients chose
   before.layers.take_base(layers);
-  layers = std::move(before.layers);
+  std::swap(layers, before.layers);  // the caller frees the memory
   view_mode = before.view_mode;
 }
 
