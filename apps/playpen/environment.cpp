@@ -42,6 +42,7 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"PLAYPEN_SNAPSHOT_EVERY", "Simulated seconds between pictures.", true},
       {"PLAYPEN_STATE",
        "The file in which a run leaves what playpen run needs if the program dies.", true},
+      {"PLAYPEN_TASK", "What the task of a graded run lets the program use.", true},
       {"PLAYPEN_TIME", "lockstep, real, or a factor of real time.", true},
       {"PLAYPEN_TOKEN", "The token that a program presents to a server.", false},
       {"PLAYPEN_VIEW", "The number of the descriptor that leads to the live window.", true},

@@ -58,6 +58,7 @@ void Inputs::apply(Client& client) {
   const std::lock_guard input(client.input_mutex);
   for (const auto& [device, command] : client.commands) {
     if (hand) hand->note_command(device, command);
+    commands.note(device.robot, client.port, command, simulation_.now_ns());
     execute(device, command);
   }
   client.commands.clear();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/clients.h"
+#include "host/command_book.h"
 #include "host/view_controls.h"
 #include "playerlike/session/layer_registry.h"
 
@@ -26,7 +27,10 @@ class Inputs {
   /// @param simulation  must outlive this object.
   /// @param mirror  takes the commands for robots that mirror real ones; null: there are none.
   explicit Inputs(sim::Simulation& simulation, Warn warn, Mirror* mirror = nullptr)
-      : simulation_(simulation), mirror_(mirror), warn_(std::move(warn)) {}
+      : commands(static_cast<std::size_t>(simulation.robot_count())),
+        simulation_(simulation),
+        mirror_(mirror),
+        warn_(std::move(warn)) {}
 
   /// Stores a command for the next step; the caller holds the client's input mutex, not the host's.
   /// Of successive commands to one device that replace each other, only the last is stored. @return
@@ -46,6 +50,8 @@ class Inputs {
 
   /// The owners of the layers.
   LayerRegistry registry;
+  /// The clients' commands so far.
+  CommandBook commands;
   /// Steering by hand; only in a run with a window.
   std::optional<HandDrive> hand;
 

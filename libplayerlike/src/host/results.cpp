@@ -18,14 +18,15 @@ constexpr std::chrono::milliseconds kLooksPeriod(50);
 }  // namespace
 
 Results::Results(const RunSettings& settings, sim::Simulation& simulation,
-                 std::function<TimeStatistics()> time, Warn warn, const Mirror* mirror)
+                 std::function<TimeStatistics()> time, Warn warn, const CommandBook& commands,
+                 const Mirror* mirror)
     : settings_(settings),
       simulation_(simulation),
       time_(std::move(time)),
       warn_(std::move(warn)),
       mirror_(mirror) {
   if (!settings.output_folder.empty()) std::filesystem::create_directories(settings.output_folder);
-  recorder_ = std::make_unique<Recorder>(settings, simulation, mirror);
+  recorder_ = std::make_unique<Recorder>(settings, simulation, mirror, &commands);
   kept_ = KeptWriter::open(settings.kept_run);
   if (kept_ && !settings.output_folder.empty()) {
     kept_->keep_looks(report_text(simulation_, *recorder_, {}, RunEnd{}), simulation_);
@@ -53,6 +54,11 @@ void Results::keep(WallClock::time_point now) {
     }
   }
   keep_report(now);
+}
+
+void Results::note_refusal(const std::string& what) {
+  if (!recorder_->refusals().note(what, simulation_.now_ns())) return;
+  if (kept_ && !settings_.output_folder.empty()) kept_->keep_looks(report_now(), simulation_);
 }
 
 void Results::keep_report(WallClock::time_point now) {

@@ -364,6 +364,11 @@ RunSettings RunSettings::from_environment() {
     return settings.realism.has_value();
   });
   settings.grading.nonce = environment("PLAYPEN_GRADE");
+  variables.read("PLAYPEN_TASK", kTaskRulesExpected, [&](const std::string& text) {
+    const std::optional<TaskRules> rules = parse_task_rules(text);
+    settings.grading.rules = rules.value_or(TaskRules{});
+    return rules.has_value();
+  });
   variables.read("PLAYPEN_CLIENTS", kClientsExpected, into<int>(settings.clients, parse_clients));
   read_choices(variables, "PLAYPEN_INTERFACES", kInterfaceChoicesExpected, parse_interface_choice,
                settings.interfaces);
