@@ -14,7 +14,7 @@ or newer). Does nothing, and needs no rights, when all of it is there.
 
 Groups (default: build):
   build   compiler, CMake, make and pkg-config, and the libraries that Playpen links
-  test    GoogleTest, Google Benchmark, ffprobe, which looks at films, a display without a
+  test    GoogleTest, Google Benchmark, ffprobe, which looks at films, gdb, a display without a
           screen for the live window, Python, locales with a decimal comma, and, where they can
           be had, MORSE's client library
           and Boost.Program_options
@@ -37,7 +37,7 @@ build_packages=(
   libasio-dev nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev zlib1g-dev
 )
 test_packages=(
-  libgtest-dev libgmock-dev libbenchmark-dev locales ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool
+  libgtest-dev libgmock-dev libbenchmark-dev locales ffmpeg=ffprobe gdb=gdb xvfb=Xvfb xdotool=xdotool
   python3=python3)
 # If the system has no such package (Ubuntu 24.04 lacks the first), the tests that need it are
 # skipped.

@@ -108,6 +108,8 @@ int CommandLine::run(std::vector<std::string> arguments) {
     if (end != arguments.end()) program.assign(end + 1, arguments.end());
     arguments.erase(end, arguments.end());
   }
+  call = {invocation};
+  call.insert(call.end(), arguments.begin(), arguments.end());
   std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 expects
   try {
     app.parse(std::move(arguments));

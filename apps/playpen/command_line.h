@@ -30,6 +30,8 @@ struct CommandLine {
   std::string invocation;
   /// the client program and its arguments: everything after "--"
   std::vector<std::string> program;
+  /// what the user wrote before that: the invocation, the command and its arguments
+  std::vector<std::string> call;
   int status = kOk;  ///< exit status of the command that has run
 
   std::set<const CLI::App*> with_program;  ///< commands that are followed by "-- PROGRAM"

@@ -27,6 +27,8 @@ struct RunRequest {
   bool view = false;        ///< in a window, in real time unless the settings say otherwise
   bool real_sleep = false;  ///< the program's sleeps take wall time, not simulated time
   std::vector<std::string> command;  ///< program and arguments
+  /// the call of `playpen run` up to "--", as the user wrote it, for advice
+  std::vector<std::string> call;
 };
 
 /// Arguments of `playpen grade`.

@@ -6,8 +6,10 @@
 
 #include "command_line.h"
 #include "sim/core/error.h"
+#include "utf8_stream.h"
 
 int main(int argc, char** argv) {
+  const playpen::Utf8Stream messages(std::cerr);
   try {
     playpen::CommandLine line(argc > 0 ? argv[0] : "playpen");
     return line.run(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc));

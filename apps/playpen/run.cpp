@@ -1,19 +1,21 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "commands.h"
+#include "debugger_hint.h"
 #include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
 #include "playerlike/host/kept_results.h"
 #include "playerlike/host/program.h"
 #include "playerlike/host/program_desk.h"
+#include "playerlike/host/real_robots.h"
 #include "playerlike/process/log.h"
 #include "playerlike/server/server.h"
 #include "preload.h"
@@ -45,41 +47,15 @@ bool only_says_that_the_run_is_over(const playerlike::ProgramEnd& end,
   return duration_s && simulated_time(settings) > *duration_s - kRounding_s;
 }
 
-bool is_crash(int signal) {
-  for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS}) {
-    if (signal == crash) return true;
-  }
-  return false;
-}
-
-// Quotes a word for the shell.
-std::string shell_word(const std::string& word) {
-  constexpr const char* kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) {
-    if (c == '\'') {
-      quoted += "'\\''";
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + "'";
-}
-
 // Prints advice about a program that was ended by a signal.
-void tell_more(const RunRequest& request, const std::string& world,
-               const playerlike::ProgramEnd& end, bool completed) {
+void tell_more(const RunRequest& request, const playerlike::ProgramEnd& end, bool completed) {
   if (end.forced) {
     std::cerr << "playpen: it had been asked to end, and did not\n";
   }
   if (completed) std::cerr << "playpen: the results are those until then\n";
   if (!end.signal || !is_crash(*end.signal)) return;
-  std::string command;
-  for (const std::string& word : request.command) command += ' ' + shell_word(word);
-  std::cerr << "playpen: to see where it happened: playpen run --real-sleep " << shell_word(world)
-            << " -- gdb -ex run --args" << command << '\n';
+  std::cerr << "playpen: to see where it happened: "
+            << debugger_command(request.call, request.command) << '\n';
 }
 
 // Prints how the run ended. @return the command's exit code.
@@ -101,7 +77,7 @@ int verdict(const RunRequest& request, const sim::WorldDescription& world,
   }
   if (!end.success()) {
     std::cerr << "playpen: " << program << ' ' << end.text() << '\n';
-    tell_more(request, request.world, end, completed);
+    tell_more(request, end, completed);
     return kProgramFailed;
   }
   if (completed) {
@@ -217,9 +193,13 @@ int run(RunRequest request) {
   playerlike::RunWatch watch;
   watch.kept = &kept;
   watch.desk = &desk;
+  // With a window, the program's process draws pictures also while time is paused.
+  watch.standstill_s = request.view ? std::numeric_limits<double>::infinity()
+                                    : playerlike::silence_limit_s_of_environment();
   watch.tell = [](const std::string& text) { std::cerr << "playpen: " << text << '\n'; };
   bool completed = false;
   watch.on_end = [&](const playerlike::ProgramEnd& program_end) {
+    playerlike::stop_real_robots(kept, playerlike::open_real_robot, watch.tell);
     try {
       if (served.finish(program_end)) return;
       completed = playerlike::complete_results(kept, world, settings, program_end);

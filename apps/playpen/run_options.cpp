@@ -147,6 +147,12 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
                return playerlike::parse_film_speed(text, settings.film_speed);
              })
       ->needs(record);
+  add_parsed(
+      command, "--record-from",
+      "Simulated time at which the film begins, and with --view --time lockstep the view [0]", "S",
+      playerlike::kFilmStartExpected, [&settings](const std::string& text) {
+        return playerlike::parse_film_start(text, settings.film_from_s);
+      });
   add_parsed(command, "--film-size", "Size of the film [longer side 800]", "WxH",
              playerlike::kFilmSizeExpected,
              [&settings](const std::string& text) {
@@ -173,6 +179,14 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
               "repeated",
               "ROBOT=SERVER", playerlike::kRealRobotChoiceExpected, playerlike::parse_real_robot,
               settings.real_robots);
+  command.add_flag("--take-over", settings.take_over,
+                   "Take over real robots from other clients that are in charge of them");
+}
+
+void require_something_to_show(const playerlike::RunSettings& settings, bool view) {
+  if (settings.film_from_s > 0.0 && settings.film.empty() && !view) {
+    throw CLI::RequiresError("--record-from", "--record or --view");
+  }
 }
 
 CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world) {
@@ -206,13 +220,15 @@ void add_run(CommandLine& line) {
            "any [none]",
            request->settings.player_port);
   command.add_flag("--view", request->view,
-                   "Watch and steer in a window, in real time unless --time gives a factor");
+                   "Watch and steer in a window, in real time unless --time says otherwise");
   command.add_flag("--real-sleep", request->real_sleep,
                    "In lockstep: the program's sleeps and clocks are real, not simulated time");
   command.add_flag("--quiet", request->quiet, "No progress, no summary");
   command.callback([request, &line] {
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
+    require_something_to_show(request->settings, request->view);
     request->command = line.program;
+    request->call = line.call;
     line.status = run(*request);
   });
 }

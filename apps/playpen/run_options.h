@@ -12,11 +12,14 @@
 namespace playpen {
 
 /// Adds the options of a run: --duration, --seed, --time, --out, --record..., --snapshot-every,
-/// --view-mode and --realism.
+/// --view-mode and --realism. Call require_something_to_show() when all options are known.
 /// @param settings  receives the values; must outlive the command.
 /// @param default_time  default of --time, for the help.
 void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSettings& settings,
                       const std::string& default_time);
+
+/// @throws CLI::ParseError if --record-from was given, but neither --record nor --view.
+void require_something_to_show(const playerlike::RunSettings& settings, bool view);
 
 /// Adds --port.
 /// @param expected   description of its values, for messages.

@@ -1,6 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "run_outputs.h"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -19,18 +23,28 @@ fs::path report_of(const playerlike::RunSettings& settings) {
   return fs::path(settings.output_folder) / "report.json";
 }
 
+// Creates a folder for results, unless it exists. @throws std::runtime_error with the reason.
+void make_writable(const std::string& folder) {
+  const auto refuse = [&folder](const char* what, const std::string& reason) {
+    throw std::runtime_error("the output folder '" + folder + "' can't be " + what + ": " + reason +
+                             "; --out DIR chooses another one");
+  };
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error)) {
+    refuse("made", error ? error.message() : "it is a file");
+  }
+  if (access(folder.c_str(), W_OK | X_OK) != 0) refuse("written", std::strerror(errno));
+}
+
 }  // namespace
 
 void prepare_outputs(playerlike::RunSettings& settings, const std::string& world_file) {
   if (settings.output_folder.empty()) {
     settings.output_folder = "out/" + grade::world_name(world_file);
   }
+  make_writable(settings.output_folder);
   std::error_code error;
-  fs::create_directories(settings.output_folder, error);
-  if (error || !fs::is_directory(settings.output_folder, error)) {
-    throw std::runtime_error("the output folder '" + settings.output_folder +
-                             "' can't be made: " + error.message());
-  }
   playerlike::remove_results(settings.output_folder);
   if (settings.film.empty()) return;
   // The name of a film that is a folder of pictures may end in a slash.
@@ -61,15 +75,12 @@ void print_results(const playerlike::RunSettings& settings) {
             << (folder / "canvas.png").string() << ", " << (folder / "layers").string() << '/';
   if (settings.snapshot_period_s) std::cout << ", " << (folder / "snapshots").string() << '/';
   std::cout << '\n';
-  if (!settings.film.empty()) std::cout << "film: " << settings.film << '\n';
+  if (!settings.film.empty() && fs::exists(settings.film)) {
+    std::cout << "film: " << settings.film << '\n';
+  }
 }
 
 void pace_for_view(playerlike::RunSettings& settings, const sim::WorldDescription& world) {
-  if (settings.time_mode == sim::TimeMode::kLockstep) {
-    throw std::runtime_error(
-        "--view shows a run in real time, so it can't go with --time lockstep; leave that out, or "
-        "give a factor such as --time 4");
-  }
   if (settings.time_mode || world.simulation.time_mode == sim::TimeMode::kPaced) return;
   settings.time_mode = sim::TimeMode::kPaced;
   settings.time_factor = 1.0;

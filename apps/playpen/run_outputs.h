@@ -27,8 +27,8 @@ void prepare_outputs(playerlike::RunSettings& settings, const std::string& world
 /// Prints the main figures of the report, and where the pictures are.
 void print_results(const playerlike::RunSettings& settings);
 
-/// Makes time follow the wall clock, because people watch the run.
-/// @throws std::runtime_error if the settings request lockstep.
+/// Makes time follow the wall clock, because people watch the run, unless the settings choose a
+/// time mode. In lockstep, the host delays steps for the viewers, and programs do not notice.
 void pace_for_view(playerlike::RunSettings& settings, const sim::WorldDescription& world);
 
 }  // namespace playpen

@@ -1,19 +1,20 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
-#include <ctime>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "commands.h"
+#include "end_signals.h"
 #include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
+#include "playerlike/host/kept_results.h"
+#include "playerlike/host/kept_run.h"
 #include "playerlike/host/program.h"
 #include "playerlike/process/log.h"
 #include "playerlike/server/server.h"
@@ -28,61 +29,12 @@ using Clock = std::chrono::steady_clock;
 
 // How long clients may take to disconnect after the run is over.
 constexpr auto kLeavingTime = std::chrono::seconds(5);
-constexpr long kLook_ns = 50'000'000;
-
-/// Blocks SIGINT, SIGTERM and SIGHUP in all threads that are started afterwards, so that they can
-/// be waited for. Signals that this process ignores, as under nohup, remain ignored.
-class HeldSignals {
- public:
-  HeldSignals() {
-    sigemptyset(&held_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-      struct sigaction present {};
-      if (sigaction(signal, nullptr, &present) == 0 && present.sa_handler != SIG_IGN) {
-        sigaddset(&held_, signal);
-      }
-    }
-    pthread_sigmask(SIG_BLOCK, &held_, &old_mask_);
-  }
-  HeldSignals(const HeldSignals&) = delete;
-  HeldSignals& operator=(const HeldSignals&) = delete;
-  ~HeldSignals() {
-    if (end_on_second_.joinable()) {
-      over_ = true;
-      end_on_second_.join();
-    }
-    // The signals stay blocked: the process is about to exit with its status, which a late request
-    // to end must not change.
-  }
-
-  /// Waits a moment. @return the number of a signal that arrived; 0: none.
-  [[nodiscard]] int wait() const {
-    const timespec time{0, kLook_ns};
-    const int signal = sigtimedwait(&held_, nullptr, &time);
-    return signal > 0 ? signal : 0;
-  }
-
-  /// After the first signal, the next one ends this process at once. Exceptions: copies of the
-  /// first signal (`timeout` sends two), and a SIGHUP after the first signal.
-  void end_on_second(int first) {
-    end_on_second_ = std::thread([this, first, begin = Clock::now()] {
-      while (!over_) {
-        const int signal = wait();
-        if (signal == 0) continue;
-        if (playerlike::is_same_request(first, signal, Clock::now() - begin)) continue;
-        std::signal(signal, SIG_DFL);
-        pthread_sigmask(SIG_SETMASK, &old_mask_, nullptr);
-        raise(signal);
-      }
-    });
-  }
-
- private:
-  sigset_t held_{};
-  sigset_t old_mask_{};
-  std::atomic<bool> over_{false};
-  std::thread end_on_second_;
-};
+constexpr auto kLook = std::chrono::milliseconds(20);
+// How long a report that is being written may take after that.
+constexpr auto kReportTime = std::chrono::seconds(5);
+// Memory of the results that remain if the simulation does not end. Little, since it is written
+// after each step: a canvas of more than 4 million cells has no room.
+constexpr std::size_t kKeptBytes = std::size_t{16} << 20U;
 
 /// Applies to this process the environment that `playpen run` gives its program. So of the shell's
 /// own environment, only the silence limit has an effect.
@@ -102,16 +54,45 @@ playerlike::RunSettings with_environment(const playerlike::RunSettings& settings
 }
 
 /// Serves until a signal arrives or everything is over.
-void wait_for_end(playerlike::Host& host, const playerlike::Server& server, HeldSignals& signals) {
+void wait_for_end(const playerlike::Host& host, const playerlike::Server& server,
+                  const EndSignals& signals) {
   std::optional<Clock::time_point> finished;
-  while (!server.done()) {
-    if (const int signal = signals.wait(); signal != 0) {
-      host.note_end_request(signal);
-      return signals.end_on_second(signal);
-    }
+  while (!server.done() && signals.first() == 0) {
+    std::this_thread::sleep_for(kLook);
     if (!finished && host.finished()) finished = Clock::now();
     if (finished && Clock::now() - *finished > kLeavingTime) return;
   }
+}
+
+/// Ends this process, whose simulation does not end by itself: completes the results from the
+/// memory that was kept, unless the simulation is writing them.
+[[noreturn]] void end_without(playerlike::Host& host, const playerlike::KeptRun& kept,
+                              const sim::WorldDescription& world, const ServeRequest& request,
+                              int signal) {
+  try {
+    if (host.take_over_results()) {
+      playerlike::ProgramEnd end;
+      end.request = signal;
+      playerlike::complete_results(kept, world, request.settings, end);
+      std::cerr << "playpen: the simulation did not end, so the results are those of its last "
+                   "complete step\n";
+    } else {
+      // They are being written, the report first.
+      const auto end = Clock::now() + kReportTime;
+      while (!has_report(request.settings) && Clock::now() < end) {
+        std::this_thread::sleep_for(kLook);
+      }
+    }
+  } catch (const std::exception& e) {
+    std::cerr << "playpen: results of the run are missing: " << e.what() << '\n';
+  }
+  const bool reported = has_report(request.settings);
+  if (reported && !has_pictures(request.settings)) {
+    std::cerr << "playpen: not all pictures could be written in the time after the signal\n";
+  }
+  if (reported && !request.quiet) print_results(request.settings);
+  std::cout.flush();
+  std::_Exit(reported ? kOk : kProgramFailed);
 }
 
 }  // namespace
@@ -146,9 +127,13 @@ int serve(ServeRequest request) {
   prepare_outputs(settings, world_file);
   std::optional<ViewerProcess> viewer;
   if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
-  HeldSignals signals;
-  const auto host =
-      playerlike::Host::create(std::move(world), with_environment(settings, world_file), log);
+  const playerlike::KeptRun kept(kKeptBytes);
+  settings.kept_run = kept.file();
+  std::shared_ptr<playerlike::Host> host;
+  EndSignals signals;  // ends before the host, which it uses
+  host = playerlike::Host::create(world, with_environment(settings, world_file), log);
+  signals.listen([&](int signal) { host->note_end_request(signal); },
+                 [&](int signal) { end_without(*host, kept, world, request, signal); });
   {
     playerlike::Server server(host, request.server, log);
     std::cout << "listening on " << playerlike::address_text(request.server.bind, server.port());

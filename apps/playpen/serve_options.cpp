@@ -125,9 +125,12 @@ void add_serve(CommandLine& line) {
       [request](const std::string& text) { return parse_log_level(text, request->log_level); });
   line.takes(log_level, {"debug", "info", "warning", "error"});
   command.add_flag("--view", request->view,
-                   "Watch and steer in a window, in real time unless --time gives a factor");
+                   "Watch and steer in a window, in real time unless --time says otherwise");
   command.add_flag("--quiet", request->quiet, "No summary");
-  command.callback([request, &line] { line.status = serve(*request); });
+  command.callback([request, &line] {
+    require_something_to_show(request->settings, request->view);
+    line.status = serve(*request);
+  });
 }
 
 }  // namespace playpen

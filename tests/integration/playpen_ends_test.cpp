@@ -174,7 +174,7 @@ TEST_F(PlaypenEnds, ACrashLeavesTheResultsOfItsLastStep) {
   };
   const std::vector<Case> cases = {
       {"segv", {{"by", "signal"}, {"signal", "SIGSEGV"}}, "gdb -ex run --args"},
-      {"null", {{"by", "signal"}, {"signal", "SIGSEGV"}}, "playpen run --real-sleep"},
+      {"null", {{"by", "signal"}, {"signal", "SIGSEGV"}}, "-- gdb -ex run --args"},
       {"abort", {{"by", "signal"}, {"signal", "SIGABRT"}}, "was ended by signal 6"},
       {"throw", {{"by", "signal"}, {"signal", "SIGABRT"}}, "thrown by the program"},
       {"kill", {{"by", "signal"}, {"signal", "SIGKILL"}}, "was ended by signal 9"},
@@ -254,6 +254,37 @@ TEST_F(PlaypenEnds, AFileThatReachesItsLimitKeepsTheReport) {
   EXPECT_EQ(report().at("ended").at("by"), "duration");
   EXPECT_FALSE(fs::exists(result("scene.png")));
   EXPECT_FALSE(fs::exists(result("scene.part.png")));
+}
+
+// Trajectory and pictures take all the room, but not that of the report.
+TEST_F(PlaypenEnds, AFullDiskKeepsTheReportWithTheEnd) {
+  // A disk of its own, in a mount namespace; without privileges, also in a user namespace.
+  const std::string disk = folder_ / "disk";
+  fs::create_directories(disk);
+  std::vector<std::string> alone = {"unshare", "--mount"};
+  if (geteuid() != 0) alone = {"unshare", "--user", "--map-root-user", "--mount"};
+  const auto on_disk = [&](const std::string& script) {
+    std::vector<std::string> call = alone;
+    call.insert(call.end(),
+                {"sh", "-c", "mount -t tmpfs -o size=256k none \"$1\" || exit 77; shift; " + script,
+                 "sh", disk});
+    out_ = disk + "/out";
+    const std::vector<std::string> run = command({"--quiet", "--duration", "400"}, {"drive", "-1"});
+    call.insert(call.end(), run.begin(), run.end());
+    return test_support::run_process(call);
+  };
+  // 256 kB are 64 pages; the rows of 400 s take more than 200 kB.
+  const ProcessResult end =
+      on_disk("\"$@\"; status=$?; cat " + disk + "/out/report.json; tail -c 1 " + disk +
+              "/out/trajectory.csv | wc -l >&2; exit $status");
+  if (end.status == 77) GTEST_SKIP() << "no disk can be mounted here: " << end.err;
+  EXPECT_EQ(end.status, 1) << end.err;
+  EXPECT_THAT(end.err, HasSubstr("trajectory.csv ends before "));
+  EXPECT_THAT(end.err, HasSubstr("No space left on device"));
+  EXPECT_THAT(end.err, testing::EndsWith("1\n")) << "the last row is cut off";
+  const json report = json::parse(end.out);
+  EXPECT_EQ(report.at("run").at("sim_time"), 400.0);
+  EXPECT_EQ(report.at("ended").at("by"), "duration");
 }
 
 // --- The table of ends: what a run leaves, by how and when it ends. A merge tries each end once, a

@@ -106,7 +106,10 @@ TEST_F(PlaypenGrade, TheTemplateFailsWithoutCrashing) {
   task_ = kIntroTask;
   const ProcessResult run = grade({"--seeds", "1,"}, {TEMPLATE_PROGRAM});
   EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.out, HasSubstr("par_intro seed 1: path 0.00 m, at least 12 m needed"));
+  EXPECT_THAT(
+      run.out,
+      HasSubstr("par_intro seed 1: distance driven, without movements on the spot, 0.00 m, at "
+                "least 12 m needed"));
   EXPECT_EQ(result().at("runs").at(0).at("end"), json({{"kind", "time-over"}}));
 }
 

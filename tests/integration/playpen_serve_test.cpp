@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "playpen_process.h"
@@ -145,6 +146,52 @@ TEST_F(PlaypenServe, TellsClientsOfTheEndAndEndsWhenTheyHaveLeft) {
   };
   EXPECT_EQ(files(folder_ / "film"), 13);  // 0.5 s at 25 frames per second, and the first frame
   EXPECT_EQ(files(result("snapshots")), 3);
+}
+
+// A regression: the server hashed the canvas for each report, and took minutes for the drawings and
+// maps below. The signal's handler waited for both.
+TEST_F(PlaypenServe, ASignalEndsItInTheMiddleOfMuchWorkOnTheLargestCanvas) {
+  start({});
+  RawClient painter = connect();
+  painter.send(
+      "1 playpen hello [{\"version\": 1}]\n"
+      "{\"id\": 2, \"do\": \"resize_canvas\", \"width\": 8192, \"height\": 8192}\n"
+      "{\"id\": 3, \"do\": \"draw\", \"drawings\": [[\"fill\", 0, 255]]}\n");
+  EXPECT_THAT(painter.line(), testing::StartsWith("1 SUCCESS"));
+  EXPECT_THAT(painter.line(), HasSubstr("8192"));
+  EXPECT_THAT(painter.line(), HasSubstr("\"id\":3"));
+  RawClient mapper = connect();
+  std::string maps = "1 playpen hello [{\"version\": 1}]\n";
+  for (int i = 0; i < 64; ++i) {
+    maps +=
+        "{\"id\": 2, \"do\": \"world_map\", \"cell_size\": 0.0005, "
+        "\"tile\": [0, 0, 2048, 2048]}\n";
+  }
+  mapper.send(maps);
+  EXPECT_THAT(mapper.line(), testing::StartsWith("1 SUCCESS"));
+  // Work without end, none of which can be left out.
+  std::string lines = "{\"do\": \"draw\", \"drawings\": [";
+  for (int i = 0; i < 20'000; ++i) lines += "[\"line\", 0, 0, 0, 8191, 8191, 1],";
+  lines += "[\"pixel\", 0, 0, 0, 1]]}\n";
+  std::thread writer([&] {
+    while (painter.send_if_open(lines)) {
+    }
+  });
+  // Simulated time goes on, and so does the report of each second.
+  RawClient other = connect();
+  fs::remove(result("report.json"));
+  do {
+    other.send("1 time now\n");
+    EXPECT_THAT(other.line(), testing::StartsWith("1 SUCCESS"));
+  } while (!fs::exists(result("report.json")));
+  EXPECT_EQ(report().at("ended"), nullptr);
+  EXPECT_EQ(report().at("run").at("state_hash"), nullptr);
+  server_->send_signal(SIGTERM);
+  const ProcessResult end = server_->finish();
+  EXPECT_EQ(end.status, 0) << end.err;
+  writer.join();
+  EXPECT_EQ(report().at("ended"), json({{"by", "request"}, {"signal", "SIGTERM"}}));
+  EXPECT_TRUE(report().at("run").at("state_hash").is_string());
 }
 
 TEST_F(PlaypenServe, EndsAlthoughAClientStaysWhenTheRunIsOver) {

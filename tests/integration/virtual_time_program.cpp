@@ -14,6 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <condition_variable>
@@ -289,6 +290,25 @@ void wait_for_the_clock() {
 }
 
 // One clock read per iteration does not advance time.
+void take_speeds_from_a_thread() {
+  PlayerClient robot("localhost", 6665);
+  Position2dProxy position(&robot, 0);
+  std::atomic<bool> stop{false};
+  std::atomic<int> count{0};
+  std::thread counter([&] {
+    while (!stop) {
+      std::this_thread::sleep_for(milliseconds(1));
+      ++count;
+    }
+  });
+  for (int i = 0; i < 20; ++i) {
+    robot.Read();
+    position.SetSpeed(1e-3 * (count % 100), 0.0);
+  }
+  stop = true;
+  counter.join();
+}
+
 void look_at_the_clock() {
   PlayerClient robot("localhost", 6665);
   LaserProxy laser(&robot, 0);
@@ -548,6 +568,7 @@ int main(int argc, char** argv) {
       {"have_threads_with_clients", have_threads_with_clients},
       {"wait_for_the_clock", wait_for_the_clock},
       {"look_at_the_clock", look_at_the_clock},
+      {"take_speeds_from_a_thread", take_speeds_from_a_thread},
       {"drive_for_ever", drive_for_ever},
       {"drive_for_ever_in_background", drive_for_ever_in_background},
       {"command_for_ever", command_for_ever},

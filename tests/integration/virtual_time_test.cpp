@@ -210,7 +210,10 @@ TEST_F(VirtualTime, SoDoesOneThatCatchesAllErrors) {
 }
 
 TEST_F(VirtualTime, SoDoesOneThatNeitherReadsNorSleeps) {
-  EXPECT_EQ(run("command_for_ever", {"--duration", "2"}).status, 0);
+  const ProcessResult result = run("command_for_ever", {"--duration", "2"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("was ended while it went on without calling Read()"),
+                                Not(HasSubstr("in its sleep"))));
   EXPECT_DOUBLE_EQ(sim_time(), 2.0);
   EXPECT_NEAR(robot().at("path_length").get<double>(), 0.02, 0.002);
   const json first = report().at("run").at("state_hash");
@@ -312,6 +315,18 @@ TEST_F(VirtualTime, ARunThatTheWallClockHadASayInIsNotRepeatable) {
   EXPECT_THAT(whys(), ElementsAre(HasSubstr("followed the wall clock")));
   static_cast<void>(run("have_threads_with_clients", {"--real-sleep", "--duration", "1"}));
   EXPECT_THAT(whys(), ElementsAre(HasSubstr("several threads")));
+}
+
+TEST_F(VirtualTime, WithRealSleepOnlyAProgramOfOneThreadIsRepeatable) {
+  static_cast<void>(run("look_at_the_clock", {"--real-sleep", "--duration", "1"}));
+  EXPECT_EQ(report().at("run").at("repeatable"), true);
+  // Its other thread has no client.
+  static_cast<void>(run("take_speeds_from_a_thread", {"--real-sleep"}));
+  EXPECT_THAT(whys(), ElementsAre(HasSubstr("several threads")));
+  // Playpen's own thread that draws hides those of the program.
+  static_cast<void>(run("look_at_the_clock", {"--real-sleep", "--duration", "1", "--record",
+                                              folder_ / "film", "--record-fps", "1"}));
+  EXPECT_THAT(whys(), ElementsAre(HasSubstr("unknown whether the program has threads")));
 }
 
 TEST_F(VirtualTime, WhoComputesForTooLongHoldsUpNobodyAndTheReportSaysSo) {

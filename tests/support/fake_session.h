@@ -41,6 +41,10 @@ struct FakeWorld {
   std::map<int, int> subscriptions;  ///< device number -> count
   std::map<int, bool> replace;       ///< device number (-1: all) -> rule
   std::vector<std::string> real_time_reasons;
+  bool watches = true;  ///< as the server of a real robot; see playerlike::Charge
+  bool stopped = false;
+  std::string in_charge;  ///< who has taken charge last
+  int charges = 0;        ///< times that somebody has taken charge
   bool closed = false;
   std::size_t drawn = 0;  ///< drawings executed
   int cell_calls = 0;     ///< of draw_cells()
@@ -301,7 +305,8 @@ class FakeSession final : public playerlike::Session {
   }
   playerlike::CanvasInfo operator()(const playerlike::ResizeCanvasRequest& what) {
     with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
-      registry.resize(layers, what.width, what.height);
+      registry.require_size(layers, what.width, what.height);
+      layers.resize(what.width, what.height);
       ++world_->resizes;
     });
     return (*this)(playerlike::CanvasInfoRequest{});
@@ -343,6 +348,16 @@ class FakeSession final : public playerlike::Session {
     map.cells.assign(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height),
                      0.0F);
     return {std::move(map)};
+  }
+  playerlike::Charge operator()(const playerlike::TakeChargeRequest& what) {
+    const auto lock = lock_open();
+    if (!world_->in_charge.empty() && world_->in_charge != what.name && !what.take_over) {
+      throw playerlike::SessionError(playerlike::SessionError::Code::kNotAvailable,
+                                     world_->in_charge + " is in charge");
+    }
+    world_->in_charge = what.name;
+    ++world_->charges;
+    return {world_->watches, std::exchange(world_->stopped, false)};
   }
   template <typename Other>
   typename Other::Result operator()(const Other&) const {

@@ -55,12 +55,12 @@ class AmclDriver {
   /// Ends the thread. Simulated time does not advance.
   ~AmclDriver();
 
-  /// The robot is near this pose [m, m, rad]; the standard deviations are the settings
-  /// init_pose_var (1 m) and init_pose_var_yaw_deg.
+  /// The robot is near this pose [m, m, rad], with coordinates up to 1e9 m; the standard deviations
+  /// are the settings init_pose_var (1 m) and init_pose_var_yaw_deg.
   void SetPose(double aX, double aY, double aYaw);
   /// The robot is near this pose [m, m, rad].
-  /// @param aDeviation     standard deviation of x and of y [m], at least 0.
-  /// @param aYawDeviation  standard deviation of the heading [rad], at least 0.
+  /// @param aDeviation     standard deviation of x and of y [m], 0 to 1e9.
+  /// @param aYawDeviation  standard deviation of the heading [rad], 0 to 1e9.
   void SetPose(double aX, double aY, double aYaw, double aDeviation, double aYawDeviation);
   /// The robot may be anywhere on the map.
   void Spread();

@@ -30,7 +30,7 @@ class PlayerError {
   /// @param aCode  one of Code, or a code defined by the program.
   PlayerError(const std::string aFun = "", const std::string aStr = "", const int aCode = -1);
 
-  /// Error text.
+  /// Error text: valid UTF-8. Bytes of names that are not appear as "\xNN".
   std::string GetErrorStr() const { return mStr; }
   /// Name of the function that failed.
   std::string GetErrorFun() const { return mFun; }

@@ -190,16 +190,16 @@ ServerAddress player_server_of_world(const std::string& world, int port) {
                          ": that would be TCP port " + std::to_string(server.tcp_port));
 }
 
-std::unique_ptr<Session> open_player_session(ServerAddress server, int port) {
+PlayerSettings player_settings(ServerAddress server, int port) {
   PlayerSettings settings;
   settings.server = std::move(server);
   settings.tokens = SocketSettings::from_environment(settings.server, port).tokens;
-  return std::make_unique<PlayerSession>(std::move(settings));
+  return settings;
 }
 
 std::unique_ptr<Session> connect_to_player(ServerAddress server, int port) {
   use_real_time();
-  return open_player_session(std::move(server), port);
+  return std::make_unique<PlayerSession>(player_settings(std::move(server), port));
 }
 
 // For a host without a protocol: a Player server speaks first, a Playpen server does not.
@@ -210,9 +210,7 @@ std::unique_ptr<Session> connect_to_host(const std::string& host, int port) {
   constexpr double kGreeting_s = 2.0;
   std::string no_player;
   try {
-    PlayerSettings settings;
-    settings.server = parse_server_address(host, port);
-    settings.tokens = SocketSettings::from_environment(settings.server, port).tokens;
+    PlayerSettings settings = player_settings(parse_server_address(host, port), port);
     settings.connect_timeout_s = kConnect_s;
     settings.banner_timeout_s = kGreeting_s;
     return std::make_unique<PlayerSession>(std::move(settings));
@@ -345,17 +343,21 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
   return connect_embedded(file, port, /*renew=*/false);
 }
 
-std::unique_ptr<Session> open_real_robot(const std::string& server, int port) {
+std::unique_ptr<Session> open_real_robot(const RealRobotPlace& place) {
   const virtual_time::Inside inside;
+  const auto& [server, port, timeout_s] = place;
   if (server.starts_with(kPlayerPrefix)) {
-    return open_player_session(player_server(server, port), port);
+    PlayerSettings settings = player_settings(player_server(server, port), port);
+    settings.connect_timeout_s = settings.banner_timeout_s = timeout_s;
+    return std::make_unique<PlayerSession>(std::move(settings));
   }
   if (!server.starts_with(kTcpPrefix)) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "a real robot is named " + std::string(sim::kRealServerExpected));
   }
-  return std::make_unique<SocketSession>(
-      SocketSettings::from_environment(parse_server_address(server), port));
+  SocketSettings settings = SocketSettings::from_environment(parse_server_address(server), port);
+  settings.connect_timeout_s = timeout_s;
+  return std::make_unique<SocketSession>(std::move(settings));
 }
 
 void close_embedded_hosts() {

@@ -2,10 +2,14 @@
 #include "devices/client_core.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "devices/debug_types.h"
 #include "devices/errors.h"
+#include "devices/warnings.h"
 #include "session/checks.h"
+#include "sim/core/number_text.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/rangers.h"
 
@@ -16,12 +20,65 @@ namespace playerlike {
 using PlayerCc::detail::Elements;
 using PlayerCc::detail::thread_number;
 
-ClientCore::ClientCore(std::unique_ptr<Session> session) : session_(std::move(session)) {}
+ClientCore::ClientCore(std::unique_ptr<Session> session) : session_(std::move(session)) {
+  keep_debug_types();
+}
 
 ClientCore::~ClientCore() { session_->close(); }
 
 void ClientCore::send(const char* fun, DeviceId device, const sim::Command& command) {
   translated(fun, [&] { session_->send(device, command); });
+  warn_of_clamped_speed(fun, device, command);
+}
+
+ClientCore::SpeedLimits ClientCore::speed_limits(DeviceId motors) const {
+  const RobotInfo& robot = robot_of(motors);
+  SpeedLimits limits{robot.max_speed_mps, robot.max_turn_rate_radps};
+  const std::map<std::string, double>& settings = info_of(motors).properties;
+  const auto tighten = [&settings](const char* name, double& value) {
+    const auto it = settings.find(name);
+    if (it != settings.end()) value = std::min(value, it->second);
+  };
+  tighten("max_speed", limits.speed_mps);
+  tighten("max_turn_rate", limits.turn_rate_radps);
+  return limits;
+}
+
+void ClientCore::warn_of_clamped_speed(const char* fun, DeviceId device,
+                                       const sim::Command& command) {
+  double speed_mps = 0.0;
+  double turn_rate_radps = 0.0;
+  if (const auto* twist = std::get_if<sim::TwistCommand>(&command)) {
+    speed_mps = twist->twist.v_mps;
+    turn_rate_radps = twist->twist.omega_radps;
+  } else if (const auto* heading = std::get_if<sim::HeadingCommand>(&command)) {
+    speed_mps = heading->v_mps;
+  } else if (const auto* car = std::get_if<sim::CarCommand>(&command)) {
+    speed_mps = car->v_mps;
+  } else {
+    return;
+  }
+  constexpr SpeedLimits kTold;
+  const std::pair key(device.robot, device.device);
+  auto known = watched_speeds_.find(key);
+  if (known == watched_speeds_.end()) {
+    known = watched_speeds_.emplace(key, speed_limits(device)).first;
+  }
+  SpeedLimits& limits = known->second;
+  const auto is_beyond = [](double value, double limit) {
+    constexpr double kRounding = 1e-3;  // of limits in files
+    return limit > 0.0 && std::abs(value) > limit * (1.0 + kRounding);
+  };
+  const bool too_fast = is_beyond(speed_mps, limits.speed_mps);
+  if (!too_fast && !is_beyond(turn_rate_radps, limits.turn_rate_radps)) return;
+  const auto number = [](double value) { return sim::rounded_text(value, 4); };
+  warn(std::string(fun) + ": robot " + robot_of(device).name +
+       (too_fast ? " drives at most " + number(limits.speed_mps) + " m/s, so " + number(speed_mps) +
+                       " m/s is clamped to that"
+                 : " turns at most " + number(limits.turn_rate_radps) + " rad/s, so " +
+                       number(turn_rate_radps) + " rad/s is clamped to that") +
+       " (reported once)");
+  limits = kTold;
 }
 
 void ClientCore::add(DeviceId device, ReadingListener& listener, std::optional<bool> replace) {

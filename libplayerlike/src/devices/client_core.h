@@ -48,7 +48,9 @@ class ClientCore final : private ReadingSink {
   [[nodiscard]] PlayerCc::mutex_t& mutex() noexcept { return mutex_; }
   [[nodiscard]] Session& session() noexcept { return *session_; }
   [[nodiscard]] const std::vector<RobotInfo>& robots() const noexcept { return session_->robots(); }
-  /// Sends a command to a device. @throws PlayerCc::PlayerError in the name of `fun`.
+  /// Sends a command to a device. The first speed beyond a robot's limits, which will be clamped,
+  /// is reported on standard error. The caller holds the mutex.
+  /// @throws PlayerCc::PlayerError in the name of `fun`.
   void send(const char* fun, DeviceId device, const sim::Command& command);
 
   /// Subscribes a listener to a device. The caller holds the mutex.
@@ -125,6 +127,14 @@ class ClientCore final : private ReadingSink {
   /// mutex.
   std::map<int, bool>& replace_rules() noexcept { return replace_rules_; }
 
+  /// Greatest speeds of a robot; 0: unknown.
+  struct SpeedLimits {
+    double speed_mps = 0.0;
+    double turn_rate_radps = 0.0;
+  };
+  /// Those of a robot with a motor device: the robot's, or the device's if they are lower.
+  [[nodiscard]] SpeedLimits speed_limits(DeviceId motors) const;
+
   [[nodiscard]] const RobotInfo& robot_of(DeviceId device) const;
   [[nodiscard]] const DeviceInfo& info_of(DeviceId device) const;
   /// Calls visit(device) for every device with a listener. The caller holds the mutex.
@@ -151,6 +161,7 @@ class ClientCore final : private ReadingSink {
   using Notifications = std::vector<std::function<void()>>;
 
   void on_reading(DeviceId device, const sim::SharedReading& reading) override;
+  void warn_of_clamped_speed(const char* fun, DeviceId device, const sim::Command& command);
   /// Whether no listener has a device.
   [[nodiscard]] bool listens_to_nothing() const noexcept;
   /// Delivers the readings that have arrived. The mutex is held. @return the number of readings.
@@ -164,7 +175,8 @@ class ClientCore final : private ReadingSink {
   std::map<int, sim::Pose> position_goals_;
   std::map<int, bool> replace_rules_;
   std::map<sim::LayerId, bool> sheets_;  // layers of graphics proxies -> in use
-  int looks_ = 0;                        // not reported to the session yet
+  std::map<std::pair<int, int>, SpeedLimits> watched_speeds_;  // of motors, until the warning
+  int looks_ = 0;                                              // not reported to the session yet
   std::atomic<bool> closed_{false};
   std::atomic<bool> run_is_over_{false};
   std::uint64_t first_user_ = 0;  // the first thread that changed exposed data

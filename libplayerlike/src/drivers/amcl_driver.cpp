@@ -1,4 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "devices/errors.h"
@@ -21,6 +23,10 @@ constexpr std::string_view kDeviationOfBoth = "init_pose_var";  // two numbers i
 bool is_amcl_setting(const sim::Field& field) {
   const std::string_view name = field.name;
   return playerlike::is_number(field) && name != "frequency" && name != "map_resolution";
+}
+
+void require_possible(const char* fun, const sim::SetPoseCommand& command) {
+  if (const auto fault = sim::fault_of(command)) playerlike::refuse(fun, *fault);
 }
 
 // The state, or an empty one before the first round.
@@ -53,8 +59,7 @@ AmclDriver::~AmclDriver() = default;
 
 void AmclDriver::SetPose(double aX, double aY, double aYaw) {
   const char* fun = "AmclDriver::SetPose";
-  playerlike::require_finite(
-      fun, {{"the pose's x", aX}, {"the pose's y", aY}, {"the pose's yaw", aYaw}});
+  require_possible(fun, {{aX, aY, aYaw}});
   translated(fun, [&] {
     mCore->require_usable();
     mThread->set_pose({aX, aY, sim::normalize_angle(aYaw)}, {});
@@ -65,18 +70,19 @@ void AmclDriver::SetPose(double aX, double aY, double aYaw, double aDeviation,
                          double aYawDeviation) {
   const char* fun = "AmclDriver::SetPose";
   playerlike::require_finite(
-      fun, {{"the pose's x", aX}, {"the pose's y", aY}, {"the pose's yaw", aYaw}});
-  playerlike::require_finite(
       fun, {{"the deviation of the position", aDeviation}, {"that of the yaw", aYawDeviation}});
   if (aDeviation < 0.0 || aYawDeviation < 0.0) {
     playerlike::refuse(fun, "a standard deviation must not be negative");
   }
+  if (std::max(aDeviation, aYawDeviation) > sim::kFarthestPose) {
+    playerlike::refuse(fun, "a standard deviation must be at most 1e9 m or rad");
+  }
   const double variance_m2 = aDeviation * aDeviation;
+  const std::array variance{variance_m2, variance_m2, aYawDeviation * aYawDeviation};
+  require_possible(fun, {{aX, aY, aYaw}, variance});
   translated(fun, [&] {
     mCore->require_usable();
-    mThread->set_pose(
-        {aX, aY, sim::normalize_angle(aYaw)},
-        sim::PoseCovariance{{variance_m2, variance_m2, aYawDeviation * aYawDeviation}, {}});
+    mThread->set_pose({aX, aY, sim::normalize_angle(aYaw)}, sim::PoseCovariance{variance, {}});
   });
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "proxies/link.h"
+#include "virtual_time/program_threads.h"
 #include "virtual_time/virtual_time.h"
 
 namespace playerlike {
@@ -19,6 +20,7 @@ void DriverThread::start(std::function<void()> round) {
   const virtual_time::Inside inside;  // this is not the program's own thread
   // The caller, and with it simulated time, must not continue before the thread has joined.
   std::unique_lock lock(mutex_);
+  note_own_threads();
   thread_ = std::thread([this] { run(); });
   started_changed_.wait(lock, [this] { return started_; });
 }

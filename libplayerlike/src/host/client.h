@@ -50,6 +50,7 @@ struct Client {
   bool replace_by_default = true;
   std::uint32_t overflow = 0;
   bool has_data = false;
+  bool overruled = false;  ///< it was warned that another client has taken over its robot
   std::string lost_robot;  ///< that the connection to a real robot is lost, until it was told
   sim::SimTime empty_round_ns = 0;  ///< without subscriptions: end of the present round
   int zero_peeks = 0;               ///< consecutive calls of peek(0)

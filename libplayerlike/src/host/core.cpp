@@ -6,16 +6,20 @@
 #include <exception>
 #include <utility>
 
+#include "host/busy_alarm.h"
 #include "host/virtual_clock.h"
 #include "host/window.h"
 #include "process/end_of_program.h"
 #include "sim/core/number_text.h"
+#include "virtual_time/program_threads.h"
 
 namespace playerlike {
 namespace {
 
 // The program is ended after so many reads beyond the end of the run.
 constexpr int kReadsAfterEnd = 1000;
+// Cells of a canvas whose pictures are written so quickly that nobody has to be served meanwhile.
+constexpr std::size_t kQuicklyWritten = std::size_t{1} << 20U;
 
 void require_duration(double sleep_s) {
   if (sleep_s >= 0.0 && sleep_s <= 1e9) return;
@@ -48,7 +52,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       lockstep_(clients_, simulation_.world().simulation.start_gate_clients,
                 settings_.silence_limit_s, warn_),
       pace_(sim::to_seconds(step_ns_), simulation_.world().simulation.time_factor),
-      inputs_(simulation_, warn_, mirror_.get()),
+      inputs_(simulation_, robots_, warn_, mirror_.get()),
       stalled_time_warning_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
       results_(
           settings_, simulation_, [this] { return time_locked(); }, warn_, inputs_.commands,
@@ -61,6 +65,7 @@ Host::Core::~Core() { stop(); }
 void Host::Core::start() {
   if (settings_.view_socket) window_ = std::make_unique<Window>(*this, *settings_.view_socket);
   const Lock lock = lock_with_priority();  // the window's thread may be running already
+  if (window_) pace_.watch_from(sim::from_seconds(settings_.film_from_s));
   if (simulation_.world().simulation.time_mode != sim::TimeMode::kPaced) return;
   pace_.follow_wall_clock();
   pacer_ = std::thread([this] { pace(); });
@@ -73,7 +78,9 @@ void Host::Core::stop() noexcept {
     stop_pacing_ = true;
     changed_.notify_all();
   });
-  if (pacer_.joinable() && pacer_.get_id() != std::this_thread::get_id()) pacer_.join();
+  for (std::thread* const thread : {&pacer_, &ender_}) {
+    if (thread->joinable() && thread->get_id() != std::this_thread::get_id()) thread->join();
+  }
 }
 
 Host::Core::Lock Host::Core::lock_with_priority() const {
@@ -111,10 +118,12 @@ void Host::Core::remove_client(Client& client) noexcept {
   if (client.closed.exchange(true)) return;
   // Its last commands are still applied.
   if (!ended_) inputs_.apply(client);
+  const std::vector<int> left = inputs_.commanders.note_gone(&client);
   client.drawings.close();
   inputs_.registry.leave(client.number);
   if (turns_) Turns::instance().resume_client_thread(&client);
   clients_.remove(client);
+  if (!ended_) inputs_.stop(left);
   changed_.notify_all();
 }
 
@@ -146,6 +155,7 @@ void Host::Core::subscribe(Client& client, DeviceId device) {
   require_readable(client, device.robot);
   require_permission(permissions_.forbids_device(device));
   clients_.subscribe(client, device);
+  inputs_.commanders.note_opened(client, device);
   if (client.is_programs() && stalled_time_warning_.note_needs_time()) set_busy_alarm();
 }
 
@@ -164,11 +174,13 @@ void Host::Core::require_readable(const Client& client, int robot) const {
 }
 
 void Host::Core::require_permission(const std::optional<std::string>& what) {
-  if (!what) return;
-  results_.note_refusal(*what);
-  throw SessionError(SessionError::Code::kNotAvailable,
-                     "the task of this run does not let a program use " + *what + " (it may use " +
-                         permissions_.allowed_text() + ')');
+  if (what) throw SessionError(SessionError::Code::kNotAvailable, note_forbidden(*what));
+}
+
+std::string Host::Core::note_forbidden(const std::string& what) {
+  results_.note_refusal(what);
+  return "the task of this run does not let a program use " + what + " (it may use " +
+         permissions_.allowed_text() + ')';
 }
 
 void Host::Core::send(Client& client, DeviceId device, const sim::Command& command) {
@@ -193,39 +205,6 @@ void Host::Core::send(Client& client, DeviceId device, const sim::Command& comma
   inputs_.apply(client);
 }
 
-// --- Programs that do not advance time
-
-void Host::Core::set_busy_alarm() {
-  if (!paced() && !over() && simulation_.now_ns() == 0) stalled_time_warning_.set_alarm();
-}
-
-void Host::Core::count_data_reads(Client& client, int count, bool has_data) {
-  if (!client.is_programs()) return;
-  bool must_check = false;
-  {
-    const std::lock_guard input(client.input_mutex);
-    must_check = StalledTimeWarning::count_data_reads(client, now_ns(), count, has_data);
-  }
-  if (must_check) check_stalled_time(client);
-}
-
-void Host::Core::check_stalled_time(Client& client) {
-  const Lock lock = lock_with_priority();
-  const ThreadId self = this_thread_id();
-  const bool others =
-      in_turns() ? VirtualClock::others_take_turns(self) : lockstep_.others_may_wait(self);
-  stalled_time_warning_.check(client, simulation_.now_ns(), paced() || over() || others);
-}
-
-void Host::Core::note_program_ends(int status) {
-  const Lock lock = lock_with_priority();
-  results_.program_status = status;
-  stalled_time_warning_.dismiss_alarm();
-  // A program that ends with an error status needs no advice.
-  if (!paced() && !ended_ && simulation_.now_ns() == 0 && status == 0)
-    stalled_time_warning_.note_end();
-}
-
 // --- Waiting
 
 bool Host::Core::program_takes_part() const {
@@ -233,7 +212,7 @@ bool Host::Core::program_takes_part() const {
 }
 
 bool Host::Core::may_advance(bool all_known_waiting) {
-  return !paced() && !over() && !pace_.step_limit_reached() && lockstep_.gate_open() &&
+  return !paced() && !stands_still() && !pace_.step_limit_reached() && lockstep_.gate_open() &&
          program_takes_part() && (all_known_waiting || lockstep_.all_wait());
 }
 
@@ -259,7 +238,12 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
       if (began) changed_.notify_all();
       changed_.wait(lock);
     } else if (!client.onlooker && may_advance(all_known_waiting)) {
-      all_known_waiting = !advance();
+      if (is_too_early()) {
+        wait_for_next_step(lock);
+        all_known_waiting = false;
+      } else {
+        all_known_waiting = !advance(lock);
+      }
     } else {
       if (began) changed_.notify_all();
       wait_for_others(lock, client);
@@ -271,12 +255,24 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
 
 // Waits for a change, at most until the silence limit of a client.
 void Host::Core::wait_for_others(Lock& lock, const Client& client) {
-  // A follower or onlooker waits for programs without a time limit.
-  if (!client.is_programs()) return changed_.wait(lock);
+  // A follower or onlooker waits for programs without a time limit, and all wait for the results.
+  if (!client.is_programs() || writing_) return changed_.wait(lock);
   const auto deadline = lockstep_.silence_deadline(WallClock::now());
   if (changed_.wait_until(lock, deadline) == std::cv_status::timeout) {
     lockstep_.note_silence(WallClock::now());
   }
+}
+
+bool Host::Core::is_too_early() {
+  if (!pace_.watched(simulation_.now_ns())) return false;
+  if (settings_.quiet_end && interrupted() != 0) return false;  // the step ends the run
+  return pace_.is_too_early(simulation_.now_ns(), WallClock::now());
+}
+
+void Host::Core::wait_for_next_step(Lock& lock) {
+  // A signal that ends the run wakes nobody.
+  constexpr std::chrono::milliseconds kLook(50);
+  changed_.wait_until(lock, std::min(pace_.due(), WallClock::now() + kLook));
 }
 
 void Host::Core::wait(Client& client) {
@@ -410,9 +406,12 @@ void Host::Core::cancel_wait(Client& client) {
 bool Host::Core::advance_for(std::chrono::microseconds slice) {
   Lock lock = lock_with_priority();
   if (in_turns() || !may_advance()) return false;
+  ends_elsewhere_ = true;  // the caller has other clients to answer
   const auto end = WallClock::now() + slice;
   do {
-    advance();
+    // The server asks again ten times a second.
+    if (is_too_early()) return false;
+    advance(lock);
     if (!may_advance()) return false;
     // Another thread waits in lock_with_priority().
     if (priority_waiters_.load(std::memory_order_relaxed) > 0) return true;
@@ -423,7 +422,7 @@ bool Host::Core::advance_for(std::chrono::microseconds slice) {
 void Host::Core::check_silence() {
   const Lock lock = lock_with_priority();
   // Silence matters only if clients wait for lockstep time that could advance.
-  if (paced() || over()) return;
+  if (paced() || stands_still()) return;
   if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(WallClock::now());
 }
 
@@ -449,15 +448,18 @@ void Host::Core::publish_blackboard() {
   blackboard_.publish(order);
 }
 
-bool Host::Core::advance() {
+bool Host::Core::advance(Lock& lock) {
   const auto now = WallClock::now();
-  if (progress_.note_step(now)) stalled_time_warning_.dismiss_alarm();
+  if (progress_.note_step(now)) stalled_time_warning_.note_first_step(!paced());
+  if (tells_of_endless_run_) tell_of_endless_run(now);
   if (mirror_) mirror_->before_step();
   inputs_.before_step(clients_);
+  stop_unwatched(now);
   publish_blackboard();
   simulation_.step();
   if (mirror_) note_losses();
   now_ns_.store(simulation_.now_ns(), std::memory_order_release);
+  if (watches_program_) note_step_for_alarm(simulation_.now_ns());
   pace_.count_step();
   results_.observe();
   clients_.distribute(results_.logs);
@@ -465,7 +467,11 @@ bool Host::Core::advance() {
   if (finished) progress_.note_end();
   if (settings_.progress && simulation_.steps() % 64 == 0) progress_.show(time_locked(), false);
   if (finished || results_.real_robot_lost || (settings_.quiet_end && interrupted() != 0)) {
-    end_run();
+    if (ends_elsewhere_ && simulation_.layers().cell_count() > kQuicklyWritten) {
+      end_run_elsewhere();
+    } else {
+      end_run(lock);
+    }
   } else {
     results_.keep(now);
   }
@@ -474,9 +480,11 @@ bool Host::Core::advance() {
 
 void Host::Core::note_losses() {
   for (const Mirror::Loss& loss : mirror_->after_step()) {
-    warn_(loss.text + (loss.ends_run ? "; the run ends" : "; the run continues without it"));
+    warn_(loss.text + (loss.ends_run     ? "; the run ends"
+                       : loss.is_passing ? "; it is made again as soon as possible"
+                                         : "; the run continues without it"));
     if (loss.ends_run) results_.real_robot_lost = true;
-    clients_.note_loss(loss);
+    if (!loss.is_passing) clients_.note_loss(loss);
   }
 }
 
@@ -558,7 +566,7 @@ void Host::Core::pace() {
     return gated ? lockstep_.gate_open() : settings_.start_at_once || clients_.any_but_onlookers();
   });
   pace_.begin_at(WallClock::now());
-  while (!stop_pacing_ && !over()) {
+  while (!stop_pacing_ && !stands_still()) {
     if (pace_.paused()) {
       wait_while_paused(lock);
       pace_.begin_at(WallClock::now());
@@ -566,7 +574,7 @@ void Host::Core::pace() {
     }
     if (pace_.step_limit_reached()) {
       changed_.wait(lock, [this] {
-        return !pace_.step_limit_reached() || pace_.paused() || stop_pacing_ || over();
+        return !pace_.step_limit_reached() || pace_.paused() || stop_pacing_ || stands_still();
       });
       // The client that synchronises the clock may be slow.
       pace_.skip_lost_time(WallClock::now());
@@ -580,18 +588,18 @@ void Host::Core::pace() {
       continue;
     }
     pace_.begin_step(now);
-    advance();
+    advance(lock);
     give_way(lock);
   }
 }
 
 void Host::Core::wait_while_paused(Lock& lock) {
   if (mirror_) mirror_->halt();
-  while (pace_.paused() && !stop_pacing_ && !over()) {
+  while (pace_.paused() && !stop_pacing_ && !stands_still()) {
     changed_.wait_for(lock, std::chrono::milliseconds(50));
     // No step follows that would notice the signal.
     if (settings_.quiet_end && interrupted() != 0 && !ended_) {
-      end_run();
+      end_run(lock);
       release_waiters();
     }
   }
@@ -601,15 +609,16 @@ void Host::Core::wait_while_paused(Lock& lock) {
 
 void Host::Core::finish() noexcept {
   try {
-    const Lock lock = lock_with_priority();
+    Lock lock = lock_with_priority();
     stalled_time_warning_.dismiss_alarm();
     ended_by_program_ = true;
     if (!ended_) {
       for (const auto& client : clients_) inputs_.apply(*client);
-      end_run();
+      end_run(lock);
       release_waiters();
       if (in_turns()) Turns::instance().schedule_next();
     }
+    changed_.wait(lock, [this] { return !writing_; });
     stop_pacing_ = true;
     changed_.notify_all();
   } catch (const std::exception& e) {
@@ -617,14 +626,45 @@ void Host::Core::finish() noexcept {
   }
 }
 
-void Host::Core::end_run() {
-  ended_ = true;
-  if (mirror_) mirror_->stop();
-  results_.begin_end();
-  // Threads outside of the lockstep may have drawn since the last step.
-  for (const auto& client : clients_) inputs_.apply_drawings(*client);
-  if (settings_.progress) progress_.show(time_locked(), true);
-  results_.write();
+void Host::Core::end_run(Lock& lock) {
+  ended_ = writing_ = true;
+  write_results(lock);
+}
+
+void Host::Core::end_run_elsewhere() {
+  ended_ = writing_ = true;
+  ender_ = std::thread([this] {
+    const virtual_time::Inside inside;
+    Lock lock = lock_with_priority();
+    write_results(lock);
+    release_waiters();
+  });
+}
+
+// While threads take turns, nobody else uses the simulation, and the mutex belongs to the turns.
+void Host::Core::write_results(Lock& lock) {
+  const bool may_unlock = !in_turns();
+  try {
+    if (mirror_) mirror_->stop();
+    results_.begin_end();
+    // Threads outside of the lockstep may have drawn since the last step.
+    for (const auto& client : clients_) inputs_.apply_drawings(*client);
+    if (settings_.progress) progress_.show(time_locked(), true);
+    std::optional<sim::LayerStack> layers;
+    if (!settings_.output_folder.empty()) {
+      sim::LayerCopy copy;
+      copy_layers(lock, copy, may_unlock);
+      layers = copy.take();
+    }
+    const std::function<void()> write = results_.prepare(std::move(layers));
+    if (may_unlock) lock.unlock();
+    write();
+  } catch (const std::exception& e) {
+    warn_(std::string("results of the run are missing: ") + e.what());
+  }
+  if (!lock.owns_lock()) lock = lock_with_priority();
+  writing_ = false;
+  changed_.notify_all();
   if (settings_.quiet_end) end_program_quietly_if_uncaught();
 }
 
@@ -636,15 +676,23 @@ std::vector<std::string> Host::Core::unrepeatable() const {
     why.emplace_back("simulated time went on without a client that did not read for " +
                      std::to_string(settings_.silence_limit_s) + " s of wall time");
   }
+  if (inputs_.commanders.has_stopped()) why.emplace_back("a watchdog has stopped a robot");
   if (results_.conflict_noted()) why.emplace_back(kConflictWhy);
   if (driven_by_hand_) why.emplace_back("a robot was driven by hand");
   if (onlooker_acted_) {
     why.emplace_back("a client on a Player port commanded a robot or changed the world");
   }
-  if (!paced() && lockstep_.several_owners() && (!turns_ || !Turns::instance().active())) {
-    why.emplace_back(
-        "the program has several threads or there were several programs, and time was "
-        "not virtual: what they do side by side is chance");
+  if (!paced() && (!turns_ || !Turns::instance().active())) {
+    const ProgramThreads threads = watches_program_ ? program_threads() : ProgramThreads::kNone;
+    if (lockstep_.several_owners() || threads == ProgramThreads::kSome) {
+      why.emplace_back(
+          "the program has several threads or there were several programs, and time was "
+          "not virtual: what they do side by side is chance");
+    } else if (threads == ProgramThreads::kUnknown) {
+      why.emplace_back(
+          "time was not virtual, and it is unknown whether the program has threads of its own "
+          "beside those that Playpen started in it");
+    }
   }
   return why;
 }

@@ -65,6 +65,12 @@ class Host::Core {
   Answer answer(Client& client, const Request& request);
   void send(Client& client, DeviceId device, const sim::Command& command);
 
+  // See Commander and Host::set_active().
+  std::optional<std::string> command(Commanders::Who who, DeviceId device,
+                                     const sim::Command& command);
+  void commander_gone(Commanders::Who who) noexcept;
+  std::optional<std::string> set_active(DeviceId device, bool active);
+
   void wait(Client& client);
   int take(Client& client, ReadingSink& sink);
   bool peek(Client& client, std::chrono::milliseconds timeout);
@@ -108,6 +114,8 @@ class Host::Core {
   /// The picture of one layer, or of all, with size and position of the canvas at that time.
   std::vector<std::uint8_t> picture(Client& client, std::optional<sim::LayerId> layer,
                                     sim::CanvasDescription& canvas);
+  sim::LayerId create_layer(Client& client, const CreateLayerRequest& what);
+  void remove_layer(Client& client, sim::LayerId layer);
   void resize_canvas(Client& client, int width, int height);
 
   void finish() noexcept;
@@ -134,7 +142,10 @@ class Host::Core {
   void yield_to_priority_waiters() const;
   void adopt(Client& client, ThreadId thread_id);
   [[nodiscard]] bool is_abandoned() const { return had_client_ && !clients_.any_but_onlookers(); }
-  [[nodiscard]] bool over() const { return ended_ || simulation_.finished(); }
+  /// Whether no further step is made.
+  [[nodiscard]] bool stands_still() const { return ended_ || simulation_.finished(); }
+  /// Whether the run is over and its results are written, so that waits end.
+  [[nodiscard]] bool over() const { return stands_still() && !writing_; }
   [[nodiscard]] bool paced() const { return pace_.by_wall_clock(); }
   [[nodiscard]] bool in_turns() const noexcept {
     return turns_ && !paced() && Turns::instance().active();
@@ -145,6 +156,10 @@ class Host::Core {
   }
 
   void subscribe(Client& client, DeviceId device);
+  void unsubscribe(Client& client, DeviceId device);
+  Charge take_charge(Client& client, const TakeChargeRequest& what);
+  /// Stops robots whose watchdog has heard nothing for too long.
+  void stop_unwatched(WallClock::time_point now);
   /// Throws SessionError kNotAvailable if the world hides something from this client.
   /// @param robot  whose sensors to read; -1: data of no robot, such as objects and the map.
   void require_readable(const Client& client, int robot) const;
@@ -152,9 +167,15 @@ class Host::Core {
   /// something.
   /// @param what  as returned by a function of Permissions. @pre The mutex is held.
   void require_permission(const std::optional<std::string>& what);
+  /// Notes for the report that the run's task forbids something. @return the message.
+  std::string note_forbidden(const std::string& what);
   void count_data_reads(Client& client, int count, bool has_data);
   void check_stalled_time(Client& client);
   void set_busy_alarm();
+  /// See Host::watch_program().
+  void watch_program();
+  /// Tells the user of a program that runs without `playpen run` that its run has no end.
+  void tell_of_endless_run(WallClock::time_point now);
   void prefer_real_time(const std::string& reason);
 
   /// Waits until the client has data (if wants_data), until simulated time wake_ns (if set) or
@@ -167,6 +188,11 @@ class Host::Core {
   /// @param all_known_waiting  the caller knows that all clients wait.
   [[nodiscard]] bool may_advance(bool all_known_waiting = false);
   void wait_for_others(Lock& lock, const Client& client);
+  /// Whether the next step of a lockstep run has to wait, because people watch; see
+  /// Pace::is_too_early().
+  [[nodiscard]] bool is_too_early();
+  /// Waits until the next step is due, or for something else.
+  void wait_for_next_step(Lock& lock);
   [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
   EventClient::Outcome begin(Client& client, ThreadId thread_id, bool wants_data,
                              std::optional<sim::SimTime> wake_ns);
@@ -180,12 +206,17 @@ class Host::Core {
   void publish_blackboard();
 
   /// Makes a step. @return the result of release_waiters().
-  bool advance();
+  /// @param lock  on the mutex; unlocked now and then while the results of the run are written.
+  bool advance(Lock& lock);
   /// Lets clients know of connections to real robots that were lost in this step.
   void note_losses();
   /// Ends the waits that are over. @return whether a client may have stopped waiting.
   bool release_waiters();
-  void end_run();
+  /// Ends the run and writes its results. Then the waits are over.
+  void end_run(Lock& lock);
+  /// The same, by a thread of its own; until it is done, the run has not ended for its clients.
+  void end_run_elsewhere();
+  void write_results(Lock& lock);
   /// Tells the client that a real robot is lost, if it does not know yet. @throws SessionError.
   void tell_of_loss(Client& client);
   [[nodiscard]] TimeStatistics time_locked() const;
@@ -199,6 +230,12 @@ class Host::Core {
 
   template <typename Copy>
   sim::CanvasDescription copy_in_pieces(Client& client, const Copy& copy);
+  /// Copies all layers in pieces, between which the mutex is unlocked. At the return it is locked,
+  /// and the copy equals the layers.
+  /// @param may_unlock  false: in one piece.
+  void copy_layers(Lock& lock, sim::LayerCopy& copy, bool may_unlock = true);
+  /// Throws SessionError kFinished while the results are written.
+  void require_not_writing() const;
 
   const RunSettings settings_;
   const sim::LogHook log_;
@@ -230,11 +267,17 @@ class Host::Core {
   std::unique_ptr<VirtualClock> clock_;
   std::unique_ptr<Window> window_;
   std::thread pacer_;
+  std::thread ender_;      ///< see end_run_elsewhere()
+  std::mutex copy_mutex_;  ///< for copies in pieces, one at a time; locked before the mutex
 
+  bool watches_program_ = false;  ///< the program in whose process this is
+  bool tells_of_endless_run_ = false;
   bool had_client_ = false;
   bool mode_chosen_ = false;  ///< the world or a setting has set the time mode
   bool stop_pacing_ = false;
   bool ended_ = false;
+  bool writing_ = false;         ///< the run has ended, and its results are being written
+  bool ends_elsewhere_ = false;  ///< the thread that makes the last step does not write the results
   bool ended_by_program_ = false;
   bool end_reported_ = false;  ///< a session has thrown because the run is over
   int reads_after_end_ = 0;

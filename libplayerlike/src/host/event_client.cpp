@@ -38,4 +38,12 @@ EventClient::Outcome EventClient::outcome() const { return host_->core_->outcome
 
 void EventClient::cancel() { host_->core_->cancel_wait(*client_); }
 
+Commander::Commander(std::shared_ptr<Host> host) : host_(std::move(host)) {}
+
+Commander::~Commander() { host_->core_->commander_gone(this); }
+
+std::optional<std::string> Commander::command(DeviceId device, const sim::Command& command) {
+  return host_->core_->command(this, device, command);
+}
+
 }  // namespace playerlike

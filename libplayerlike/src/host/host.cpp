@@ -54,15 +54,11 @@ bool Host::is_abandoned() const {
 bool Host::advance(std::chrono::microseconds slice) { return core_->advance_for(slice); }
 void Host::check_silence() { core_->check_silence(); }
 void Host::watch_program() {
-  core_->locked([this] { core_->stalled_time_warning_.watch(); });
+  core_->locked([this] { core_->watch_program(); });
 }
 void Host::note_program_ends(int status) { InsideCore(*core_)->note_program_ends(status); }
-void Host::note_end_request(int signal) {
-  core_->locked([&] {
-    int& request = core_->results_.end_request;
-    if (request == 0) request = signal;
-  });
-}
+void Host::note_end_request(int signal) noexcept { core_->results_.note_end_request(signal); }
+bool Host::take_over_results() noexcept { return core_->results_.take_over(); }
 void Host::note_onlooker_acts() noexcept { core_->onlooker_acted_ = true; }
 void Host::thread_ended(ThreadId thread_id) noexcept {
   InsideCore(*core_)->thread_ended(thread_id);
@@ -73,6 +69,9 @@ bool Host::cancel_alarm(AlarmId alarm) {
 }
 void Host::with_simulation(const std::function<void(sim::Simulation&)>& action) {
   core_->locked([&] { action(core_->simulation_); });
+}
+std::optional<std::string> Host::set_active(DeviceId device, bool active) {
+  return core_->set_active(device, active);
 }
 void Host::set_step_credit(std::optional<std::uint64_t> steps) {
   core_->change_step_limit([&](Pace& pace) { pace.set_limit(steps); });

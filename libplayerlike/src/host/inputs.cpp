@@ -56,18 +56,43 @@ void Inputs::before_step(const Clients& clients) {
 
 void Inputs::apply(Client& client) {
   const std::lock_guard input(client.input_mutex);
+  const auto kind = client.follower ? Commanders::Kind::kFollower : Commanders::Kind::kClient;
   for (const auto& [device, command] : client.commands) {
+    if (const auto refusal = commanders.note(&client, device, kind)) {
+      if (!std::exchange(client.overruled, true)) warn_(*refusal);
+      continue;
+    }
     if (hand) hand->note_command(device, command);
     commands.note(device.robot, client.port, command, simulation_.now_ns());
-    execute(device, command);
+    const auto refusal = execute(device, command);
+    // The log has said that a real robot is lost.
+    if (refusal && !(mirror_ != nullptr && mirror_->has_lost(device.robot))) warn_(*refusal);
   }
   client.commands.clear();
   apply_drawings(client);
 }
 
-void Inputs::execute(DeviceId device, const sim::Command& command) {
-  if (mirror_ != nullptr && mirror_->take_command(device, command)) return;
-  if (const auto refusal = simulation_.apply(device, command)) warn_(*refusal);
+std::optional<std::string> Inputs::execute(DeviceId device, const sim::Command& command) {
+  if (mirror_ != nullptr) {
+    if (auto executed = mirror_->take_command(device, command)) return *std::move(executed);
+  }
+  return simulation_.apply(device, command);
+}
+
+std::optional<std::string> Inputs::execute_for(Commanders::Who who, DeviceId device,
+                                               const sim::Command& command) {
+  if (auto refusal = commanders.note(who, device, Commanders::Kind::kMorse)) return refusal;
+  if (hand) hand->note_command(device, command);
+  return execute(device, command);
+}
+
+void Inputs::stop(const std::vector<int>& robots) {
+  for (const int robot : robots) {
+    for (const auto& [device, command] : commanders.stop(robot)) {
+      if (hand) hand->note_command(device, command);
+      static_cast<void>(execute(device, command));  // a device that is switched off stands
+    }
+  }
 }
 
 // Drops drawings on layers of other clients, with one check for each run of drawings on one layer.

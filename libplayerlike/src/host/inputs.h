@@ -8,6 +8,7 @@
 
 #include "host/clients.h"
 #include "host/command_book.h"
+#include "host/commanders.h"
 #include "host/view_controls.h"
 #include "playerlike/session/layer_registry.h"
 
@@ -26,8 +27,10 @@ class Inputs {
  public:
   /// @param simulation  must outlive this object.
   /// @param mirror  takes the commands for robots that mirror real ones; null: there are none.
-  explicit Inputs(sim::Simulation& simulation, Warn warn, Mirror* mirror = nullptr)
-      : commands(static_cast<std::size_t>(simulation.robot_count())),
+  Inputs(sim::Simulation& simulation, const std::vector<RobotInfo>& robots, Warn warn,
+         Mirror* mirror = nullptr)
+      : commands(robots.size()),
+        commanders(simulation, robots),
         simulation_(simulation),
         mirror_(mirror),
         warn_(std::move(warn)) {}
@@ -40,8 +43,15 @@ class Inputs {
   /// Applies the clients' commands for the next step, then the user's commands from the window.
   void before_step(const Clients& clients);
   void apply(Client& client);
-  /// Executes a command in the simulation, or sends it to the real robot that the device mirrors.
-  void execute(DeviceId device, const sim::Command& command);
+  /// Executes a command in the simulation, or sends it to the real robot that the device mirrors:
+  /// the only way to command a device. @return nothing on success, otherwise the reason.
+  std::optional<std::string> execute(DeviceId device, const sim::Command& command);
+  /// Executes a command of somebody who is not a client, at once.
+  /// @return as execute().
+  std::optional<std::string> execute_for(Commanders::Who who, DeviceId device,
+                                         const sim::Command& command);
+  /// Stops robots that nobody commands any more.
+  void stop(const std::vector<int>& robots);
   void apply_drawings(Client& client);
   /// Allocates a client's draw queue.
   void reserve_drawings(Client& client);
@@ -52,6 +62,7 @@ class Inputs {
   LayerRegistry registry;
   /// The clients' commands so far.
   CommandBook commands;
+  Commanders commanders;
   /// Steering by hand; only in a run with a window.
   std::optional<HandDrive> hand;
 

@@ -16,8 +16,6 @@ inline constexpr std::uint64_t kKeptMagic = 0x706c617970656e31;  // "playpen1"
 /// Why a run with KeptHeader::conflict may not be repeatable.
 inline constexpr const char* kConflictWhy = "another program asked for the world in vain";
 inline constexpr std::size_t kKeptHeaderSize = 4096;
-/// Size of the whole memory; the system allocates only the pages in use.
-inline constexpr std::size_t kKeptSize = std::size_t{128} << 20U;
 /// Maximum length of a trail; at this length every second point is removed.
 inline constexpr std::size_t kMostTrailPoints = 8192;
 inline constexpr std::size_t kMostKeptBeams = 4096;
@@ -29,6 +27,9 @@ struct KeptHeader {
   std::atomic<std::uint32_t> noted{0};     ///< the first signal that requested the end; 0: none
   std::atomic<std::int32_t> process{0};    ///< process id of the host
   std::atomic<std::uint32_t> conflict{0};  ///< nonzero after KeptRun::note_conflict()
+  // For KeptRun::progress().
+  std::atomic<std::uint64_t> made_steps{0};
+  std::atomic<std::int64_t> now_ns{0};
   // The following is valid if robots > 0. Places are offsets from the beginning of the memory
   // [bytes].
   std::atomic<std::uint32_t> robots{0};
@@ -38,6 +39,7 @@ struct KeptHeader {
   std::uint64_t scans = 0;               ///< two KeptScan for each robot
   std::atomic<std::uint64_t> report{0};  ///< JSON, see kept_text(); its numbers may be outdated
   std::atomic<std::uint64_t> scene{0};   ///< JSON: the other contents of a picture
+  std::atomic<std::uint64_t> motors{0};  ///< JSON: a list of RealMotors, also if robots is 0
 };
 static_assert(sizeof(KeptHeader) <= kKeptHeaderSize);
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);

@@ -1,8 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "playerlike/host/kept_results.h"
 
-#include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,6 +20,7 @@
 
 #include "host/file_limit_errors.h"
 #include "host/kept_layout.h"
+#include "host/kept_memory.h"
 #include "host/outputs.h"
 #include "sim/core/replace_file.h"
 #include "sim/core/time.h"
@@ -34,45 +33,6 @@ namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-
-/// The memory of a KeptRun, which may contain anything.
-class KeptMemory {
- public:
-  explicit KeptMemory(int descriptor) {
-    struct stat info {};
-    if (fstat(descriptor, &info) != 0 || info.st_size < static_cast<off_t>(kKeptHeaderSize)) return;
-    size_ = static_cast<std::size_t>(info.st_size);
-    void* const memory = mmap(nullptr, size_, PROT_READ, MAP_SHARED, descriptor, 0);
-    if (memory != MAP_FAILED) bytes_ = static_cast<const std::byte*>(memory);
-  }
-  KeptMemory(const KeptMemory&) = delete;
-  KeptMemory& operator=(const KeptMemory&) = delete;
-  ~KeptMemory() {
-    if (bytes_ != nullptr) munmap(const_cast<std::byte*>(bytes_), size_);
-  }
-
-  /// @return null unless `count` objects fit into the memory at this place.
-  template <typename T>
-  [[nodiscard]] const T* at(std::uint64_t place, std::uint64_t count = 1) const {
-    if (bytes_ == nullptr || place % alignof(T) != 0 || place > size_ ||
-        count > (size_ - place) / sizeof(T)) {
-      return nullptr;
-    }
-    return reinterpret_cast<const T*>(bytes_ + place);
-  }
-
-  /// @return null unless this place holds valid JSON.
-  template <typename Json>
-  [[nodiscard]] Json text(std::uint64_t text) const {
-    const char* const bytes = at<char>(place_of_text(text), size_of_text(text));
-    if (text == 0 || bytes == nullptr) return nullptr;
-    return Json::parse(bytes, bytes + size_of_text(text), nullptr, /*allow_exceptions=*/false);
-  }
-
- private:
-  const std::byte* bytes_ = nullptr;
-  std::size_t size_ = 0;
-};
 
 /// The data of the newest step.
 struct LastStep {
@@ -111,7 +71,6 @@ std::string completed_report(ordered_json report, const LastStep& last, const Pr
     run["repeatable"] = false;
     run["repeatable_why"] = {kConflictWhy};
   }
-  if (run.at("steps") != last.step.steps) run["state_hash"] = nullptr;
   run["steps"] = last.step.steps;
   run["sim_time"] = sim::to_seconds(last.step.now_ns);
   run["wall_time"] = last.step.wall_time_s;

@@ -24,10 +24,10 @@ KeptHeader* map_header(int descriptor) {
 
 }  // namespace
 
-KeptRun::KeptRun() : descriptor_(memfd_create("playpen-run", MFD_CLOEXEC)) {
+KeptRun::KeptRun(std::size_t size) : descriptor_(memfd_create("playpen-run", MFD_CLOEXEC)) {
   // If the limit of file sizes (ulimit -f) is too low, only the header is kept.
   const FileLimitErrors limit_errors;
-  if (descriptor_ >= 0 && (ftruncate(descriptor_, static_cast<off_t>(kKeptSize)) == 0 ||
+  if (descriptor_ >= 0 && (ftruncate(descriptor_, static_cast<off_t>(size)) == 0 ||
                            ftruncate(descriptor_, kKeptHeaderSize) == 0)) {
     header_ = map_header(descriptor_);
   }
@@ -53,6 +53,10 @@ KeptRun::Phase KeptRun::phase() const noexcept {
   const std::uint32_t phase = header_->phase;
   return phase <= static_cast<std::uint32_t>(Phase::kDone) ? static_cast<Phase>(phase)
                                                            : Phase::kNone;
+}
+
+KeptRun::Progress KeptRun::progress() const noexcept {
+  return {header_->process, header_->made_steps, header_->now_ns};
 }
 
 void KeptRun::note_conflict() const noexcept { header_->conflict = 1; }

@@ -86,6 +86,8 @@ std::unique_ptr<KeptWriter> KeptWriter::open(const std::string& file) {
     return nullptr;
   }
   header->noted = 0;
+  header->made_steps = 0;
+  header->now_ns = 0;
   header->robots = 0;
   header->report = 0;
   header->scene = 0;
@@ -143,6 +145,8 @@ void KeptWriter::begin(const sim::Simulation& simulation) {
 void KeptWriter::keep_step(const TimeStatistics& time, const Recorder& recorder,
                            sim::Simulation& simulation) {
   if (!begun_) begin(simulation);
+  header_->made_steps = simulation.steps();
+  header_->now_ns = simulation.now_ns();
   if (lasers_.empty()) return;
   keep_cells(simulation);
   const std::uint32_t next = 1 - std::min<std::uint32_t>(header_->step, 1);
@@ -249,6 +253,14 @@ void KeptWriter::keep_looks(const std::string& report, const sim::Simulation& si
   if (!begun_) begin(simulation);
   keep_text(header_->report, report_, report);
   if (!lasers_.empty()) keep_scene(simulation);
+}
+
+void KeptWriter::keep_motors(const std::vector<RealMotors>& motors) {
+  json list = json::array();
+  for (const RealMotors& one : motors) {
+    list.push_back({one.robot, one.server, one.port, one.device.robot, one.device.device});
+  }
+  keep_text(header_->motors, motors_, list.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 void KeptWriter::keep_scene(const sim::Simulation& simulation) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/kept_layout.h"
+#include "host/mirror.h"
 #include "host/recorder.h"
 #include "playerlike/messages/messages.h"
 #include "sim/simulation/simulation.h"
@@ -36,6 +37,8 @@ class KeptWriter {
 
   /// Stores the simulation's state after a step, except for the data of keep_looks().
   void keep_step(const TimeStatistics& time, const Recorder& recorder, sim::Simulation& simulation);
+  /// Stores where the motors of the run's real robots are.
+  void keep_motors(const std::vector<RealMotors>& motors);
   /// Stores the report and the contents of a picture besides robots, trails, scans and cells.
   /// Called periodically.
   void keep_looks(const std::string& report, const sim::Simulation& simulation);
@@ -82,6 +85,7 @@ class KeptWriter {
   std::uint64_t revision_ = 0;
   Text report_;
   Text scene_;
+  Text motors_;
 };
 
 }  // namespace playerlike

@@ -1,15 +1,20 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "host/mirror.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <typeinfo>
 
+#include "host/commanders.h"
 #include "host/ghost.h"
 #include "host/mirror_layers.h"
 #include "host/real_link.h"
+#include "host/reconnection.h"
 #include "host/scan_difference.h"
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"
@@ -22,6 +27,7 @@ namespace {
 
 using nlohmann::ordered_json;
 using Drive = sim::RealRobotDescription::Drive;
+using OnLost = sim::RealRobotDescription::OnLost;
 
 /// Mean and maximum of a series.
 class Series {
@@ -50,6 +56,16 @@ double seconds(WallClock::duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
+/// For messages to others who want to command the robot.
+std::string name_of_mirror() {
+  std::array<char, 65> host{};
+  if (gethostname(host.data(), host.size() - 1) != 0) host = {"?"};
+  std::string name =
+      std::string("the mirror on ") + host.data() + ", process " + std::to_string(getpid());
+  std::erase_if(name, [](char c) { return c < ' ' || c > '~'; });
+  return name;
+}
+
 std::string address_text(const std::string& interface, int index) {
   return interface + ':' + std::to_string(index);
 }
@@ -62,16 +78,24 @@ class Mirror::Robot {
   Robot(sim::Simulation& simulation, const std::vector<RobotInfo>& robots, int index,
         const OpenRealRobot& open, const Warn& warn);
 
-  bool take_command(int device, const sim::Command& command);
+  std::optional<Executed> take_command(int device, const sim::Command& command);
   void before_step(std::vector<Given>& given);
   [[nodiscard]] std::optional<Loss> after_step();
   void halt();
-  void stop() noexcept { link_->stop(); }
+  void stop() noexcept;
 
+  [[nodiscard]] std::optional<RealMotors> motors() const {
+    if (!binding_.motors) return std::nullopt;
+    return RealMotors{description_.name, real_.server, port(), *binding_.motors};
+  }
   [[nodiscard]] bool replaces(int device) const {
-    return feeds_[static_cast<std::size_t>(device)].has_value();
+    return binding_.feeds[static_cast<std::size_t>(device)].has_value();
   }
   [[nodiscard]] const std::string& loss() const noexcept { return loss_; }
+  /// Whether the connection will not be made again.
+  [[nodiscard]] bool lost_for_good() const noexcept {
+    return !loss_.empty() && real_.on_lost != OnLost::kReconnect;
+  }
   void show(sim::SceneSnapshot& scene) const;
   void note_scene_taken();
   void note_scene_shown();
@@ -80,29 +104,49 @@ class Mirror::Robot {
   [[nodiscard]] ordered_json report() const;
 
  private:
-  void bind(const std::vector<RobotInfo>& robots, const std::vector<RobotInfo>& real_robots,
-            int real_port);
-  void warn_of_simulated(const std::vector<RobotInfo>& robots) const;
+  /// The devices of the real robot that belong to those of this one.
+  struct Binding {
+    std::vector<std::optional<DeviceId>> commanded;  ///< the real device of each device's commands
+    std::vector<std::optional<DeviceId>> feeds;      ///< the real device of each device's readings
+    DeviceId pose{-1, -1};                           ///< device that tells the pose
+    std::optional<DeviceId> motors;
+    bool operator==(const Binding&) const = default;
+  };
+
+  /// @throws SessionError if the real robot has no device that tells its pose.
+  [[nodiscard]] Binding bind(const Session& session) const;
+  /// Connects and takes charge. @throws SessionError.
+  /// @param binding  of an earlier connection: the devices must be the same; null: none.
+  [[nodiscard]] std::unique_ptr<RealLink> connect(const Binding* earlier, double timeout_s,
+                                                  Binding& binding) const;
+  void warn_of_simulated() const;
   [[nodiscard]] std::optional<sim::Command> translated(const sim::Command& command) const;
   [[nodiscard]] static std::shared_ptr<const sim::PoseReading> pose_in(
       const sim::SharedReading& reading);
   void note_pose(const sim::PoseReading& reading);
   void note_scan(const sim::LaserReading& scan, WallClock::time_point at);
   [[nodiscard]] bool fits(int device, const sim::Reading& reading);
+  /// Player port of the real robot.
+  [[nodiscard]] int port() const noexcept {
+    return real_.port == 0 ? description_.port : real_.port;
+  }
   [[nodiscard]] sim::Pose pose() const { return simulation_.body(index_).X_WB; }
 
   sim::Simulation& simulation_;
   const int index_;
   const sim::RobotDescription& description_;
   const sim::RealRobotDescription real_;
+  const std::vector<RobotInfo>& robots_;
+  const OpenRealRobot open_;
   const Warn warn_;
+  Binding binding_;
   std::unique_ptr<RealLink> link_;
-  std::vector<std::optional<DeviceId>> commanded_;  ///< the real device of each device's commands
-  std::vector<std::optional<DeviceId>> feeds_;      ///< the real device of each device's readings
-  DeviceId pose_device_{-1, -1};                    ///< of the real robot
-  std::optional<int> laser_;                        ///< first laser with real readings
-  std::set<int> misfits_;                           ///< devices with a warning of fits()
-  std::string loss_;
+  std::unique_ptr<Reconnection> reconnection_;  ///< while the connection is lost
+  std::uint64_t reconnections_ = 0;
+  std::optional<int> laser_;  ///< first laser with real readings
+  std::set<int> misfits_;     ///< devices with a warning of fits()
+  std::string loss_;          ///< "": it is connected
+  std::string last_loss_;     ///< also after a reconnection
   sim::SimTime lost_ns_ = 0;
 
   bool placed_ = false;
@@ -135,28 +179,12 @@ Mirror::Robot::Robot(sim::Simulation& simulation, const std::vector<RobotInfo>& 
       index_(index),
       description_(simulation.world().robots[static_cast<std::size_t>(index)]),
       real_(*description_.real),
-      warn_(warn),
-      commanded_(robots[static_cast<std::size_t>(index)].devices.size()),
-      feeds_(commanded_.size()) {
-  const int port = real_.port == 0 ? description_.port : real_.port;
-  std::unique_ptr<Session> session = open(real_.server, port);
-  const InterfaceBinding pose =
-      find_interface(session->robots(), session->port(), real_.pose_interface, real_.pose_index);
-  pose_device_ = pose.reading;
-  bind(robots, session->robots(), session->port());
-  std::set<std::pair<int, int>> subscribed;
-  const auto subscribe = [&](DeviceId device) {
-    if (subscribed.insert({device.robot, device.device}).second) {
-      session->request(SubscribeRequest{device});
-    }
-  };
-  subscribe(pose_device_);
-  for (const auto& device : feeds_) {
-    if (device) subscribe(*device);
-  }
-  std::optional<DeviceId> motors;
+      robots_(robots),
+      open_(open),
+      warn_(warn) {
+  constexpr double kConnect_s = 10.0;
+  link_ = connect(nullptr, kConnect_s, binding_);
   for (const DeviceInfo& device : robots[static_cast<std::size_t>(index)].devices) {
-    if (device.type == "motion") motors = commanded_[static_cast<std::size_t>(device.id.device)];
     if (device.type == "laser" && !laser_ && replaces(device.id.device)) {
       laser_ = device.id.device;
     }
@@ -166,16 +194,49 @@ Mirror::Robot::Robot(sim::Simulation& simulation, const std::vector<RobotInfo>& 
     ghost_ = std::make_unique<Ghost>(simulation.world(), static_cast<std::size_t>(index));
   }
   layers_.emplace(simulation.layers(), description_.name, description_.port, has_ghost);
-  warn_of_simulated(robots);
-  link_ = std::make_unique<RealLink>(std::move(session), motors);
+  warn_of_simulated();
+  if (link_->watched()) return;
+  warn_("the server of the real robot of " + description_.name + " at " + real_.server +
+        " does not watch over its clients: if the network fails, the robot drives on");
+}
+
+std::unique_ptr<RealLink> Mirror::Robot::connect(const Binding* earlier, double timeout_s,
+                                                 Binding& binding) const {
+  std::unique_ptr<Session> session = open_({real_.server, port(), timeout_s});
+  binding = bind(*session);
+  if (earlier != nullptr && !(*earlier == binding)) {
+    throw SessionError(SessionError::Code::kNotAvailable, "the robot has other devices now");
+  }
+  // The end of the run waits for an attempt to connect again.
+  if (earlier != nullptr) session->request(AnswerTimeoutRequest{timeout_s});
+  std::set<std::pair<int, int>> subscribed;
+  const auto subscribe = [&](DeviceId device) {
+    if (subscribed.insert({device.robot, device.device}).second) {
+      session->request(SubscribeRequest{device});
+    }
+  };
+  subscribe(binding.pose);
+  for (const auto& device : binding.feeds) {
+    if (device) subscribe(*device);
+  }
+  TakeChargeRequest charge{binding.motors.value_or(binding.pose), real_.watchdog_s,
+                           real_.take_over && earlier == nullptr, name_of_mirror()};
+  return std::make_unique<RealLink>(std::move(session), binding.motors, std::move(charge));
 }
 
 // Binds devices that have an address in common. The list of addresses is in alphabetical order of
 // interfaces; "localize" comes last, because it shows the same device as position2d.
-void Mirror::Robot::bind(const std::vector<RobotInfo>& robots,
-                         const std::vector<RobotInfo>& real_robots, int real_port) {
+Mirror::Robot::Binding Mirror::Robot::bind(const Session& session) const {
+  const std::vector<RobotInfo>& real_robots = session.robots();
+  const int real_port = session.port();
+  const auto& devices = robots_[static_cast<std::size_t>(index_)].devices;
+  Binding bound;
+  bound.pose =
+      find_interface(real_robots, real_port, real_.pose_interface, real_.pose_index).reading;
+  bound.commanded.resize(devices.size());
+  bound.feeds.resize(devices.size());
   const std::vector<InterfaceAddress> real = list_interfaces(real_robots, real_port);
-  std::vector<InterfaceAddress> own = list_interfaces(robots, description_.port);
+  std::vector<InterfaceAddress> own = list_interfaces(robots_, description_.port);
   std::stable_partition(own.begin(), own.end(), [](const InterfaceAddress& address) {
     return address.interface != "localize";
   });
@@ -186,24 +247,31 @@ void Mirror::Robot::bind(const std::vector<RobotInfo>& robots,
     });
     if (!both) continue;
     const InterfaceBinding mine =
-        find_interface(robots, description_.port, address.interface, address.index);
+        find_interface(robots_, description_.port, address.interface, address.index);
     const InterfaceBinding its =
         find_interface(real_robots, real_port, address.interface, address.index);
     if (its.is_world() || its.reading.robot < 0) continue;
     const auto device = static_cast<std::size_t>(mine.reading.device);
     const bool is_sensor = simulation_.device(index_, mine.reading.device).sensor() != nullptr;
-    if (is_sensor && !feeds_[device]) feeds_[device] = its.reading;
-    if (!commanded_[device]) commanded_[device] = its.reading;
+    if (is_sensor && !bound.feeds[device]) bound.feeds[device] = its.reading;
+    if (!bound.commanded[device]) bound.commanded[device] = its.reading;
     if (address.interface != "position2d" || !mine.motion || !its.motion) continue;
-    auto& motors = commanded_[static_cast<std::size_t>(mine.motion->device)];
+    auto& motors = bound.commanded[static_cast<std::size_t>(mine.motion->device)];
     if (!motors) motors = *its.motion;
   }
+  for (const DeviceInfo& device : devices) {
+    if (device.type == "motion") {
+      bound.motors = bound.commanded[static_cast<std::size_t>(device.id.device)];
+    }
+  }
+  return bound;
 }
 
-void Mirror::Robot::warn_of_simulated(const std::vector<RobotInfo>& robots) const {
+void Mirror::Robot::warn_of_simulated() const {
   std::string names;
-  for (const DeviceInfo& device : robots[static_cast<std::size_t>(index_)].devices) {
-    if (replaces(device.id.device) || commanded_[static_cast<std::size_t>(device.id.device)]) {
+  for (const DeviceInfo& device : robots_[static_cast<std::size_t>(index_)].devices) {
+    if (replaces(device.id.device) ||
+        binding_.commanded[static_cast<std::size_t>(device.id.device)]) {
       continue;
     }
     names += (names.empty() ? "" : ", ") + device.name;
@@ -250,21 +318,38 @@ Mirror::~Mirror() = default;
 
 // --- Commands
 
-bool Mirror::Robot::take_command(int device, const sim::Command& command) {
-  if (ghost_ && loss_.empty()) ghost_->apply(device, command);
-  const std::optional<DeviceId>& real = commanded_[static_cast<std::size_t>(device)];
-  if (!real) return false;
-  if (const auto sent = translated(command)) link_->send(*real, *sent);
-  return true;
+std::optional<Mirror::Executed> Mirror::Robot::take_command(int device,
+                                                            const sim::Command& command) {
+  const sim::Device& simulated = simulation_.device(index_, device);
+  const std::optional<DeviceId>& real = binding_.commanded[static_cast<std::size_t>(device)];
+  if (!real && !moves_robot(simulated.type())) {
+    if (ghost_ && loss_.empty()) ghost_->apply(device, command);
+    return std::nullopt;
+  }
+  if (!simulation_.active({index_, device})) return simulation_.apply({index_, device}, command);
+  if (!real) {
+    return "robot " + description_.name +
+           " mirrors a real robot, which has no counterpart of its " + simulated.type() + " " +
+           simulated.name() + ": that device cannot move it";
+  }
+  if (!loss_.empty()) return loss_;
+  const std::optional<sim::Command> sent = translated(command);
+  if (!sent) {
+    return "the command names a frame of robot " + description_.name +
+           " that its real robot does not have";
+  }
+  if (ghost_) ghost_->apply(device, command);
+  link_->send(*real, *sent);
+  return Executed();
 }
 
 // Commands that name a frame: the real robot knows those of its own devices only.
 std::optional<sim::Command> Mirror::Robot::translated(const sim::Command& command) const {
   const auto frame_of = [this](int frame) -> std::optional<int> {
-    if (frame < 0) return pose_device_.device;
+    if (frame < 0) return binding_.pose.device;
     const auto device = static_cast<std::size_t>(frame);
-    if (device >= feeds_.size() || !feeds_[device]) return std::nullopt;
-    return feeds_[device]->device;
+    if (device >= binding_.feeds.size() || !binding_.feeds[device]) return std::nullopt;
+    return binding_.feeds[device]->device;
   };
   if (const auto* heading = std::get_if<sim::HeadingCommand>(&command)) {
     const std::optional<int> frame = frame_of(heading->frame);
@@ -288,7 +373,7 @@ std::optional<sim::Command> Mirror::Robot::translated(const sim::Command& comman
 void Mirror::Robot::halt() {
   if (ghost_) ghost_->stop();
   for (int i = 0; i < simulation_.device_count(index_); ++i) {
-    const auto& motors = commanded_[static_cast<std::size_t>(i)];
+    const auto& motors = binding_.commanded[static_cast<std::size_t>(i)];
     if (motors && simulation_.device(index_, i).type() == "motion") {
       link_->send(*motors, sim::TwistCommand{});
     }
@@ -297,14 +382,28 @@ void Mirror::Robot::halt() {
 
 // --- Readings
 
+void Mirror::Robot::stop() noexcept {
+  reconnection_.reset();
+  link_->stop();
+}
+
 void Mirror::Robot::before_step(std::vector<Given>& given) {
+  if (reconnection_) {
+    std::unique_ptr<RealLink> link = reconnection_->take();
+    if (!link) return;
+    reconnection_.reset();
+    link_ = std::move(link);
+    loss_.clear();
+    ++reconnections_;
+    warn_("the connection to the real robot of " + description_.name + " is there again");
+  }
   const std::vector<RealLink::Arrival> arrivals = link_->take();
   const auto now = WallClock::now();
   for (const RealLink::Arrival& arrival : arrivals) {
     ++readings_;
     latency_.add(seconds(now - arrival.at));
     // First the pose: a scan of the same round is drawn from there.
-    if (!(arrival.device == pose_device_)) continue;
+    if (!(arrival.device == binding_.pose)) continue;
     if (const auto pose = pose_in(arrival.reading)) {
       note_pose(*pose);
     } else if (!std::exchange(pose_refused_, true)) {
@@ -313,9 +412,10 @@ void Mirror::Robot::before_step(std::vector<Given>& given) {
     }
   }
   for (const RealLink::Arrival& arrival : arrivals) {
-    for (std::size_t i = 0; i < feeds_.size(); ++i) {
-      if (feeds_[i] != arrival.device) continue;
+    for (std::size_t i = 0; i < binding_.feeds.size(); ++i) {
+      if (binding_.feeds[i] != arrival.device) continue;
       const auto device = static_cast<int>(i);
+      if (!simulation_.active({index_, device})) continue;
       sim::SharedReading reading = arrival.reading;
       if (simulation_.device(index_, device).type() == "pose") {
         if (auto pose = pose_in(reading)) reading = std::move(pose);
@@ -392,6 +492,11 @@ void Mirror::Robot::note_scan(const sim::LaserReading& scan, WallClock::time_poi
 std::optional<Mirror::Loss> Mirror::Robot::after_step() {
   if (ghost_placed_) ghost_->step(simulation_.world());
   if (!loss_.empty()) return std::nullopt;
+  if (link_->take_stopped()) {
+    warn_("the server of the real robot of " + description_.name +
+          " has stopped it, since it had heard nothing for " +
+          sim::rounded_text(real_.watchdog_s, 3) + " s");
+  }
   const std::optional<std::string> reason = link_->lost();
   if (!reason) return std::nullopt;
   lost_ns_ = simulation_.now_ns();
@@ -399,7 +504,14 @@ std::optional<Mirror::Loss> Mirror::Robot::after_step() {
           " is lost: " + *reason;
   twist_.reset();
   if (ghost_) ghost_->stop();
-  return Loss{index_, loss_, real_.on_lost == sim::RealRobotDescription::OnLost::kEnd};
+  last_loss_ = loss_;
+  if (real_.on_lost == OnLost::kReconnect) {
+    reconnection_ = std::make_unique<Reconnection>([this] {
+      Binding binding;
+      return connect(&binding_, Reconnection::kAttempt_s, binding);
+    });
+  }
+  return Loss{index_, loss_, real_.on_lost == OnLost::kEnd, real_.on_lost == OnLost::kReconnect};
 }
 
 // --- Results
@@ -454,7 +566,10 @@ ordered_json Mirror::Robot::report() const {
                         {"drive", ghost_ ? "both" : "real"},
                         {"connected", loss_.empty()}};
   robot["lost"] = nullptr;
-  if (!loss_.empty()) robot["lost"] = {{"time", sim::to_seconds(lost_ns_)}, {"reason", loss_}};
+  if (!last_loss_.empty()) {
+    robot["lost"] = {{"time", sim::to_seconds(lost_ns_)}, {"reason", last_loss_}};
+  }
+  robot["reconnections"] = reconnections_;
   robot["readings"] = readings_;
   robot["poses"] = poses_;
   robot["scans"] = scan_mean_.count();
@@ -480,9 +595,9 @@ Mirror::Robot* Mirror::robot_at(int robot) const {
   return robots_[static_cast<std::size_t>(robot)].get();
 }
 
-bool Mirror::take_command(DeviceId device, const sim::Command& command) {
+std::optional<Mirror::Executed> Mirror::take_command(DeviceId device, const sim::Command& command) {
   Robot* const robot = robot_at(device.robot);
-  return robot != nullptr && robot->take_command(device.device, command);
+  return robot == nullptr ? std::nullopt : robot->take_command(device.device, command);
 }
 
 void Mirror::before_step() {
@@ -507,10 +622,19 @@ void Mirror::halt() {
   }
 }
 
+void Mirror::halt(int robot) {
+  if (Robot* const mirrored = robot_at(robot)) mirrored->halt();
+}
+
 void Mirror::stop() noexcept {
   for (const auto& robot : robots_) {
     if (robot) robot->stop();
   }
+}
+
+bool Mirror::has_lost(int robot) const {
+  const Robot* const mirrored = robot_at(robot);
+  return mirrored != nullptr && !mirrored->loss().empty();
 }
 
 bool Mirror::replaces(DeviceId device) const {
@@ -520,7 +644,16 @@ bool Mirror::replaces(DeviceId device) const {
 
 const std::string& Mirror::loss_of(DeviceId device) const {
   static const std::string kNone;
-  return replaces(device) ? robot_at(device.robot)->loss() : kNone;
+  const bool waits_in_vain = replaces(device) && robot_at(device.robot)->lost_for_good();
+  return waits_in_vain ? robot_at(device.robot)->loss() : kNone;
+}
+
+std::vector<RealMotors> Mirror::motors() const {
+  std::vector<RealMotors> all;
+  for (const auto& robot : robots_) {
+    if (const auto motors = robot ? robot->motors() : std::nullopt) all.push_back(*motors);
+  }
+  return all;
 }
 
 void Mirror::show(sim::SceneSnapshot& scene) const {

@@ -16,6 +16,14 @@
 
 namespace playerlike {
 
+/// The motors of a real robot.
+struct RealMotors {
+  std::string robot;   ///< name in the world
+  std::string server;  ///< as sim::RealRobotDescription::server
+  int port = 0;        ///< Player port of the real robot
+  DeviceId device{-1, -1};
+};
+
 /// The robots of a world that mirror real ones (sim::RobotDescription::real).
 ///
 /// Commands for their devices go to the device of the real robot that has the same interface and
@@ -33,6 +41,7 @@ class Mirror {
     int robot = -1;
     std::string text;  ///< for the log and for programs
     bool ends_run = false;
+    bool is_passing = false;  ///< the connection will be made again
   };
 
   /// Connects to the real robots of a world.
@@ -48,15 +57,21 @@ class Mirror {
   /// Stops the real robots.
   ~Mirror();
 
+  /// How a command was executed: nothing on success, otherwise the reason why not.
+  using Executed = std::optional<std::string>;
+
   /// Sends a command to the real robot if the device mirrors one of its devices, and executes it by
-  /// the ghost, if there is one. @return false: the simulation must execute it.
-  bool take_command(DeviceId device, const sim::Command& command);
+  /// the ghost, if there is one. Refuses a command to move the robot by a device that the real
+  /// robot lacks. @return nullopt: the simulation must execute it.
+  std::optional<Executed> take_command(DeviceId device, const sim::Command& command);
   /// Takes the readings that have arrived and puts the robots where they are.
   void before_step();
   /// Moves the ghosts. @return connections that were lost since the last step.
   [[nodiscard]] std::vector<Loss> after_step();
   /// Stops the motors of the real robots, e.g. while the run is paused.
   void halt();
+  /// Stops the motors of one robot, if it mirrors a real one.
+  void halt(int robot);
   /// Stops the real robots for good and closes the connections.
   void stop() noexcept;
 
@@ -64,9 +79,14 @@ class Mirror {
   [[nodiscard]] bool replaces(DeviceId device) const;
   /// The readings that arrived before the last step, oldest first.
   [[nodiscard]] const std::vector<Given>& readings() const noexcept { return given_; }
-  /// Why there are no further readings of a device: the text of its Loss. Empty: there are.
+  /// Whether the connection to the real robot of a robot is lost at present.
+  [[nodiscard]] bool has_lost(int robot) const;
+  /// Why there are no further readings of a device: the text of its Loss. Empty: there are, or the
+  /// connection will be made again.
   [[nodiscard]] const std::string& loss_of(DeviceId device) const;
 
+  /// The motors of all real robots.
+  [[nodiscard]] std::vector<RealMotors> motors() const;
   /// Completes a scene: scans of the real robots, ghosts, and lost connections.
   void show(sim::SceneSnapshot& scene) const;
   /// The window has begun to show the present scene, or has it on the screen now.

@@ -125,7 +125,7 @@ void write_layers(const fs::path& folder, const sim::LayerStack& stack) {
     sim::render::write_png(sim::render::draw_canvas(canvas, stack.picture(id), cell_scale(canvas)),
                            stem + ".png");
     if (layers[i].kind != sim::LayerKind::kGrey) continue;
-    sim::io::write_map(occupancy_map(stack, id), stem);
+    sim::io::write_map(occupancy_map(canvas, stack.cells(id)), stem);
   }
 }
 
@@ -251,7 +251,7 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder&
         {"sim_time", sim::to_seconds(simulation.now_ns())},
         {"wall_time", time.wall_time_s},
         {"real_time_factor", time.real_time_factor},
-        {"state_hash", sim::hexadecimal_text(simulation.state_hash(), 16)}}},
+        {"state_hash", nullptr}}},
       {"robots", robots},
       {"said", said}};
   add_events(simulation, recorder.goals().goals(), whole);
@@ -367,12 +367,21 @@ nlohmann::ordered_json to_json(const RunEnd& end) {
   return ended;
 }
 
-std::string report_text(const sim::Simulation& simulation, const Recorder& recorder,
-                        const TimeStatistics& time, const RunEnd& end) {
+nlohmann::ordered_json report_json(const sim::Simulation& simulation, const Recorder& recorder,
+                                   const TimeStatistics& time, const RunEnd& end) {
   nlohmann::ordered_json whole = report(simulation, recorder, time);
   whole["ended"] = to_json(end);
-  // Texts of robots may be invalid UTF-8.
-  return whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+  return whole;
+}
+
+// Texts of robots may be invalid UTF-8.
+std::string text_of_report(const nlohmann::ordered_json& report) {
+  return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+std::string report_text(const sim::Simulation& simulation, const Recorder& recorder,
+                        const TimeStatistics& time, const RunEnd& end) {
+  return text_of_report(report_json(simulation, recorder, time, end));
 }
 
 void write_report(const std::string& folder, const std::string& text) {
@@ -418,14 +427,13 @@ bool is_plain_file_name(const std::string& name) {
          });
 }
 
-sim::OccupancyMap occupancy_map(const sim::LayerStack& stack, sim::LayerId layer) {
-  const sim::CanvasDescription canvas = stack.description();
+sim::OccupancyMap occupancy_map(const sim::CanvasDescription& canvas,
+                                const std::vector<sim::CellValue>& cells) {
   sim::OccupancyMap map;
   map.width = canvas.width;
   map.height = canvas.height;
   map.cell_size_m = canvas.cell_size_m;
   map.origin = canvas.origin;
-  const std::vector<sim::CellValue> cells = stack.cells(layer);
   map.cells.reserve(cells.size());
   for (const sim::CellValue& cell : cells) map.cells.push_back(cell.occupancy());
   return map;

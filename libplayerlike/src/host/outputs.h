@@ -48,7 +48,14 @@ struct RunEnd {
 /// name, such as "SIGINT").
 [[nodiscard]] nlohmann::ordered_json to_json(const RunEnd& end);
 
+/// The content of report.json. The hash of the state is left null: it takes long for a large
+/// canvas.
+[[nodiscard]] nlohmann::ordered_json report_json(const sim::Simulation& simulation,
+                                                 const Recorder& recorder,
+                                                 const TimeStatistics& time, const RunEnd& end);
 /// The text of report.json.
+[[nodiscard]] std::string text_of_report(const nlohmann::ordered_json& report);
+/// The text of report.json without the hash of the state.
 [[nodiscard]] std::string report_text(const sim::Simulation& simulation, const Recorder& recorder,
                                       const TimeStatistics& time, const RunEnd& end);
 /// Writes report.json into `folder`; see sim::replace_file().
@@ -74,8 +81,9 @@ inline constexpr std::size_t kMaxFileName = 100;  ///< bytes
 /// without separators and control characters, and no dot at the beginning.
 [[nodiscard]] bool is_plain_file_name(const std::string& name);
 
-/// Converts a grey layer to an occupancy grid. @pre stack.contains(layer)
-[[nodiscard]] sim::OccupancyMap occupancy_map(const sim::LayerStack& stack, sim::LayerId layer);
+/// Converts the cells of a grey layer to an occupancy grid.
+[[nodiscard]] sim::OccupancyMap occupancy_map(const sim::CanvasDescription& canvas,
+                                              const std::vector<sim::CellValue>& cells);
 
 /// The path of a picture that a client saves. @throws SessionError as SaveImageRequest.
 [[nodiscard]] std::string picture_file(const std::string& folder, const std::string& name,

@@ -5,12 +5,13 @@
 #include <optional>
 
 #include "host/client.h"
+#include "sim/core/time.h"
 
 namespace playerlike {
 
-/// The pace of a run: speed and pauses if it follows the wall clock, and an optional limit of
-/// steps. Step n + 1 after a base time is due n + 1 step durations after it, so there is no drift.
-/// Not thread-safe: guarded by the host's mutex.
+/// The pace of a run: speed and pauses if it follows the wall clock or people watch it, and an
+/// optional limit of steps. Step n + 1 after a base time is due n + 1 step durations after it, so
+/// there is no drift. Not thread-safe: guarded by the host's mutex.
 class Pace {
  public:
   using Time = WallClock::time_point;
@@ -30,6 +31,22 @@ class Pace {
   [[nodiscard]] int changes() const noexcept { return changes_; }
 
   void follow_wall_clock() noexcept { by_wall_clock_ = true; }
+  /// People watch a run in lockstep, from this simulated time on: is_too_early() delays its steps.
+  void watch_from(sim::SimTime from_ns) noexcept { watched_from_ns_ = from_ns; }
+  void stop_watching() noexcept { watched_from_ns_.reset(); }
+  /// Whether people watch a run in lockstep at this simulated time.
+  [[nodiscard]] bool watched(sim::SimTime now_ns) const noexcept {
+    return watched_from_ns_ && now_ns >= *watched_from_ns_;
+  }
+  /// For runs in lockstep: whether the next step has to wait, because people watch. If not, the
+  /// step begins now.
+  [[nodiscard]] bool is_too_early(sim::SimTime now_ns, Time now) {
+    if (!watched(now_ns)) return false;
+    if (paused_) begin_at(now);
+    if (paused_ || now < due()) return true;
+    begin_step(now);
+    return false;
+  }
   void set_factor(double factor) {
     // The base moves to the newest step, so the change neither skips nor repeats time.
     begin_at(base_ + after(done_));
@@ -77,6 +94,7 @@ class Pace {
 
   const double step_s_;
   bool by_wall_clock_ = false;
+  std::optional<sim::SimTime> watched_from_ns_;
   double factor_;
   bool paused_ = false;
   std::optional<std::uint64_t> credit_;  ///< remaining steps, if limited

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/picture_sizes.h"
+#include "virtual_time/program_threads.h"
 #include "virtual_time/virtual_time.h"
 
 namespace playerlike {
@@ -28,7 +29,7 @@ PictureThread::PictureThread(std::unique_ptr<sim::render::FilmWriter> film,
       film_(std::move(film)),
       film_renderer_(options),
       picture_renderer_(scene_options(options)),
-      thread_([this] { work(); }) {}
+      thread_((note_own_threads(), std::thread([this] { work(); }))) {}
 
 PictureThread::~PictureThread() { end_thread(); }
 

@@ -17,6 +17,7 @@
 #include <system_error>
 #include <utility>
 
+#include "host/standstill_watch.h"
 #include "host/supervisor.h"
 #include "playerlike/host/program_desk.h"
 #include "sim/core/number_text.h"
@@ -304,6 +305,7 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   };
   changes["PLAYPEN_RECORD_FPS"] = number_unless(settings.film_fps, defaults.film_fps);
   changes["PLAYPEN_RECORD_SPEED"] = number_unless(settings.film_speed, defaults.film_speed);
+  changes["PLAYPEN_RECORD_FROM"] = number_unless(settings.film_from_s, defaults.film_from_s);
   changes["PLAYPEN_SNAPSHOT_EVERY"] =
       settings.snapshot_period_s ? std::optional(sim::shortest_text(*settings.snapshot_period_s))
                                  : std::nullopt;
@@ -333,6 +335,8 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
     real_robots += (real_robots.empty() ? "" : ",") + choice.text();
   }
   changes["PLAYPEN_REAL"] = text_unless_empty(real_robots);
+  changes["PLAYPEN_TAKE_OVER"] =
+      settings.take_over ? std::optional<std::string>("1") : std::nullopt;
   changes["PLAYPEN_SEED"] =
       settings.seed ? std::optional(std::to_string(*settings.seed)) : std::nullopt;
   changes["PLAYPEN_DURATION"] =
@@ -360,6 +364,7 @@ ProgramEnd run_program(const std::vector<std::string>& command,
   if (watch.kept != nullptr) start.kept_descriptors.push_back(watch.kept->descriptor());
   SupervisedProgram program(start);
   EndRequests requests;
+  StandstillWatch standstill(watch.standstill_s);
   bool killed = false;
   KeptRun::Phase phase = KeptRun::Phase::kNone;
   Clock::time_point phase_begin = Clock::now();
@@ -384,6 +389,9 @@ ProgramEnd run_program(const std::vector<std::string>& command,
     if (program.take_stopped() && watch.tell) {
       watch.tell("the program has stopped itself (SIGSTOP): kill -CONT " +
                  std::to_string(program.program()) + " lets it go on, Ctrl-C ends the run");
+    }
+    if (watch.kept != nullptr && watch.tell) {
+      if (const auto message = standstill.look(*watch.kept)) watch.tell(*message);
     }
     // Nonzero if the simulated run ends because of the signal, and not in a handler of the program.
     const int noted = watch.kept != nullptr ? watch.kept->interrupt_noted() : 0;

@@ -15,6 +15,8 @@ class Progress {
  public:
   /// A step begins. @return whether it is the first.
   bool note_step(WallClock::time_point now);
+  /// When the first step began; nullopt before.
+  [[nodiscard]] std::optional<WallClock::time_point> first_step() const { return first_step_; }
   /// The last step has ended.
   void note_end() { last_step_ = WallClock::now(); }
   /// Sets wall_time_s and real_time_factor.

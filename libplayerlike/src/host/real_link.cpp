@@ -24,10 +24,15 @@ void block_signals() {
 
 }  // namespace
 
-RealLink::RealLink(std::unique_ptr<Session> session, std::optional<DeviceId> motors)
-    : session_(std::move(session)), motors_(motors) {
+RealLink::RealLink(std::unique_ptr<Session> session, std::optional<DeviceId> motors,
+                   TakeChargeRequest charge)
+    : session_(std::move(session)), motors_(motors), charge_(std::move(charge)) {
+  session_->request(AnswerTimeoutRequest{2.0 * charge_.watchdog_s});
+  watched_ = session_->request(charge_).watched;
+  charge_.take_over = false;
   receiver_ = std::thread([this] { receive(); });
   sender_ = std::thread([this] { transmit(); });
+  if (watched_) keeper_ = std::thread([this] { keep_charge(); });
 }
 
 RealLink::~RealLink() { stop(); }
@@ -47,6 +52,11 @@ std::vector<RealLink::Arrival> RealLink::take() {
   return std::exchange(arrived_, {});
 }
 
+bool RealLink::take_stopped() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(stopped_, false);
+}
+
 std::optional<std::string> RealLink::lost() const {
   const std::lock_guard lock(mutex_);
   return lost_;
@@ -64,8 +74,9 @@ void RealLink::stop() noexcept {
     changed_.wait_for(lock, kStoppingTime, [this] { return all_sent_; });
   }
   session_->close();
-  if (receiver_.joinable()) receiver_.join();
-  if (sender_.joinable()) sender_.join();
+  for (std::thread* const thread : {&receiver_, &sender_, &keeper_}) {
+    if (thread->joinable()) thread->join();
+  }
 }
 
 void RealLink::on_reading(DeviceId device, const sim::SharedReading& reading) {
@@ -109,12 +120,33 @@ void RealLink::transmit() noexcept {
   changed_.notify_all();
 }
 
+void RealLink::keep_charge() noexcept {
+  block_signals();
+  const virtual_time::Inside inside;
+  // Three of four messages may be late.
+  const auto period = wall(charge_.watchdog_s / 4.0);
+  std::unique_lock lock(mutex_);
+  try {
+    while (!changed_.wait_for(lock, period, [this] { return stopping_ || lost_; })) {
+      lock.unlock();
+      const Charge charge = session_->request(charge_);
+      lock.lock();
+      stopped_ = stopped_ || charge.stopped;
+    }
+  } catch (const std::exception& error) {
+    note_loss(error.what());  // a session throws without the mutex
+  }
+}
+
 void RealLink::note_loss(const std::string& reason) noexcept {
-  const std::lock_guard lock(mutex_);
-  if (lost_ || stopping_) return;
-  lost_ = reason;
-  commands_.clear();
-  changed_.notify_all();
+  {
+    const std::lock_guard lock(mutex_);
+    if (lost_ || stopping_) return;
+    lost_ = reason;
+    commands_.clear();
+    changed_.notify_all();
+  }
+  session_->close();
 }
 
 }  // namespace playerlike

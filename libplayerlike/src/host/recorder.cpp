@@ -2,10 +2,12 @@
 #include "host/recorder.h"
 
 #include <algorithm>
-#include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "host/kept_layout.h"
@@ -31,13 +33,15 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
     trajectory_file_ = (folder / "trajectory.csv").string();
     trajectory_.open(trajectory_file_, std::ios::trunc);
     if (!trajectory_) throw std::runtime_error("cannot write " + trajectory_file_);
-    trajectory_ << "time,robot,x,y,yaw,v,omega,stalled"
-                << (mirror_ != nullptr ? Mirror::column_names() : "") << '\n';
+    write_to_trajectory("time,robot,x,y,yaw,v,omega,stalled" +
+                            std::string(mirror_ != nullptr ? Mirror::column_names() : "") + '\n',
+                        0);
   }
   std::unique_ptr<sim::render::FilmWriter> film;
   if (!settings.film.empty()) {
     film = std::make_unique<sim::render::FilmWriter>(settings.film, settings.film_fps);
-    film_clock_ = Clock(settings.film_speed / settings.film_fps);
+    film_clock_ = Clock(settings.film_speed / settings.film_fps, settings.film_from_s);
+    film_begin_s_ = settings.film_from_s;
   }
   if (settings.snapshot_period_s && !settings.output_folder.empty()) {
     snapshot_folder_ = (folder / kSnapshotFolder).string();
@@ -59,7 +63,8 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
 std::uint64_t Recorder::Clock::due(sim::SimTime now_ns) {
   if (period_s_ <= 0.0) return 0;
   // The tolerance covers rounding errors; it is far smaller than a step.
-  const double periods = sim::to_seconds(now_ns) / period_s_ * (1.0 + 1e-12) + 1e-9;
+  const double periods = (sim::to_seconds(now_ns) - from_s_) / period_s_ * (1.0 + 1e-12) + 1e-9;
+  if (periods < 0.0) return 0;
   const std::uint64_t past = static_cast<std::uint64_t>(periods) + 1;
   const std::uint64_t count = past - std::min(reported_, past);
   reported_ = past;
@@ -81,14 +86,14 @@ void Recorder::observe(const sim::Simulation& simulation) {
   goals_.observe(simulation);
   if (trajectory_.is_open() && now_ns >= next_row_ns_) {
     next_row_ns_ += kRowPeriod_ns;
-    write_rows(simulation);
-    flush_trajectory();  // the program may be killed at any time
+    write_to_trajectory(rows(simulation), now_ns);
   }
   if (!pictures_) return;
   // A step that is longer than a frame's period fills several frames.
   const auto frames = static_cast<int>(film_clock_.due(now_ns));
   const bool picture = snapshot_clock_.due(now_ns) > 0;
   if (frames == 0 && !picture) return;
+  if (frames > 0) film_begin_s_.reset();
   pictures_->add({.scene = scene(simulation),
                   .film_frames = frames,
                   .picture = picture ? picture_file(now_ns) : std::string()});
@@ -111,7 +116,8 @@ void Recorder::extend_trails(const sim::Simulation& simulation) {
   }
 }
 
-void Recorder::write_rows(const sim::Simulation& simulation) {
+std::string Recorder::rows(const sim::Simulation& simulation) const {
+  std::string all;
   const std::string time = sim::fixed_text(sim::to_seconds(simulation.now_ns()), 3);
   for (int i = 0; i < simulation.robot_count(); ++i) {
     const sim::BodyState& body = simulation.body(i);
@@ -125,12 +131,27 @@ void Recorder::write_rows(const sim::Simulation& simulation) {
     }
     line += body.stalled ? ",1" : ",0";
     if (mirror_ != nullptr) line += mirror_->columns(static_cast<std::size_t>(i));
-    trajectory_ << line << '\n';
+    all += line + '\n';
   }
+  return all;
 }
 
-sim::SceneSnapshot Recorder::scene(const sim::Simulation& simulation) const {
-  sim::SceneSnapshot snapshot = simulation.snapshot();
+void Recorder::write_to_trajectory(const std::string& rows, sim::SimTime now_ns) {
+  if (!trajectory_problem_.empty()) return;
+  errno = 0;
+  trajectory_ << rows;
+  trajectory_.flush();  // the program may be killed at any time
+  if (trajectory_) {
+    trajectory_size_ += rows.size();
+    return;
+  }
+  const int error = errno != 0 ? errno : EIO;
+  trajectory_problem_ = trajectory_file_ + " ends before " +
+                        sim::fixed_text(sim::to_seconds(now_ns), 2) + " s: " + std::strerror(error);
+}
+
+sim::SceneSnapshot Recorder::scene(const sim::Simulation& simulation, bool with_canvas) const {
+  sim::SceneSnapshot snapshot = simulation.snapshot(with_canvas);
   for (std::size_t i = 0; i < trails_.size(); ++i) {
     snapshot.robots[i].trail = trails_[i].points;
     if (!trails_[i].points.empty()) {
@@ -146,20 +167,22 @@ sim::SceneSnapshot Recorder::scene(const sim::Simulation& simulation) const {
   return snapshot;
 }
 
-void Recorder::flush_trajectory() {
-  if (trajectory_.is_open()) trajectory_.flush();
-}
-
 void Recorder::close_trajectory() {
   if (!trajectory_.is_open()) return;
   trajectory_.close();
-  if (trajectory_.fail()) throw std::runtime_error("cannot write " + trajectory_file_);
+  if (trajectory_problem_.empty()) return;
+  std::error_code ignored;  // otherwise, half a row remains
+  fs::resize_file(trajectory_file_, trajectory_size_, ignored);
+  throw std::runtime_error(trajectory_problem_);
 }
 
 void Recorder::close_film() {
   // The thread is released even if finish() throws; a second call does nothing.
   const std::unique_ptr<PictureThread> pictures = std::move(pictures_);
   if (pictures) pictures->finish();
+  if (!pictures || !film_begin_s_) return;
+  throw std::runtime_error("there is no film, since the run has ended before the film's begin at " +
+                           sim::shortest_text(*film_begin_s_) + " s (--record-from)");
 }
 
 }  // namespace playerlike

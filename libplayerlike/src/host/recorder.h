@@ -25,10 +25,10 @@ namespace playerlike {
 /// in snapshots/. The thread that steps calls it after each step; another thread draws and writes
 /// film and pictures.
 ///
-/// Frame k of a film shows the scene at k * film_speed / film_fps simulated seconds, or after the
-/// next step if that time lies between two steps. So a run of D seconds has floor(D * fps / speed)
-/// + 1 frames. Pictures are taken at multiples of snapshot_period_s in the same way, but at most
-/// one per step.
+/// Frame k of a film shows the scene at film_from_s + k * film_speed / film_fps simulated seconds,
+/// or after the next step if that time lies between two steps. So a run of D seconds has
+/// floor((D - from) * fps / speed) + 1 frames. Pictures are taken at multiples of snapshot_period_s
+/// in the same way, but at most one per step.
 class Recorder {
  public:
   /// @throws std::runtime_error if a file or folder cannot be created.
@@ -66,13 +66,15 @@ class Recorder {
   [[nodiscard]] RefusalBook& refusals() noexcept { return refusals_; }
   [[nodiscard]] const RefusalBook& refusals() const noexcept { return refusals_; }
   /// The current scene, with trails, goals and collisions.
-  [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation) const;
+  /// @param with_canvas  see sim::Simulation::snapshot().
+  [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation,
+                                         bool with_canvas = true) const;
 
   /// Completes trajectory.csv. observe() must not be called afterwards. @throws std::runtime_error
-  /// if writing fails.
+  /// with the reason if rows are missing; the rows before them are complete.
   void close_trajectory();
   /// Completes the film and the pictures in snapshots/. observe() must not be called afterwards.
-  /// @throws std::runtime_error if writing fails.
+  /// @throws std::runtime_error if writing fails or the run has ended before the film begins.
   void close_film();
 
  private:
@@ -83,19 +85,21 @@ class Recorder {
     TravelMeter travel;
   };
   void extend_trails(const sim::Simulation& simulation);
-  void write_rows(const sim::Simulation& simulation);
-  void flush_trajectory();
+  [[nodiscard]] std::string rows(const sim::Simulation& simulation) const;
+  /// Writes whole rows. After the first failure, nothing is written any more.
+  void write_to_trajectory(const std::string& rows, sim::SimTime now_ns);
 
-  /// Times k * period, k = 0, 1, ...
+  /// Times from + k * period, k = 0, 1, ...
   class Clock {
    public:
     Clock() = default;
-    explicit Clock(double period_s) : period_s_(period_s) {}
+    explicit Clock(double period_s, double from_s = 0.0) : period_s_(period_s), from_s_(from_s) {}
     /// Number of these times that have come since the last call.
     [[nodiscard]] std::uint64_t due(sim::SimTime now_ns);
 
    private:
     double period_s_ = 0.0;  // 0: never due
+    double from_s_ = 0.0;
     std::uint64_t reported_ = 0;
   };
   [[nodiscard]] std::string picture_file(sim::SimTime now_ns) const;
@@ -105,6 +109,8 @@ class Recorder {
   bool active_ = false;
   std::string trajectory_file_;
   std::ofstream trajectory_;
+  std::uintmax_t trajectory_size_ = 0;  // of its whole rows [bytes]
+  std::string trajectory_problem_;      // why the rest is missing; "": nothing is missing
   std::string snapshot_folder_;
   std::unique_ptr<PictureThread> pictures_;  // null without film and pictures
   std::vector<Trail> trails_;
@@ -113,6 +119,7 @@ class Recorder {
   GoalBook goals_;
   sim::SimTime next_row_ns_ = 0;
   Clock film_clock_;
+  std::optional<double> film_begin_s_;  // until the first frame
   Clock snapshot_clock_;
 };
 

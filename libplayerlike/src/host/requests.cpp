@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -71,9 +72,7 @@ struct Host::Core::RequestHandler {
     }
     core.subscribe(client, what.device);
   }
-  void operator()(const UnsubscribeRequest& what) const {
-    core.locked([&] { core.clients_.unsubscribe(client, what.device); });
-  }
+  void operator()(const UnsubscribeRequest& what) const { core.unsubscribe(client, what.device); }
   void operator()(const ReplaceRequest& what) const {
     const Lock lock = core.lock_with_priority();
     client.require_open();
@@ -92,6 +91,7 @@ struct Host::Core::RequestHandler {
   void operator()(const NoteLooksRequest& what) const {
     core.count_data_reads(client, what.count, what.has_data);
   }
+  Charge operator()(const TakeChargeRequest& what) const { return core.take_charge(client, what); }
   // An embedded simulation has no connection that could be slow or lost.
   void operator()(const AnswerTimeoutRequest&) const {}
   void operator()(const RetriesRequest&) const {}
@@ -122,15 +122,9 @@ struct Host::Core::RequestHandler {
     return core.cells(client, what.layer);
   }
   sim::LayerId operator()(const CreateLayerRequest& what) const {
-    return core.with_layers(client, [&](sim::LayerStack& layers, LayerRegistry& registry) {
-      return registry.create(layers, client.number, client.port, what.kind, what.style);
-    });
+    return core.create_layer(client, what);
   }
-  void operator()(const RemoveLayerRequest& what) const {
-    core.with_layers(client, [&](sim::LayerStack& layers, LayerRegistry& registry) {
-      registry.remove(layers, client.number, what.layer);
-    });
-  }
+  void operator()(const RemoveLayerRequest& what) const { core.remove_layer(client, what.layer); }
   void operator()(const SetLayerStyleRequest& what) const {
     core.with_layers(client, [&](sim::LayerStack& layers, LayerRegistry& registry) {
       registry.set_style(layers, client.number, what.layer, what.style);
@@ -168,16 +162,17 @@ struct Host::Core::RequestHandler {
   void operator()(const SaveMapRequest& what) const {
     const std::string stem = map_stem(core.settings_.output_folder, what.name);
     core.client_files_.require_room(client.number);
-    sim::OccupancyMap map;
-    core.with_layers(client, [&](sim::LayerStack& layers, const LayerRegistry& registry) {
-      registry.require(client.number, what.layer);
-      if (layers.kind(what.layer) != sim::LayerKind::kGrey) {
-        throw SessionError(SessionError::Code::kBadArgument,
-                           "only grey layers can be saved as maps, but \"" +
-                               layers.style(what.layer).name + "\" is of another kind");
-      }
-      map = occupancy_map(layers, what.layer);
-    });
+    const sim::CanvasDescription canvas =
+        core.with_layers(client, [&](sim::LayerStack& layers, const LayerRegistry& registry) {
+          registry.require(client.number, what.layer);
+          if (layers.kind(what.layer) != sim::LayerKind::kGrey) {
+            throw SessionError(SessionError::Code::kBadArgument,
+                               "only grey layers can be saved as maps, but \"" +
+                                   layers.style(what.layer).name + "\" is of another kind");
+          }
+          return layers.description();
+        });
+    const sim::OccupancyMap map = occupancy_map(canvas, core.cells(client, what.layer));
     write_map_files(map, stem, what.mode);
     for (const char* ending : {".pgm", ".yaml"}) {
       core.client_files_.note(client.number, stem + ending);
@@ -228,13 +223,36 @@ struct Host::Core::RequestHandler {
     require_unlocked();
     set_object_property(core.simulation_, what.name, what.property, what.value);
   }
+  // A state is that of one moment: the copy of the layers is complete when the rest is copied.
   void operator()(const SaveStateRequest& what) const {
-    const Lock lock = lock_changeable();
-    core.saved_states_.save(what.name, core.simulation_);
+    sim::LayerCopy copy;
+    Lock lock = lock_changeable();
+    core.saved_states_.require_place(what.name);
+    core.copy_layers(lock, copy);
+    sim::StateParts parts = core.simulation_.state_parts();
+    lock.unlock();
+    sim::LayerStack layers = copy.take();
+    auto state = std::make_shared<const sim::Snapshot>(parts.snapshot(layers));
+    lock.lock();
+    core.saved_states_.save(what.name, state);
+    lock.unlock();  // before an earlier state of this name is freed
   }
   void operator()(const RestoreStateRequest& what) const {
-    const Lock lock = lock_changeable();
-    core.saved_states_.restore(what.name, core.simulation_);
+    Lock lock = lock_changeable();
+    if (const auto refusal = core.simulation_.refusal_of_mirrored()) {
+      throw SessionError(SessionError::Code::kNotAvailable, *refusal);
+    }
+    const std::shared_ptr<const sim::Snapshot> snapshot = core.saved_states_.find(what.name);
+    const sim::SnapshotReader reader = core.simulation_.snapshot_reader();
+    const sim::CanvasDescription canvas = core.simulation_.layers().description();
+    lock.unlock();
+    sim::Simulation restored = reader.read(*snapshot);
+    restored.layers().resize(canvas.width, canvas.height);
+    lock = lock_changeable();
+    core.require_not_writing();
+    const sim::Simulation before =
+        core.simulation_.replace_by(std::move(restored), sim::RestoreScope::kWorld);
+    lock.unlock();  // before the state is freed
   }
 
   // --- The arena and its controller

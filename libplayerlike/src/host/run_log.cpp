@@ -129,7 +129,7 @@ void RunLog::start(const sim::Simulation& simulation, Loaded* loaded) {
                      {"world", simulation.world().name},
                      {"port", port_},
                      {"t", simulation.now_ns()}};
-  out_ << head.dump() << '\n';
+  out_ << head.dump(-1, ' ', false, json::error_handler_t::replace) << '\n';
   written_ = 0;
   if (!out_) {
     out_.close();
@@ -248,7 +248,7 @@ void RunLog::write(DeviceId id, const sim::Reading& reading, sim::SimTime time_n
   line["t"] = time_ns;
   line["robot"] = robot.name;
   line["device"] = device.name;
-  const std::string text = line.dump();
+  const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace);
   out_ << text << '\n';
   written_ += text.size() + 1;
 }

@@ -196,6 +196,10 @@ bool parse_film_speed(const std::string& text, double& speed) {
   return parse_within(text, 0.01, 1000.0, speed);
 }
 
+bool parse_film_start(const std::string& text, double& from_s) {
+  return parse_within(text, 0.0, kLongest_s, from_s);
+}
+
 bool parse_film_size(const std::string& text, sim::render::RenderOptions& options) {
   constexpr int kLeast = 64;
   constexpr int kMost = 4096;
@@ -304,6 +308,14 @@ bool parse_snapshot_period(const std::string& text, double& period_s) {
   return parse_within(text, 0.001, kLongest_s, period_s);
 }
 
+double silence_limit_s_of_environment() {
+  double limit_s = RunSettings{}.silence_limit_s;
+  const std::string text(environment("PLAYPEN_SILENCE_LIMIT"));
+  double given_s = 0.0;
+  if (!text.empty() && parse_positive_seconds(text, given_s)) limit_s = given_s;
+  return limit_s;
+}
+
 RunSettings RunSettings::from_environment() {
   RunSettings settings;
   Variables variables;
@@ -338,6 +350,8 @@ RunSettings RunSettings::from_environment() {
                  into<double>(settings.film_fps, parse_film_fps));
   variables.read("PLAYPEN_RECORD_SPEED", kFilmSpeedExpected,
                  into<double>(settings.film_speed, parse_film_speed));
+  variables.read("PLAYPEN_RECORD_FROM", kFilmStartExpected,
+                 into<double>(settings.film_from_s, parse_film_start));
   using PictureParser = bool (*)(const std::string&, sim::render::RenderOptions&);
   const auto read_picture = [&](const char* name, const char* expected, PictureParser parse) {
     variables.read(name, expected,
@@ -378,6 +392,7 @@ RunSettings RunSettings::from_environment() {
                  into<int>(settings.robot_port, parse_robot_port));
   variables.read("PLAYPEN_PLAYER_PORT", kTcpPortExpected,
                  into<int>(settings.player_port, parse_tcp_port));
+  settings.take_over = is_set("PLAYPEN_TAKE_OVER");
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
   settings.virtual_time = is_set("PLAYPEN_VIRTUAL_TIME");
@@ -523,6 +538,9 @@ void RunSettings::apply_to(sim::WorldDescription& world) const {
   }
   apply_interface_choices(world, interfaces);
   bind_real_robots(world, real_robots);
+  for (sim::RobotDescription& robot : world.robots) {
+    if (robot.real && take_over) robot.real->take_over = true;
+  }
   if (robot_port) move_ports(world, *robot_port);
   require_real_time(world);
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "sim/simulation/simulation.h"
@@ -16,15 +17,18 @@ class SavedStates {
   static constexpr std::size_t kMostBytes = std::size_t{256} << 20;  ///< of all states together
   static constexpr std::size_t kLongestName = 64;
 
-  /// Saves a state; replaces an earlier one of this name. @throws SessionError kBadArgument for a
-  /// name that is not 1 to kLongestName printable bytes; kNotAvailable if there is no room.
-  void save(const std::string& name, const sim::Simulation& simulation);
-  /// Restores a state of the world, see sim::RestoreScope::kWorld. @throws SessionError
-  /// kBadArgument if there is no state of this name.
-  void restore(const std::string& name, sim::Simulation& simulation) const;
+  /// Throws SessionError kBadArgument for a name that is not 1 to kLongestName printable bytes, and
+  /// kNotAvailable if no further state can be saved.
+  void require_place(const std::string& name) const;
+  /// Saves a state. An earlier one of this name is replaced, and moved into `state`: its memory may
+  /// take a while to free.
+  /// @throws SessionError as require_place(); kNotAvailable if there is no room.
+  void save(const std::string& name, std::shared_ptr<const sim::Snapshot>& state);
+  /// @throws SessionError kBadArgument if there is no state of this name.
+  [[nodiscard]] std::shared_ptr<const sim::Snapshot> find(const std::string& name) const;
 
  private:
-  std::map<std::string, sim::Snapshot> states_;
+  std::map<std::string, std::shared_ptr<const sim::Snapshot>> states_;
   std::size_t bytes_ = 0;  ///< total size
 };
 

@@ -65,6 +65,16 @@ void StalledTimeWarning::set_alarm() const {
                                cure());
 }
 
+void StalledTimeWarning::note_first_step(bool lockstep) const {
+  dismiss_alarm();
+  if (!watches_ || !alone_ || !lockstep) return;
+  set_standstill_alarm(limit_s_,
+                       "the program has computed for " + sim::rounded_text(limit_s_, 6) +
+                           " s of processor time without calling Read(), and simulated time "
+                           "stands still at ",
+                       " s. If this is an endless loop, Ctrl-C ends the program");
+}
+
 void StalledTimeWarning::dismiss_alarm() const noexcept {
   if (watches_) dismiss_busy_alarm();
 }

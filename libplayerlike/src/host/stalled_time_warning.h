@@ -34,8 +34,15 @@ class StalledTimeWarning {
   void check(Client& client, sim::SimTime now_ns, bool may_advance);
 
   /// See Host::watch_program().
-  void watch() noexcept { watches_ = true; }
+  /// @param alone  without `playpen run`, which watches the steps of its program itself.
+  void watch(bool alone) noexcept {
+    watches_ = true;
+    alone_ = alone;
+  }
   void set_alarm() const;
+  /// The calling thread makes the first step.
+  /// @param lockstep  it then makes the others, too.
+  void note_first_step(bool lockstep) const;
   /// Time advances now, or the program gets a warning elsewhere.
   void dismiss_alarm() const noexcept;
   /// The program ends without having let time advance.
@@ -50,6 +57,7 @@ class StalledTimeWarning {
   const Warn warn_;
   std::atomic<bool> wants_time_{false};
   bool watches_ = false;
+  bool alone_ = false;
   bool warned_ = false;
 };
 

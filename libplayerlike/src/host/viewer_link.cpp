@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "virtual_time/program_threads.h"
+
 namespace playerlike {
 namespace {
 
@@ -44,6 +46,7 @@ ViewerLink::ViewerLink(int socket, ViewedRun& run) : socket_(socket), run_(run) 
   sigset_t old;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, &old);
+  note_own_threads();
   thread_ = std::thread([this] { serve(); });
   pthread_sigmask(SIG_SETMASK, &old, nullptr);
 }

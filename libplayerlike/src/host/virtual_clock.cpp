@@ -2,6 +2,7 @@
 #include "host/virtual_clock.h"
 
 #include <algorithm>
+#include <string>
 
 #include "process/end_of_program.h"
 
@@ -41,11 +42,13 @@ void Host::Core::VirtualClock::wait_for_turn(Lock& lock, Client& client) {
 }
 
 bool Host::Core::VirtualClock::step(Lock& lock) {
-  if (core_.over() || core_.pace_.step_limit_reached() || !core_.lockstep_.gate_open() ||
+  if (core_.stands_still() || core_.pace_.step_limit_reached() || !core_.lockstep_.gate_open() ||
       !Turns::instance().somebody_waits_for_time()) {
     return false;
   }
-  core_.advance();
+  // Turns asks again after some milliseconds.
+  if (core_.is_too_early()) return false;
+  core_.advance(lock);
   core_.give_way(lock);
   return true;
 }
@@ -97,7 +100,7 @@ bool Host::Core::VirtualClock::on_blocked(const TurnThread& thread) {
   return true;
 }
 
-std::optional<sim::SimTime> Host::Core::VirtualClock::pass_time(sim::SimTime target_ns,
+std::optional<sim::SimTime> Host::Core::VirtualClock::pass_time(sim::SimTime target_ns, bool asleep,
                                                                 bool& interrupted) {
   interrupted = false;
   const ThreadId thread_id = this_thread_id();
@@ -119,19 +122,19 @@ std::optional<sim::SimTime> Host::Core::VirtualClock::pass_time(sim::SimTime tar
   if (!core_.over()) return core_.in_turns() ? std::optional(left_ns) : std::nullopt;
   if (core_.simulation_.now_ns() < wake_ns) {
     if (core_.ended_by_program_) return std::nullopt;
-    sleep_after_end(lock, thread_id);
+    sleep_after_end(lock, thread_id, asleep);
   }
   return left_ns;
 }
 
 void Host::Core::VirtualClock::note_timed_wait(Lock& lock, sim::SimTime left_ns) {
   if (!core_.over() || left_ns < core_.step_ns_ || core_.ended_by_program_) return;
-  sleep_after_end(lock, this_thread_id());
+  sleep_after_end(lock, this_thread_id(), /*asleep=*/true);
 }
 
 // A sleep cannot throw. A program that only sleeps is ended here. If it also reads, or has threads
 // that do, they get the error, and it has some time to end by itself.
-void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThreadId thread_id) {
+void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThreadId thread_id, bool asleep) {
   const auto& threads = Turns::instance().threads();
   const bool others = std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {
     if (thread->thread_id == thread_id || thread->state == TurnThread::State::kDetached)
@@ -142,7 +145,9 @@ void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThreadId thread_id) {
   if (settings.quiet_end &&
       (!(core_.end_reported_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
     if (settings.progress && core_.log_) {
-      core_.log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
+      core_.log_(sim::LogLevel::kInfo,
+                 std::string("the run is over: the program was ended ") +
+                     (asleep ? "in its sleep" : "while it went on without calling Read()"));
     }
     lock.unlock();
     end_program_quietly();

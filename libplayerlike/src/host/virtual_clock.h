@@ -29,7 +29,8 @@ class Host::Core::VirtualClock final : public TurnClock {
   [[nodiscard]] sim::SimTime step_ns() const noexcept override { return core_.step_ns_; }
   void begin_turns(sim::SimTime before_ns) override;
   void end_turns(sim::SimTime before_ns) override;
-  std::optional<sim::SimTime> pass_time(sim::SimTime target_ns, bool& interrupted) override;
+  std::optional<sim::SimTime> pass_time(sim::SimTime target_ns, bool asleep,
+                                        bool& interrupted) override;
   void note_timed_wait(Lock& lock, sim::SimTime left_ns) override;
   [[nodiscard]] WallClock::duration silence_limit() const override;
 
@@ -37,7 +38,8 @@ class Host::Core::VirtualClock final : public TurnClock {
   [[nodiscard]] static bool others_take_turns(ThreadId thread_id);
 
  private:
-  void sleep_after_end(Lock& lock, ThreadId thread_id);
+  /// @param asleep  see pass_time().
+  void sleep_after_end(Lock& lock, ThreadId thread_id, bool asleep);
 
   Core& core_;
   int sleeps_after_end_ = 0;

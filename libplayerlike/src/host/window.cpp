@@ -17,7 +17,7 @@ Host::Core::Window::Window(Core& core, int socket)
     : core_(core),
       hand_(core.inputs_.hand.emplace(core.robots_,
                                       [this](DeviceId device, const sim::Command& command) {
-                                        core_.inputs_.execute(device, command);
+                                        static_cast<void>(core_.inputs_.execute(device, command));
                                       })) {
   link_ = std::make_unique<ViewerLink>(socket, *this);
 }
@@ -44,7 +44,9 @@ ViewScene Host::Core::Window::view_scene() {
     view.status = core_.robots_[index].name + (hand_.active() ? " by hand    " : "    ");
   }
   view.status += "t " + sim::fixed_text(sim::to_seconds(core_.simulation_.now_ns()), 1) + " s    ";
-  view.status += (core_.paced() ? factor_text(core_.pace_.factor()) : "lockstep") + "    ";
+  if (!core_.paced()) view.status += "lockstep    ";
+  const bool has_speed = core_.paced() || core_.pace_.watched(core_.simulation_.now_ns());
+  view.status += (has_speed ? factor_text(core_.pace_.factor()) : "full speed") + "    ";
   view.status += sim::to_string(core_.simulation_.view_mode());
   if (core_.pace_.paused()) view.status += "    paused";
   if (WallClock::now() < message_end_) view.message = message_;
@@ -105,7 +107,6 @@ void Host::Core::Window::change_view_mode(int by) {
 }
 
 void Host::Core::Window::change_speed(bool faster) {
-  if (!core_.paced()) return tell("lockstep: time goes as fast as the program");
   if (core_.mirror_) return tell("a real robot sets the speed of time");
   const double factor = next_time_factor(core_.pace_.factor(), faster);
   if (factor == core_.pace_.factor()) {
@@ -117,7 +118,6 @@ void Host::Core::Window::change_speed(bool faster) {
 }
 
 void Host::Core::Window::change_pause() {
-  if (!core_.paced()) return tell("lockstep: time cannot be paused");
   core_.pace_.set_paused(!core_.pace_.paused());
   core_.changed_.notify_all();
 }
@@ -165,6 +165,7 @@ void Host::Core::Window::on_lost(const std::string& reason) {
   const Lock lock = core_.lock_with_priority();
   hand_.release_all();
   if (core_.pace_.paused()) change_pause();
+  core_.pace_.stop_watching();
   if (!core_.over())
     core_.warn_("there is no window any more (" + reason + "); the run goes on without it");
 }

@@ -250,9 +250,15 @@ bool is_open(const std::vector<RobotInfo>& robots, int port) {
 
 void require_finite(const sim::Command& command) {
   const auto& kind = sim::command_kinds()[command.index()];
-  if (sim::all_finite(kind.fields(), sim::object_in(command))) return;
-  throw SessionError(SessionError::Code::kBadArgument,
-                     "a command holds a value that is not a finite number");
+  if (!sim::all_finite(kind.fields(), sim::object_in(command))) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "a command holds a value that is not a finite number");
+  }
+  const auto* set_pose = std::get_if<sim::SetPoseCommand>(&command);
+  if (set_pose == nullptr) return;
+  if (const auto fault = sim::fault_of(*set_pose)) {
+    throw SessionError(SessionError::Code::kBadArgument, *fault);
+  }
 }
 
 bool carries(std::string_view device_type, std::string_view interface) {

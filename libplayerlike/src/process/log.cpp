@@ -4,6 +4,10 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <string>
+
+#include "sim/core/utf8.h"
+
 namespace playerlike {
 
 sim::LogHook log_to_stderr(sim::LogLevel least) {
@@ -14,18 +18,20 @@ sim::LogHook log_to_stderr(sim::LogLevel least) {
   logger->set_level(spdlog::level::debug);
   return [logger, least](sim::LogLevel level, std::string_view message) {
     if (level < least) return;
+    // Names of programs, files and clients may contain any bytes.
+    const std::string text = sim::escape_invalid_utf8(message);
     switch (level) {
       case sim::LogLevel::kDebug:
-        logger->debug(message);
+        logger->debug(text);
         break;
       case sim::LogLevel::kInfo:
-        logger->info(message);
+        logger->info(text);
         break;
       case sim::LogLevel::kWarning:
-        logger->warn(message);
+        logger->warn(text);
         break;
       case sim::LogLevel::kError:
-        logger->error(message);
+        logger->error(text);
         break;
     }
   };

@@ -117,10 +117,10 @@ void LocalizeProxy::TellPose(const double* aPose, const double* aCovariance, std
   std::array<double, 6> covariance{};
   std::copy_n(aCovariance, aCount < covariance.size() ? 3 : covariance.size(), covariance.begin());
   const sim::SetPoseCommand command = playerlike::set_pose_command(pose, covariance);
-  if (!sim::is_valid({*command.variance, *command.covariance})) {
-    playerlike::refuse(fun,
-                       "the covariance must be finite and positive semidefinite; its first three "
-                       "numbers are the variances of x, y and yaw");
+  if (const auto fault = sim::fault_of(command)) {
+    playerlike::refuse(
+        fun,
+        *fault + "; the first three numbers of a covariance are the variances of x, y and yaw");
   }
   mLink->send(fun, command);
 }

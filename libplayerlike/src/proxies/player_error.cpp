@@ -2,11 +2,12 @@
 #include <ostream>
 
 #include "libplayerc++/playererror.h"
+#include "sim/core/utf8.h"
 
 namespace PlayerCc {
 
 PlayerError::PlayerError(const std::string aFun, const std::string aStr, const int aCode)
-    : mFun(aFun), mStr(aStr), mCode(aCode) {}
+    : mFun(aFun), mStr(sim::escape_invalid_utf8(aStr)), mCode(aCode) {}
 
 }  // namespace PlayerCc
 

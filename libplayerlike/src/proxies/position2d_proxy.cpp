@@ -35,7 +35,7 @@ struct Position2dProxy::Control {
                            "robot " + link.robot().name +
                                " has no motors (a device of type \"motion\") in this world");
       }
-      link.core->session().send(*motion, command);
+      link.core->send(fun, *motion, command);
     });
   }
 
@@ -60,17 +60,11 @@ Position2dProxy::Position2dProxy(PlayerClient* aPc, uint32_t aIndex)
   }
   const scoped_lock_t lock(LockData(fun));
   const playerlike::RobotInfo& robot = mLink->robot();
-  mControl->robot_speed_mps = robot.max_speed_mps;
-  mControl->robot_turn_rate_radps = robot.max_turn_rate_radps;
-  if (mLink->binding.motion) {
-    const auto& limits = mLink->core->info_of(*mLink->binding.motion).properties;
-    const auto tighten = [&](const char* name, double& value) {
-      const auto it = limits.find(name);
-      if (it != limits.end()) value = std::min(value, it->second);
-    };
-    tighten("max_speed", mControl->robot_speed_mps);
-    tighten("max_turn_rate", mControl->robot_turn_rate_radps);
-  }
+  const auto limits = mLink->binding.motion ? mLink->core->speed_limits(*mLink->binding.motion)
+                                            : playerlike::ClientCore::SpeedLimits{
+                                                  robot.max_speed_mps, robot.max_turn_rate_radps};
+  mControl->robot_speed_mps = limits.speed_mps;
+  mControl->robot_turn_rate_radps = limits.turn_rate_radps;
 }
 
 Position2dProxy::Position2dProxy(const Position2dProxy& aOther)

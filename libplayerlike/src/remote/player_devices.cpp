@@ -7,6 +7,7 @@
 #include "protocol/player_xdr.h"
 #include "remote/player_commands.h"
 #include "remote/player_session.h"
+#include "session/player_values.h"
 
 namespace playerlike {
 
@@ -157,6 +158,33 @@ bool PlayerSession::set_property(unsigned interface, unsigned index, const std::
             .has_value();
       },
       value);
+}
+
+Charge PlayerSession::take_charge(const TakeChargeRequest& what) {
+  require_open();
+  Address& address = address_of(what.device);
+  if (address.at.interf != PLAYER_POSITION2D_CODE) return {};
+  const std::string name = kWatchdogProperty;
+  if (!has_watchdog_) {
+    has_watchdog_ =
+        try_to_ask(address, PLAYER_GET_DBLPROP_REQ, property_request(name, 0.0)).has_value();
+  }
+  if (!*has_watchdog_) return {};
+  if (what.take_over) {
+    static_cast<void>(try_to_ask(address, PLAYER_SET_BOOLPROP_REQ,
+                                 property_request<bool>(kTakeOverProperty, true)));
+  }
+  try {
+    static_cast<void>(
+        ask(address, PLAYER_SET_DBLPROP_REQ, property_request(name, what.watchdog_s)));
+  } catch (const SessionError& e) {
+    if (e.code() != SessionError::Code::kNotAvailable) throw;
+    throw SessionError(e.code(),
+                       "another client is in charge of the robot, or has taken over; ask to take "
+                       "over, or wait until it has left (" +
+                           std::string(e.what()) + ')');
+  }
+  return {true, false};
 }
 
 // --- localize

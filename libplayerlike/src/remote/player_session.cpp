@@ -642,6 +642,7 @@ struct PlayerSession::RequestHandler {
   std::vector<LocalizationParticle> operator()(const ParticlesRequest& what) const {
     return session.particles(what.device);
   }
+  Charge operator()(const TakeChargeRequest& what) const { return session.take_charge(what); }
   CanvasInfo operator()(const CanvasInfoRequest& /*what*/) const {
     constexpr double kCell_m = 0.02;
     return {0, 0, kCell_m, 0.0, 0.0};

@@ -159,6 +159,8 @@ class PlayerSession final : public Session,
                                         std::string_view payload);
   /// Requests the particles of a localisation.
   std::vector<LocalizationParticle> particles(DeviceId device);
+  /// Playpen's servers have a property for it (docs/player_wire_interfaces.md), others do not.
+  Charge take_charge(const TakeChargeRequest& what);
   /// Ends the connection, since an answer cannot be understood. @throws SessionError kDisconnected.
   [[noreturn]] static void refuse_bytes(PlayerLink& link, const std::string& why);
 
@@ -187,8 +189,9 @@ class PlayerSession final : public Session,
   std::atomic<double> request_timeout_s_;
   std::atomic<int> retry_limit_{0};
   std::atomic<double> retry_time_s_{0.0};
-  std::mutex recover_mutex_;  ///< allows one reconnection at a time
-  std::mutex open_mutex_;     ///< allows one opening of a device at a time; locked before `mutex_`
+  std::optional<bool> has_watchdog_;  ///< used by take_charge() only; nothing: not asked yet
+  std::mutex recover_mutex_;          ///< allows one reconnection at a time
+  std::mutex open_mutex_;  ///< allows one opening of a device at a time; locked before `mutex_`
 
   /// Guards the members below and the addresses; a leaf mutex, never held while waiting.
   mutable std::mutex mutex_;

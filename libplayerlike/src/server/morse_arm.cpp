@@ -44,8 +44,8 @@ int joint_of(MorseCall& call, const std::string& name, std::optional<sim::JointT
 json place_joint(MorseCall& call, sim::JointType type) {
   const int joint = joint_of(call, call.arguments.text(0), type);
   const double value = call.arguments.number(1, -kMost, kMost);
-  call.state.command(id_of(call),
-                     sim::JointCommand{sim::JointCommand::Mode::kPlace, joint, {value}});
+  MorseState::command(call.from.commander(), id_of(call),
+                      sim::JointCommand{sim::JointCommand::Mode::kPlace, joint, {value}});
   return nullptr;
 }
 json set_rotation(MorseCall& call) { return place_joint(call, sim::JointType::kRotary); }
@@ -64,8 +64,8 @@ json place_joints(MorseCall& call, sim::JointType type) {
     values.push_back(value.get<double>());
   }
   if (values.empty()) return nullptr;
-  call.state.command(id_of(call),
-                     sim::JointCommand{sim::JointCommand::Mode::kPlace, 0, std::move(values)});
+  MorseState::command(call.from.commander(), id_of(call),
+                      sim::JointCommand{sim::JointCommand::Mode::kPlace, 0, std::move(values)});
   return nullptr;
 }
 json set_rotations(MorseCall& call) { return place_joints(call, sim::JointType::kRotary); }
@@ -84,8 +84,9 @@ double usual_speed_of(MorseCall& call, int joint) {
 }
 
 void set_speed_of(MorseCall& call, int joint, double speed) {
-  call.state.command(id_of(call), sim::JointSettingCommand{
-                                      sim::JointSettingCommand::Setting::kSpeed, joint, speed});
+  MorseState::command(
+      call.from.commander(), id_of(call),
+      sim::JointSettingCommand{sim::JointSettingCommand::Setting::kSpeed, joint, speed});
 }
 
 json move_joint(MorseCall& call, sim::JointType type) {
@@ -128,7 +129,8 @@ json joints_of_arm(MorseCall& call) {
 }
 
 json stop_arm(MorseCall& call) {
-  call.state.command(id_of(call), sim::JointCommand{sim::JointCommand::Mode::kSpeed, -1, {0.0}});
+  MorseState::command(call.from.commander(), id_of(call),
+                      sim::JointCommand{sim::JointCommand::Mode::kSpeed, -1, {0.0}});
   return nullptr;
 }
 
@@ -308,9 +310,9 @@ void keep_target(MorseCall& call, const Reach& reach) {
 
 json place_ik_target(MorseCall& call) {
   const Reach reach = reach_of(call);
-  call.state.command(id_of(call),
-                     sim::JointCommand{sim::JointCommand::Mode::kPlace, 0,
-                                       reach.solve(reach.to_W, reach.positions, kToTheEnd)});
+  MorseState::command(call.from.commander(), id_of(call),
+                      sim::JointCommand{sim::JointCommand::Mode::kPlace, 0,
+                                        reach.solve(reach.to_W, reach.positions, kToTheEnd)});
   keep_target(call, reach);
   return nullptr;
 }

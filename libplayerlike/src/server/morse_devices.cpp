@@ -145,11 +145,13 @@ constexpr MorseService kPosture[] = {
 // --- proximity
 
 json set_range(MorseCall& call) {
-  call.state.command(id_of(call), sim::TrackCommand{call.arguments.number(0, 1e-3, 1000.0), {}});
+  MorseState::command(call.from.commander(), id_of(call),
+                      sim::TrackCommand{call.arguments.number(0, 1e-3, 1000.0), {}});
   return nullptr;
 }
 json set_tracked_tag(MorseCall& call) {
-  call.state.command(id_of(call), sim::TrackCommand{{}, call.arguments.text(0)});
+  MorseState::command(call.from.commander(), id_of(call),
+                      sim::TrackCommand{{}, call.arguments.text(0)});
   return nullptr;
 }
 
@@ -172,7 +174,8 @@ json grab(MorseCall& call) {
                .nearest(simulation.world(), simulation.body(call.component->robot)) >= 0;
   });
   if (!reaches && held().empty()) return nullptr;
-  call.state.command(id_of(call), sim::GripCommand{sim::GripCommand::Action::kClose});
+  MorseState::command(call.from.commander(), id_of(call),
+                      sim::GripCommand{sim::GripCommand::Action::kClose});
   return held();
 }
 
@@ -183,7 +186,8 @@ json release(MorseCall& call) {
                 .empty();
   });
   if (!holds) return nullptr;
-  call.state.command(id_of(call), sim::GripCommand{sim::GripCommand::Action::kOpen});
+  MorseState::command(call.from.commander(), id_of(call),
+                      sim::GripCommand{sim::GripCommand::Action::kOpen});
   return true;
 }
 
@@ -200,7 +204,8 @@ json toggle(MorseCall& call) {
   const bool is_on = call.state.with([&](const sim::Simulation& simulation) {
     return device_in<sim::Blinkenlight>(simulation, id_of(call)).enabled();
   });
-  call.state.command(id_of(call), sim::LightCommand{on || !is_on, {}, {}, {}});
+  MorseState::command(call.from.commander(), id_of(call),
+                      sim::LightCommand{on || !is_on, {}, {}, {}});
   return true;
 }
 

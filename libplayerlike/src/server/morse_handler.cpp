@@ -82,6 +82,7 @@ MorseConnection::MorseConnection(Peer& peer, Hub& hub)
       hub_(hub),
       state_(MorseState::of(hub)),
       self_(std::make_shared<MorseConnection*>(this)),
+      commander_(hub.host().shared_from_this()),
       rights_(hub.access().rights({})) {}
 
 MorseConnection::~MorseConnection() { state_->forget(*this); }

@@ -43,7 +43,8 @@ const DeviceInfo& info_of(const MorseCall& call) {
 // --- motion
 
 json drive(MorseCall& call, double v_mps, double omega_radps) {
-  call.state.command(device_of(call), sim::TwistCommand{{v_mps, omega_radps, 0.0}});
+  MorseState::command(call.from.commander(), device_of(call),
+                      sim::TwistCommand{{v_mps, omega_radps, 0.0}});
   return nullptr;
 }
 json set_speed(MorseCall& call) {
@@ -52,10 +53,10 @@ json set_speed(MorseCall& call) {
 }
 json stop_motion(MorseCall& call) { return drive(call, 0.0, 0.0); }
 json set_holonomic_speed(MorseCall& call) {
-  call.state.command(device_of(call),
-                     sim::TwistCommand{{call.arguments.number(0, -kFar_m, kFar_m),
-                                        call.arguments.number(2, -kFar_m, kFar_m),
-                                        call.arguments.number(1, -kFar_m, kFar_m)}});
+  MorseState::command(call.from.commander(), device_of(call),
+                      sim::TwistCommand{{call.arguments.number(0, -kFar_m, kFar_m),
+                                         call.arguments.number(2, -kFar_m, kFar_m),
+                                         call.arguments.number(1, -kFar_m, kFar_m)}});
   return nullptr;
 }
 
@@ -97,7 +98,7 @@ json setdest(MorseCall& call) {
     return (goal.goal_m - X_WB.position()).norm();
   });
   if (distance_m <= goal.tolerance_m) return false;
-  call.state.command(device_of(call), goal);
+  MorseState::command(call.from.commander(), device_of(call), goal);
   return true;
 }
 
@@ -107,11 +108,11 @@ json status_of(MorseCall& call) {
   });
 }
 json stop_waypoint(MorseCall& call) {
-  call.state.command(device_of(call), sim::StopCommand{});
+  MorseState::command(call.from.commander(), device_of(call), sim::StopCommand{});
   return status_of(call);
 }
 json resume(MorseCall& call) {
-  call.state.command(device_of(call), sim::ResumeCommand{});
+  MorseState::command(call.from.commander(), device_of(call), sim::ResumeCommand{});
   return status_of(call);
 }
 json get_status(MorseCall& call) {
@@ -134,9 +135,9 @@ json translate(MorseCall& call) {
   if (call.arguments.number(2, -kFar_m, kFar_m, 0.0) != 0.0) {
     call.arguments.refuse(2, "0, as the floor is flat");
   }
-  call.state.command(device_of(call),
-                     sim::TranslateCommand{{call.arguments.number(0, -kFar_m, kFar_m),
-                                            call.arguments.number(1, -kFar_m, kFar_m, 0.0)}});
+  MorseState::command(call.from.commander(), device_of(call),
+                      sim::TranslateCommand{{call.arguments.number(0, -kFar_m, kFar_m),
+                                             call.arguments.number(1, -kFar_m, kFar_m, 0.0)}});
   return nullptr;
 }
 
@@ -146,8 +147,8 @@ json rotate(MorseCall& call) {
       call.arguments.refuse(index, "0, as the floor is flat: robots turn by yaw only");
     }
   }
-  call.state.command(device_of(call),
-                     sim::RotateCommand{call.arguments.number(2, -kTurns_rad, kTurns_rad, 0.0)});
+  MorseState::command(call.from.commander(), device_of(call),
+                      sim::RotateCommand{call.arguments.number(2, -kTurns_rad, kTurns_rad, 0.0)});
   return nullptr;
 }
 

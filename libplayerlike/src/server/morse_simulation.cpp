@@ -86,10 +86,7 @@ json get_all_stream_ports(MorseCall& call) {
 }
 
 json reset_objects(MorseCall& call) {
-  call.state.with([](sim::Simulation& simulation) {
-    simulation.reset();
-    return true;
-  });
+  require_done(call.state.with([](sim::Simulation& simulation) { return simulation.reset(); }));
   call.state.forget_targets();
   return "Objects restored to initial position";
 }
@@ -107,10 +104,7 @@ json set_active(MorseCall& call, bool active) {
   if (!component.device) {
     throw MorseRefusal(component.name + " is no device: it cannot be switched off or on");
   }
-  call.state.with([&](sim::Simulation& simulation) {
-    simulation.set_active(*component.device, active);
-    return true;
-  });
+  require_done(call.state.host().set_active(*component.device, active));
   return nullptr;
 }
 json activate(MorseCall& call) { return set_active(call, true); }

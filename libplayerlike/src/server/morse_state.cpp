@@ -54,11 +54,8 @@ const std::shared_ptr<EventClient>& MorseState::client() {
   return client_;
 }
 
-void MorseState::command(DeviceId device, const sim::Command& command) {
-  if (host().finished()) throw MorseRefusal(kRunIsOver);
-  const auto refusal =
-      with([&](sim::Simulation& simulation) { return simulation.apply(device, command); });
-  if (refusal) throw MorseRefusal(*refusal);
+void MorseState::command(Commander& commander, DeviceId device, const sim::Command& command) {
+  if (const auto refusal = commander.command(device, command)) throw MorseRefusal(*refusal);
 }
 
 // --- Requests with a later answer
@@ -91,14 +88,10 @@ void MorseState::answer_after(MorseConnection& from, const std::string& id, doub
 
 void MorseState::answer_on_arrival(MorseConnection& from, const std::string& id, DeviceId waypoint,
                                    const sim::GotoCommand& goal) {
-  if (host().finished()) throw MorseRefusal(kRunIsOver);
-  std::uint64_t goal_number = 0;
-  const auto refusal = with([&](sim::Simulation& simulation) {
-    auto result = simulation.apply(waypoint, goal);
-    goal_number = waypoint_of(simulation, waypoint).goal_number();
-    return result;
+  command(from.commander(), waypoint, goal);
+  const std::uint64_t goal_number = with([&](const sim::Simulation& simulation) {
+    return waypoint_of(simulation, waypoint).goal_number();
   });
-  if (refusal) throw MorseRefusal(*refusal);
   for (auto it = pending_.begin(); it != pending_.end();) {
     it = it->second.device == waypoint ? end(it, "PREEMPTED", nullptr) : std::next(it);
   }
@@ -125,7 +118,7 @@ void MorseState::answer_on_arrival(MorseConnection& from, const std::string& id,
 void MorseState::answer_when(MorseConnection& from, const std::string& id, DeviceId device,
                              const sim::Command& command,
                              std::function<bool(const sim::Device&)> done) {
-  this->command(device, command);
+  MorseState::command(from.commander(), device, command);
   answer_when(from, id, device, std::move(done));
 }
 
@@ -194,11 +187,11 @@ void MorseState::cancel(MorseConnection& from, const std::string& id) {
     it = end(it, "PREEMPTED", nullptr);
   }
   for (const DeviceId device : stopped) {
-    // A refusal means that the device is off, the run is over, or there is nothing to stop.
-    with([&](sim::Simulation& simulation) {
-      const sim::Device& stopping = simulation.device(device.robot, device.device);
-      return simulation.apply(device, stop_command(stopping.type())).has_value();
+    const std::string type = with([&](const sim::Simulation& simulation) {
+      return simulation.device(device.robot, device.device).type();
     });
+    // A refusal means that the device is off, the run is over, or there is nothing to stop.
+    static_cast<void>(from.commander().command(device, stop_command(type)));
   }
 }
 

@@ -84,9 +84,9 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
         [&](sim::Simulation& simulation) { result.emplace(action(simulation)); });
     return std::move(*result);
   }
-  /// Sends a command to a device at once. @throws MorseRefusal with the reason: the run is over, or
-  /// the device refuses.
-  void command(DeviceId device, const sim::Command& command);
+  /// Sends a command to a device at once, to the real robot if it mirrors one. @throws MorseRefusal
+  /// with the reason: the run is over, the device refuses, or the real robot cannot execute it.
+  static void command(Commander& commander, DeviceId device, const sim::Command& command);
 
   /// @name Requests that are answered later
   /// @{
@@ -186,6 +186,8 @@ class MorseConnection final : public Handler {
   [[nodiscard]] std::string farewell(const protocol::ProtocolError& error) override;
 
   [[nodiscard]] Peer& peer() noexcept { return peer_; }
+  /// Its commands. Real robots stop at its end.
+  [[nodiscard]] Commander& commander() noexcept { return commander_; }
   [[nodiscard]] const Rights& rights() const noexcept { return rights_; }
   /// Adds a token, which may add rights.
   void present(std::string token);
@@ -213,6 +215,7 @@ class MorseConnection final : public Handler {
   Hub& hub_;
   std::shared_ptr<MorseState> state_;
   std::shared_ptr<MorseConnection*> self_;  ///< expires with the connection; jobs check it
+  Commander commander_;
   std::vector<std::string> tokens_;
   Rights rights_;
   int wrong_tokens_ = 0;

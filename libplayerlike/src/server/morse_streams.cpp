@@ -236,7 +236,9 @@ class MorseStreams::Reader final : public StreamConnection {
 class MorseStreams::Writer final : public StreamConnection {
  public:
   Writer(Peer& peer, Hub& hub, const MorseComponent& component)
-      : StreamConnection(peer, hub), component_(component) {}
+      : StreamConnection(peer, hub),
+        component_(component),
+        commander_(hub.host().shared_from_this()) {}
 
   void on_message(std::string_view line) override {
     if (line.find_first_not_of(" \t\r") == std::string_view::npos || take_token(line)) return;
@@ -250,7 +252,7 @@ class MorseStreams::Writer final : public StreamConnection {
       const sim::Command command = state().with([&](const sim::Simulation& simulation) {
         return morse_command(component_, object, simulation);
       });
-      state().command(*component_.device, command);
+      MorseState::command(commander_, *component_.device, command);
     } catch (const std::runtime_error& e) {
       complain(component_.name, e.what());
     }
@@ -258,6 +260,7 @@ class MorseStreams::Writer final : public StreamConnection {
 
  private:
   const MorseComponent& component_;
+  Commander commander_;
 };
 
 MorseStreams::MorseStreams(MorseState& state)

@@ -22,9 +22,6 @@ using protocol::ProtocolError;
 
 // Doubles represent all whole numbers up to this one exactly.
 constexpr std::int64_t kMaxInteger = std::int64_t{1} << 53U;
-// Cells that the drawings of all sessions may write in a step, without the worker thread's
-// drawings.
-constexpr std::size_t kStepCells = std::size_t{1} << 20U;
 // A larger answer needs a claim on the server's limit of queued bytes, see Hub::claim_room()
 // [bytes].
 constexpr std::size_t kSmallAnswer = std::size_t{1} << 20U;
@@ -226,26 +223,12 @@ void NativeHandler::require_drawing(std::span<const sim::DrawOperation> drawings
   }
 }
 
-// Light drawings wait in the draw queue for the next step or the next access to the canvas, like
-// those of embedded programs. Each session has a share of the limit, so that the sum stays small.
 bool NativeHandler::draw_here(std::vector<sim::DrawOperation>& drawings) {
-  if (drawings.empty()) return true;
-  const CanvasInfo canvas = session().request(CanvasInfoRequest{});
-  sim::drop_covered(drawings);
-  std::size_t cells = 0;
-  for (const sim::DrawOperation& drawing : drawings) {
-    cells += sim::cells_written(drawing, canvas.width, canvas.height);
-  }
-  const std::size_t share = kStepCells / std::max<std::size_t>(state_->leaders.size(), 1);
-  if (queued_cells_ + cells > std::min(share, 4 * kInlineCells)) return false;
-  queued_cells_ += cells;
-  session().draw(drawings);
-  return true;
+  return light_drawings_.queue(session(), drawings, state_->leaders.size());
 }
 
 void NativeHandler::draw_elsewhere(std::vector<sim::DrawOperation> drawings, const json& id,
                                    const std::string& name, std::function<void()> then) {
-  queued_cells_ = 0;
   const auto drawing = std::make_shared<DrawWork>();
   drawing->operations = std::move(drawings);
   work(
@@ -418,7 +401,7 @@ void NativeHandler::on_peek_timeout() {
 
 // The answer to a `read` for the outcome of its wait. A cancelled wait has timed out.
 json NativeHandler::round(Wait wait, Outcome outcome) {
-  if (outcome != Outcome::kIdle && wait != Wait::kNone) queued_cells_ = 0;  // a step has drawn them
+  if (outcome != Outcome::kIdle && wait != Wait::kNone) light_drawings_.note_step();
   if (wait == Wait::kData && outcome == Outcome::kFinished) {
     throw SessionError(SessionError::Code::kFinished, "the simulated run is over");
   }

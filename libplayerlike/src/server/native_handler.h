@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "server/event_wait.h"
+#include "server/light_drawings.h"
 #include "server/native_state.h"
 #include "server/native_work.h"
 #include "server/peer.h"
@@ -116,7 +117,7 @@ class NativeHandler final : public Handler {
   std::optional<Waiting> waiting_;
   bool ending_ = false;                  ///< the client has sent bye
   std::uint64_t canvas_generation_ = 0;  ///< the generation that the client knows
-  std::size_t queued_cells_ = 0;  ///< cells of queued drawings that may not have been drawn yet
+  LightDrawings light_drawings_;
 };
 
 }  // namespace playerlike::server

@@ -22,6 +22,10 @@ struct WorkCells {
   std::size_t operator()(const CellsRequest&) const { return canvas_cells(session); }
   std::size_t operator()(const CanvasImageRequest&) const { return canvas_cells(session); }
   std::size_t operator()(const SaveMapRequest&) const { return canvas_cells(session); }
+  std::size_t operator()(const CreateLayerRequest&) const { return canvas_cells(session); }
+  std::size_t operator()(const RemoveLayerRequest&) const { return canvas_cells(session); }
+  std::size_t operator()(const SaveStateRequest&) const { return canvas_cells(session); }
+  std::size_t operator()(const RestoreStateRequest&) const { return canvas_cells(session); }
   std::size_t operator()(const ResizeCanvasRequest& what) const {
     return canvas_cells(session) + cells_of(what.width, what.height);
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "playerlike/server/server.h"
+#include "virtual_time/program_threads.h"
 
 namespace playerlike {
 namespace {
@@ -36,6 +37,7 @@ ServerSettings onlooker_settings(int player_port) {
 
 std::unique_ptr<Onlookers> open_onlookers(std::shared_ptr<Host> host, int player_port,
                                           sim::LogHook log) {
+  note_own_threads();
   return std::make_unique<ServedOnlookers>(std::move(host), player_port, log);
 }
 

@@ -112,7 +112,8 @@ void PlayerConnection::handle(const player::Message& message) {
     return begin_to_wait();
   }
   OpenDevice* const to = find(address);
-  respond(address, header.subtype, to == nullptr ? Answer{} : request(*to, message));
+  if (to == nullptr) return respond(address, header.subtype, {});
+  request(*to, message);
 }
 
 // --- The interface player
@@ -351,19 +352,87 @@ void PlayerConnection::command(OpenDevice& to, const player::Message& message) {
     } else if (guard_.may_draw()) {
       guard_.note_change();
     }
+    if (auto drawings = to.device->drawings(message.header.subtype, message.payload)) {
+      if (!guard_.may_draw()) guard_.check_canvas();
+      return draw(std::move(drawings));
+    }
     to.device->command(message.header.subtype, message.payload);
   });
 }
 
-PlayerConnection::Answer PlayerConnection::request(OpenDevice& to, const player::Message& message) {
+void PlayerConnection::draw(std::unique_ptr<wire::Drawings> drawings) {
+  struct Rest {
+    DrawWork work;
+    std::unique_ptr<wire::Drawings> drawings;
+  };
+  const auto rest = std::make_shared<Rest>();
+  rest->drawings = std::move(drawings);
+  std::vector<sim::DrawOperation> second;
+  const bool is_more = rest->drawings->next(rest->work.operations) && rest->drawings->next(second);
+  if (!is_more && light_drawings_.queue(session_, rest->work.operations, state_->peers.size())) {
+    return;
+  }
+  rest->work.operations.insert(rest->work.operations.end(), second.begin(), second.end());
+  // The job holds no reference to this connection, which may end before.
+  const auto run_slice = [client = wait_.client(), rest] {
+    if (!client->draw_some(rest->work, kSliceCells)) return true;
+    rest->work = {};
+    return rest->drawings->next(rest->work.operations);
+  };
+  work(run_slice, [this](const std::exception_ptr& error) {
+    try {
+      if (error) std::rethrow_exception(error);
+    } catch (const std::exception& e) {
+      note(std::string("a drawing was not finished: ") + e.what());
+    }
+  });
+}
+
+void PlayerConnection::work(std::function<bool()> run_slice,
+                            std::function<void(const std::exception_ptr&)> then) {
+  peer_.set_busy(true);
+  const auto done = [weak = std::weak_ptr(self_),
+                     then = std::move(then)](const std::exception_ptr& error) {
+    const auto self = weak.lock();
+    if (!self) return;
+    then(error);
+    (*self)->flush();
+    (*self)->peer_.set_busy(false);
+  };
+  hub_.work({std::move(run_slice), done});
+}
+
+void PlayerConnection::request(OpenDevice& to, const player::Message& message) {
+  const Devaddr address = to.address;
+  const int subtype = message.header.subtype;
   Answer answer;
+  bool is_made_elsewhere = false;
   guarded(to, [&] {
+    if (auto make = to.device->long_answer(message.header.subtype, message.payload)) {
+      const auto made = std::make_shared<Answer>();
+      const auto run_slice = [client = wait_.client(), make = std::move(make), made] {
+        std::optional<std::string> payload = make(client->session());
+        made->accepted = payload.has_value();
+        if (payload) made->payload = std::move(*payload);
+        return false;
+      };
+      work(run_slice, [this, address, subtype, made](const std::exception_ptr& error) {
+        if (OpenDevice* const device = find(address)) {
+          guarded(*device, [&] {
+            if (error) std::rethrow_exception(error);
+          });
+        }
+        respond(address, subtype, *made);
+      });
+      is_made_elsewhere = true;
+      return;
+    }
     std::optional<std::string> payload =
         to.device->request(message.header.subtype, message.payload);
     answer.accepted = payload.has_value();
     if (payload) answer.payload = std::move(*payload);
   });
-  return answer;
+  if (!is_made_elsewhere) respond(address, subtype, answer);
 }
 
 // --- Rules
@@ -502,6 +571,7 @@ void PlayerConnection::finish_round(Outcome outcome) {
     hub_.log(sim::LogLevel::kInfo, peer_.name() + ": the simulated run is over");
     return peer_.close("");
   }
+  light_drawings_.note_step();
   if (outcome != Outcome::kData) return;
   round_messages_ = 0;
   EachReading readings([this](DeviceId source, const sim::Reading& reading) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <list>
 #include <memory>
 #include <optional>
@@ -12,6 +14,7 @@
 #include "protocol/player_xdr.h"
 #include "server/event_wait.h"
 #include "server/guarded_session.h"
+#include "server/light_drawings.h"
 #include "server/peer.h"
 #include "server/request_guard.h"
 #include "wire/player_device.h"
@@ -25,7 +28,8 @@ struct PlayerState {
 
 /// Handles one connection in Player's protocol (docs/player_wire.md).
 ///
-/// Answers each request at once. A data request in PULL mode begins a wait of the connection's
+/// Answers each request at once, or when the worker thread has made an answer that takes long. A
+/// data request in PULL mode begins a wait of the connection's
 /// event client; in PUSH mode a wait follows the other. In lockstep, simulated time advances when
 /// all clients wait. All messages of a round are written together. Used by the server's thread
 /// only.
@@ -80,7 +84,12 @@ class PlayerConnection final : public Handler, private wire::DataSink {
   void open(const player::Devaddr& address);
   void close(OpenDevice& device);
   void command(OpenDevice& to, const player::Message& message);
-  [[nodiscard]] Answer request(OpenDevice& to, const player::Message& message);
+  /// Responds, at once or when the answer is made.
+  void request(OpenDevice& to, const player::Message& message);
+  void draw(std::unique_ptr<wire::Drawings> drawings);
+  /// Has the worker thread do a job. Meanwhile the connection does not read.
+  /// @param then  called afterwards by the server's thread, if the connection still exists.
+  void work(std::function<bool()> run_slice, std::function<void(const std::exception_ptr&)> then);
   /// Runs an action of a device. Its first error is logged.
   template <typename Action>
   void guarded(OpenDevice& device, Action action);
@@ -136,8 +145,9 @@ class PlayerConnection final : public Handler, private wire::DataSink {
   ThreadId thread_id_ = 0;
   std::vector<player::AddReplaceRuleReq> rules_;
   std::list<OpenDevice> open_;
-  OpenDevice* current_ = nullptr;     ///< whose messages data() takes
-  double data_time_s_ = 0.0;          ///< their time
+  OpenDevice* current_ = nullptr;  ///< whose messages data() takes
+  double data_time_s_ = 0.0;       ///< their time
+  LightDrawings light_drawings_;
   std::string out_;                   ///< messages to send together
   std::uint32_t round_messages_ = 0;  ///< data messages of the present round
   std::uint32_t overflow_ = 0;        ///< the session's count when it was last asked

@@ -125,6 +125,10 @@ struct RequestGuard::Check {
     require_device(guard.host_.robots(), what.device);
     guard.require_rights(what.device.robot);
   }
+  void check(const TakeChargeRequest& what) const {
+    require_device(guard.host_.robots(), what.device);
+    guard.require_rights(what.device.robot);
+  }
   void check(const LogRequest& what) const {
     if (!what.file && !what.replay && !what.rewind && !what.running) return;
     const std::vector<RobotInfo>& robots = guard.host_.robots();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "protocol/codec.h"
@@ -178,7 +179,6 @@ WatchHub::Moment WatchHub::look(bool with_canvas, Clock::time_point now) {
   sim::CanvasDescription canvas;
   bool copied = false;
   const bool may_copy = with_canvas && now >= next_copy_;
-  Clock::time_point begin;
   hub_.host().with_simulation([&](sim::Simulation& simulation) {
     moment.t_ns = simulation.now_ns();
     moment.poses.reserve(static_cast<std::size_t>(simulation.robot_count()));
@@ -194,15 +194,11 @@ WatchHub::Moment WatchHub::look(bool with_canvas, Clock::time_point now) {
         canvas.height == known.height) {
       return;
     }
-    begin = Clock::now();
     copied = true;
     stack_version_ = layers.version();
-    if (std::int64_t{canvas.width} * canvas.height > kMaxCells) {
-      scratch_.clear();
-    } else {
-      scratch_ = layers.composed();
-    }
   });
+  const Clock::time_point begin = Clock::now();
+  if (copied) copy_picture(canvas);
   moment.finished = hub_.host().finished();
   if (copied) {
     // A canvas whose copying takes long is copied less often.
@@ -213,6 +209,26 @@ WatchHub::Moment WatchHub::look(bool with_canvas, Clock::time_point now) {
         scratch_);
   }
   return moment;
+}
+
+// In pieces, between which others can use the simulation. What changes meanwhile has another
+// version, so it is copied again.
+void WatchHub::copy_picture(const sim::CanvasDescription& canvas) {
+  constexpr int kPiece = 1 << 17;  // cells
+  scratch_.clear();
+  if (std::int64_t{canvas.width} * canvas.height > kMaxCells) return;
+  const std::size_t line = 4 * static_cast<std::size_t>(canvas.width);
+  scratch_.resize(line * static_cast<std::size_t>(canvas.height));
+  const int most = std::max(kPiece / canvas.width, 1);
+  for (int row = 0; row < canvas.height; row += most) {
+    const auto rows = static_cast<std::size_t>(std::min(most, canvas.height - row));
+    hub_.host().with_simulation([&](sim::Simulation& simulation) {
+      sim::LayerStack& layers = simulation.layers();
+      if (layers.width() != canvas.width || layers.height() != canvas.height) return;
+      layers.composed_rows(
+          row, std::span(scratch_).subspan(line * static_cast<std::size_t>(row), line * rows));
+    });
+  }
 }
 
 std::shared_ptr<const std::string> WatchHub::record(const Moment& moment,

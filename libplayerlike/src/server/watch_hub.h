@@ -89,6 +89,7 @@ class WatchHub {
 
   [[nodiscard]] Clock::time_point next_due(const Watcher& watcher, Clock::time_point now) const;
   [[nodiscard]] Moment look(bool with_canvas, Clock::time_point now);
+  void copy_picture(const sim::CanvasDescription& canvas);
   [[nodiscard]] std::shared_ptr<const std::string> record(const Moment& moment,
                                                           const Watcher& watcher) const;
   void schedule(Clock::time_point now);

@@ -22,9 +22,28 @@ struct CellSpan {
   int last = 0;   ///< column, >= first
 };
 
-/// The cells of a polygon whose centres lie inside of it (even-odd rule), clipped to the canvas,
-/// from the top. O(rows * corners).
-/// @param corners  finite [m].
+/// Finds the cells of a polygon whose centres lie inside of it (even-odd rule), clipped to the
+/// canvas, row by row from the top. A row takes time in proportion to the number of corners.
+class PolygonRows {
+ public:
+  /// @param corners  finite [m].
+  PolygonRows(const CanvasInfo& canvas, std::span<const sim::Vec2> corners);
+  /// Appends the cells of the next row. @return false: all rows are done.
+  bool next(std::vector<CellSpan>& spans);
+
+ private:
+  struct Corner {
+    double column, row;  // in cells from the top left corner
+  };
+
+  int width_;
+  std::vector<Corner> corners_;
+  int row_ = 0;  // the next one
+  int last_row_ = -1;
+  std::vector<double> crossings_;
+};
+
+/// All cells of PolygonRows.
 [[nodiscard]] std::vector<CellSpan> polygon_spans(const CanvasInfo& canvas,
                                                   std::span<const sim::Vec2> corners);
 

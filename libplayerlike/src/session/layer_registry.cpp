@@ -58,7 +58,7 @@ void LayerRegistry::require_name(const sim::LayerStack& stack, int client, sim::
 }
 
 // Evicts layers without an owner, oldest first, until one more fits.
-void LayerRegistry::make_room(sim::LayerStack& stack, int client) {
+void LayerRegistry::make_room(sim::LayerStack& stack, int client, Freed* freed) {
   const auto own = static_cast<std::size_t>(std::count_if(
       entries_.begin(), entries_.end(), [&](const Entry& e) { return e.client == client; }));
   if (own >= kMaxLayers) {
@@ -75,36 +75,42 @@ void LayerRegistry::make_room(sim::LayerStack& stack, int client) {
                  " layers of " + std::to_string(stack.width()) + " x " +
                  std::to_string(stack.height()) + " cells are there");
     }
-    stack.remove(orphan->layer);
+    remove_from(stack, orphan->layer, freed);
     entries_.erase(orphan);
   }
 }
 
 sim::LayerId LayerRegistry::create(sim::LayerStack& stack, int client, int port,
-                                   sim::LayerKind kind, sim::LayerStyle style) {
+                                   sim::LayerKind kind, sim::LayerStyle style,
+                                   std::unique_ptr<sim::CellRaster> cells, Freed* freed) {
   require_name(stack, client, kNoLayer, style.name);
   require_transparency(style);
   const auto left_behind = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
     return e.client == kNobody && e.port == port && stack.style(e.layer).name == style.name;
   });
   if (left_behind != entries_.end()) {
-    stack.remove(left_behind->layer);
+    remove_from(stack, left_behind->layer, freed);
     entries_.erase(left_behind);
   }
-  make_room(stack, client);
+  make_room(stack, client, freed);
   entries_.reserve(entries_.size() + 1);
-  const sim::LayerId layer = stack.add(kind, std::move(style), port);
+  const sim::LayerId layer = stack.add(kind, std::move(style), port, std::move(cells));
   entries_.push_back({layer, client, port});
   return layer;
 }
 
-void LayerRegistry::remove(sim::LayerStack& stack, int client, sim::LayerId layer) {
+void LayerRegistry::remove_from(sim::LayerStack& stack, sim::LayerId layer, Freed* freed) {
+  auto cells = stack.remove(layer);
+  if (freed != nullptr) freed->push_back(std::move(cells));
+}
+
+void LayerRegistry::remove(sim::LayerStack& stack, int client, sim::LayerId layer, Freed* freed) {
   require(client, layer);
   if (layer == sim::kBaseLayer) {
     reject(SessionError::Code::kNotAvailable,
            "the layer \"canvas\" is shared by all clients and cannot be removed");
   }
-  stack.remove(layer);
+  remove_from(stack, layer, freed);
   std::erase_if(entries_, [&](const Entry& e) { return e.layer == layer; });
 }
 
@@ -135,12 +141,6 @@ void LayerRegistry::require_size(const sim::LayerStack& stack, int width, int he
                std::to_string(entries_.size() + 1) + " layers: they may have " +
                std::to_string(kMaxLayerCells) + " cells together");
   }
-}
-
-std::vector<std::vector<std::uint8_t>> LayerRegistry::resize(
-    sim::LayerStack& stack, int width, int height, std::vector<std::vector<std::uint8_t>> zeros) {
-  require_size(stack, width, height);
-  return stack.resize(width, height, std::move(zeros));
 }
 
 std::vector<sim::LayerInfo> LayerRegistry::list(const sim::LayerStack& stack, int client) const {

@@ -38,6 +38,11 @@ namespace playerlike {
 /// @name Gripper
 /// @{
 /// Bits of broken beams, as Player's drivers for Pioneers set them.
+/// Properties of position2d by which a mirror takes charge of a robot of a Playpen server, see
+/// TakeChargeRequest: a number of seconds, and a truth value that must be set before.
+inline constexpr const char* kWatchdogProperty = "watchdog";
+inline constexpr const char* kTakeOverProperty = "take_over";
+
 inline constexpr std::uint32_t kOuterBeam = 0x04;
 inline constexpr std::uint32_t kInnerBeam = 0x08;
 

@@ -101,9 +101,12 @@ class TurnClock {
   /// ... and no longer.
   virtual void end_turns(sim::SimTime before_ns) = 0;
   /// Advances simulated time for the calling thread until the last step at or before `target_ns`.
+  /// @param asleep  whether the thread sleeps; otherwise time passes because it has done something
+  /// else for long, such as looking at data.
   /// @param interrupted  receives whether a signal ended the wait.
   /// @return the remaining time up to the target; nullopt if the thread must sleep in real time.
-  virtual std::optional<sim::SimTime> pass_time(sim::SimTime target_ns, bool& interrupted) = 0;
+  virtual std::optional<sim::SimTime> pass_time(sim::SimTime target_ns, bool asleep,
+                                                bool& interrupted) = 0;
 
   // With the mutex held:
 

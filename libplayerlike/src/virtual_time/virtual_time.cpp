@@ -153,7 +153,8 @@ long long elapsed(const ThreadState& thread) {
 enum class SleepResult { kNo, kYes, kInterrupted };
 
 /// Advances simulated time for the calling thread.
-/// @param left_ns  receives the remaining time if a signal ends the wait.
+/// @param left_ns  of a sleep: receives the remaining time if a signal ends it; null if the thread
+/// does not sleep.
 SleepResult advance_time(ThreadState& thread, TurnClock& clock, long long duration_ns,
                          long long* left_ns = nullptr) {
   const Inside inside;
@@ -163,7 +164,7 @@ SleepResult advance_time(ThreadState& thread, TurnClock& clock, long long durati
     const sim::SimTime from_ns = clock.now_ns();
     const sim::SimTime start_ns = from_ns + (thread.ahead_from == from_ns ? thread.ahead_ns : 0);
     bool interrupted = false;
-    const auto ahead_ns = clock.pass_time(start_ns + duration_ns, interrupted);
+    const auto ahead_ns = clock.pass_time(start_ns + duration_ns, left_ns != nullptr, interrupted);
     if (!ahead_ns) return SleepResult::kNo;
     if (interrupted) {
       if (left_ns != nullptr) *left_ns = std::max<sim::SimTime>(*ahead_ns, 0);

@@ -2,6 +2,9 @@
 // Devices that draw: graphics2d.
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "libplayerinterface/player_constants.h"
 #include "session/canvas_cells.h"
@@ -9,6 +12,92 @@
 
 namespace playerlike::wire {
 namespace {
+
+using Kind = sim::DrawOperation::Kind;
+using Points = std::vector<player::Point2d>;
+
+// A batch has so many drawings, or was found with so many comparisons of a polygon's corners.
+constexpr std::size_t kBatch = 4096;
+constexpr std::size_t kComparisons = std::size_t{1} << 20U;
+
+/// Drawings of one layer: the inside of a polygon, then single cells and lines.
+class Sketch final : public Drawings {
+ public:
+  Sketch(sim::LayerId layer, const CanvasInfo& canvas) : layer_(layer), canvas_(canvas) {}
+
+  void set_colour(const sim::CellValue& value) { value_ = value; }
+  void fill() { put(Kind::kFill, 0, 0, 0, 0); }
+  void draw_cell(const player::Point2d& point) {
+    put(Kind::kPixel, column_of(canvas_, point.px), row_of(canvas_, point.py), 0, 0);
+  }
+  void draw_line(const player::Point2d& from, const player::Point2d& to) {
+    put(Kind::kLine, column_of(canvas_, from.px), row_of(canvas_, from.py),
+        column_of(canvas_, to.px), row_of(canvas_, to.py));
+  }
+  void draw_polyline(const Points& points) {
+    if (points.size() == 1) return draw_cell(points.front());
+    for (std::size_t i = 1; i < points.size(); ++i) draw_line(points[i - 1], points[i]);
+  }
+  /// Comes before everything else.
+  void fill_polygon(std::span<const sim::Vec2> corners) {
+    inside_.emplace(canvas_, corners);
+    corners_ = corners.size();
+    fill_value_ = value_;
+  }
+
+  bool next(std::vector<sim::DrawOperation>& batch) override {
+    batch.clear();
+    if (inside_) {
+      next_inside(batch);
+      return true;
+    }
+    const std::size_t count = std::min(kBatch, drawings_.size() - next_);
+    const auto first = drawings_.begin() + static_cast<std::ptrdiff_t>(next_);
+    batch.assign(first, first + static_cast<std::ptrdiff_t>(count));
+    next_ += count;
+    return count > 0;
+  }
+
+ private:
+  void next_inside(std::vector<sim::DrawOperation>& batch) {
+    for (std::size_t compared = 0; compared < kComparisons && batch.size() < kBatch;
+         compared += corners_) {
+      spans_.clear();
+      if (!inside_->next(spans_)) return inside_.reset();
+      for (const CellSpan& span : spans_) {
+        batch.push_back(operation(span.first < span.last ? Kind::kLine : Kind::kPixel, span.first,
+                                  span.row, span.last, span.row, fill_value_));
+      }
+    }
+  }
+
+  void put(Kind kind, int x0, int y0, int x1, int y1) {
+    drawings_.push_back(operation(kind, x0, y0, x1, y1, value_));
+  }
+
+  [[nodiscard]] sim::DrawOperation operation(Kind kind, int x0, int y0, int x1, int y1,
+                                             const sim::CellValue& value) const {
+    sim::DrawOperation made;
+    made.kind = kind;
+    made.layer = layer_;
+    made.x0 = x0;
+    made.y0 = y0;
+    made.x1 = x1;
+    made.y1 = y1;
+    made.value = value;
+    return made;
+  }
+
+  sim::LayerId layer_;
+  CanvasInfo canvas_;
+  sim::CellValue value_;
+  std::optional<PolygonRows> inside_;  // while rows are left
+  std::size_t corners_ = 0;
+  sim::CellValue fill_value_;
+  std::vector<CellSpan> spans_;
+  std::vector<sim::DrawOperation> drawings_;
+  std::size_t next_ = 0;
+};
 
 /// Graphics2dProxy's counterpart: draws on a layer of the client. The layer remains when the device
 /// is closed, and is cleared when it is opened again.
@@ -29,45 +118,55 @@ class Graphics2d final : public RobotDevice {
       return;
     }
     layer_ = earlier->id;
-    clear();
+    command(PLAYER_GRAPHICS2D_CMD_CLEAR, {});
   }
 
   [[nodiscard]] std::vector<DeviceId> sources() const override { return {}; }
 
   void command(std::uint8_t subtype, std::string_view payload) override {
+    const std::unique_ptr<Drawings> all = drawings(subtype, payload);
+    std::vector<sim::DrawOperation> batch;
+    while (all != nullptr && all->next(batch)) session().draw(batch);
+  }
+
+  [[nodiscard]] std::unique_ptr<Drawings> drawings(std::uint8_t subtype,
+                                                   std::string_view payload) override {
     switch (subtype) {
-      case PLAYER_GRAPHICS2D_CMD_CLEAR:
+      case PLAYER_GRAPHICS2D_CMD_CLEAR: {
         static_cast<void>(player::decode<player::Empty>(payload));
-        return clear();
+        auto sketch = begin({}, {});
+        sketch->set_colour(sim::CellValue::of(sim::Colour{0, 0, 0, 0}));
+        sketch->fill();
+        return sketch;
+      }
       case PLAYER_GRAPHICS2D_CMD_POINTS: {
         const auto asked = player::decode<player::Graphics2dCmdPoints>(payload);
-        begin(asked.points, asked.color);
-        for (const player::Point2d& point : asked.points) draw_cell(point);
-        return;
+        auto sketch = begin(asked.points, asked.color);
+        for (const player::Point2d& point : asked.points) sketch->draw_cell(point);
+        return sketch;
       }
       case PLAYER_GRAPHICS2D_CMD_POLYLINE: {
         const auto asked = player::decode<player::Graphics2dCmdPolyline>(payload);
-        begin(asked.points, asked.color);
-        return draw_polyline(asked.points);
+        auto sketch = begin(asked.points, asked.color);
+        sketch->draw_polyline(asked.points);
+        return sketch;
       }
       case PLAYER_GRAPHICS2D_CMD_POLYGON:
-        return draw_polygon(player::decode<player::Graphics2dCmdPolygon>(payload));
+        return polygon(player::decode<player::Graphics2dCmdPolygon>(payload));
       case PLAYER_GRAPHICS2D_CMD_MULTILINE: {
         const auto asked = player::decode<player::Graphics2dCmdMultiline>(payload);
-        begin(asked.points, asked.color);
+        auto sketch = begin(asked.points, asked.color);
         for (std::size_t i = 0; i + 1 < asked.points.size(); i += 2) {
-          draw_line(asked.points[i], asked.points[i + 1]);
+          sketch->draw_line(asked.points[i], asked.points[i + 1]);
         }
-        return;
+        return sketch;
       }
       default:
-        return;
+        return nullptr;
     }
   }
 
  private:
-  using Points = std::vector<player::Point2d>;
-
   // Player's clients often leave alpha 0 and mean an opaque colour.
   [[nodiscard]] static sim::CellValue value_of(const player::Color& c) {
     return sim::CellValue::of(
@@ -75,36 +174,18 @@ class Graphics2d final : public RobotDevice {
   }
 
   // Checks the points, and takes colour and canvas for the following cells and lines.
-  void begin(const Points& points, const player::Color& colour) {
+  [[nodiscard]] std::unique_ptr<Sketch> begin(const Points& points,
+                                              const player::Color& colour) const {
     for (const player::Point2d& point : points) {
       require_number("a point's x", point.px);
       require_number("a point's y", point.py);
     }
-    canvas_ = session().request(CanvasInfoRequest{});
-    value_ = value_of(colour);
+    auto sketch = std::make_unique<Sketch>(layer_, session().request(CanvasInfoRequest{}));
+    sketch->set_colour(value_of(colour));
+    return sketch;
   }
 
-  void clear() {
-    value_ = sim::CellValue::of(sim::Colour{0, 0, 0, 0});
-    put(sim::DrawOperation::Kind::kFill, 0, 0, 0, 0);
-  }
-
-  void draw_cell(const player::Point2d& point) {
-    put(sim::DrawOperation::Kind::kPixel, column_of(canvas_, point.px), row_of(canvas_, point.py),
-        0, 0);
-  }
-
-  void draw_line(const player::Point2d& from, const player::Point2d& to) {
-    put(sim::DrawOperation::Kind::kLine, column_of(canvas_, from.px), row_of(canvas_, from.py),
-        column_of(canvas_, to.px), row_of(canvas_, to.py));
-  }
-
-  void draw_polyline(const Points& points) {
-    if (points.size() == 1) return draw_cell(points.front());
-    for (std::size_t i = 1; i < points.size(); ++i) draw_line(points[i - 1], points[i]);
-  }
-
-  void draw_polygon(player::Graphics2dCmdPolygon asked) {
+  [[nodiscard]] std::unique_ptr<Drawings> polygon(player::Graphics2dCmdPolygon asked) const {
     // Filling takes time in proportion to the number of corners in each row.
     constexpr std::size_t kMostCorners = 10000;
     if (asked.filled != 0 && asked.points.size() > kMostCorners) {
@@ -112,38 +193,21 @@ class Graphics2d final : public RobotDevice {
                          "a filled polygon has at most " + std::to_string(kMostCorners) +
                              " corners, but this has " + std::to_string(asked.points.size()));
     }
-    begin(asked.points, asked.fill_color);
-    if (asked.points.empty()) return;
+    auto sketch = begin(asked.points, asked.fill_color);
+    if (asked.points.empty()) return sketch;
     if (asked.filled != 0) {
       std::vector<sim::Vec2> corners;
       corners.reserve(asked.points.size());
       for (const player::Point2d& point : asked.points) corners.emplace_back(point.px, point.py);
-      for (const CellSpan& span : polygon_spans(canvas_, corners)) {
-        put(span.first < span.last ? sim::DrawOperation::Kind::kLine
-                                   : sim::DrawOperation::Kind::kPixel,
-            span.first, span.row, span.last, span.row);
-      }
+      sketch->fill_polygon(corners);
     }
-    value_ = value_of(asked.color);
+    sketch->set_colour(value_of(asked.color));
     if (asked.points.size() > 1) asked.points.push_back(player::Point2d(asked.points.front()));
-    draw_polyline(asked.points);
-  }
-
-  void put(sim::DrawOperation::Kind kind, int x0, int y0, int x1, int y1) {
-    sim::DrawOperation operation;
-    operation.kind = kind;
-    operation.layer = layer_;
-    operation.x0 = x0;
-    operation.y0 = y0;
-    operation.x1 = x1;
-    operation.y1 = y1;
-    operation.value = value_;
-    session().draw({&operation, 1});
+    sketch->draw_polyline(asked.points);
+    return sketch;
   }
 
   sim::LayerId layer_ = sim::kBaseLayer;
-  CanvasInfo canvas_;     // of the present command
-  sim::CellValue value_;  // of the present command
 };
 
 }  // namespace

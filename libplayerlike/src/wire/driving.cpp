@@ -110,6 +110,28 @@ class Position2d final : public RobotDevice {
     return robot().devices.at(static_cast<std::size_t>(device.device));
   }
 
+  // The watchdog of a mirror, see TakeChargeRequest.
+  std::optional<std::string> own_property(std::uint8_t subtype, std::string_view payload) override {
+    if (subtype == PLAYER_SET_BOOLPROP_REQ) {
+      const auto asked = player::decode<player::BoolpropReq>(payload);
+      if (player::text_of(asked.key) != kTakeOverProperty) return std::nullopt;
+      take_over_ = asked.value != 0;
+      return empty_payload();
+    }
+    if (subtype != PLAYER_GET_DBLPROP_REQ && subtype != PLAYER_SET_DBLPROP_REQ) return std::nullopt;
+    auto asked = player::decode<player::DblpropReq>(payload);
+    if (player::text_of(asked.key) != kWatchdogProperty) return std::nullopt;
+    if (subtype == PLAYER_GET_DBLPROP_REQ) {
+      asked.value = watchdog_s_;
+      return player::encode(asked);
+    }
+    session().request(TakeChargeRequest{binding().reading, asked.value,
+                                        std::exchange(take_over_, false),
+                                        "a client in Player's protocol"});
+    watchdog_s_ = asked.value;
+    return empty_payload();
+  }
+
   void send_to_motors(const sim::Command& command) const {
     if (!binding().motion) {
       throw SessionError(
@@ -166,6 +188,8 @@ class Position2d final : public RobotDevice {
 
   double max_speed_mps_;
   double max_turn_rate_radps_;
+  double watchdog_s_ = 0.0;  // 0: this client is not in charge of the robot
+  bool take_over_ = false;
   std::shared_ptr<GoalDriver> driver_;  // null except at the index of a driver
 };
 
@@ -204,11 +228,7 @@ class Localize final : public RobotDevice {
         for (const double number : asked.cov) require_number("a covariance", number);
         const sim::Pose pose{asked.mean.px, asked.mean.py, sim::normalize_angle(asked.mean.pa)};
         const sim::SetPoseCommand command = set_pose_command(pose, asked.cov);
-        if (!sim::is_valid({*command.variance, *command.covariance})) {
-          throw SessionError(SessionError::Code::kBadArgument,
-                             "the covariance of the pose is not positive semidefinite");
-        }
-        send(command);
+        send(command);  // refuses what is no pose or no covariance
         return empty_payload();
       }
       case PLAYER_LOCALIZE_REQ_GET_PARTICLES:

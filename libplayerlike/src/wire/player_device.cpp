@@ -25,6 +25,18 @@ void PlayerDevice::command(std::uint8_t subtype, std::string_view payload) {
   static_cast<void>(payload);
 }
 
+std::unique_ptr<Drawings> PlayerDevice::drawings(std::uint8_t subtype, std::string_view payload) {
+  static_cast<void>(subtype);
+  static_cast<void>(payload);
+  return nullptr;
+}
+
+LongAnswer PlayerDevice::long_answer(std::uint8_t subtype, std::string_view payload) {
+  static_cast<void>(subtype);
+  static_cast<void>(payload);
+  return {};
+}
+
 std::optional<std::string> PlayerDevice::request(std::uint8_t subtype, std::string_view payload) {
   static_cast<void>(subtype);
   static_cast<void>(payload);
@@ -88,6 +100,7 @@ std::optional<std::string> CommonDevice::text_answer(std::string_view payload) c
 }
 
 std::optional<std::string> CommonDevice::request(std::uint8_t subtype, std::string_view payload) {
+  if (auto own = own_property(subtype, payload)) return own;
   switch (subtype) {
     case PLAYER_CAPABILITIES_REQ:
       return has_capability(payload) ? std::optional(empty_payload()) : std::nullopt;

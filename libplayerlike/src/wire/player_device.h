@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,24 @@ class DataSink {
   ~DataSink() = default;
 };
 
+/// The drawings of a command, in batches, because they may be many and take long to find.
+class Drawings {
+ public:
+  Drawings() = default;
+  Drawings(const Drawings&) = delete;
+  Drawings& operator=(const Drawings&) = delete;
+  virtual ~Drawings() = default;
+
+  /// Replaces a list by the next drawings, of which there may be none yet: a batch is found in a
+  /// few milliseconds. Needs neither the device nor its session.
+  /// @return false: there are no more.
+  virtual bool next(std::vector<sim::DrawOperation>& batch) = 0;
+};
+
+/// Makes an answer that takes long, as PlayerDevice::request() does. Needs no device; any thread
+/// may call it, with a session of the client that is not checked any more.
+using LongAnswer = std::function<std::optional<std::string>(Session&)>;
+
 /// A device as a client of Player's protocol sees it. Each subscription has an object of its own,
 /// because settings such as a laser's angles belong to the client.
 ///
@@ -50,6 +69,13 @@ class PlayerDevice {
   /// @throws protocol::ProtocolError for a payload that cannot be decoded, SessionError for a
   ///         command that the device refuses.
   virtual void command(std::uint8_t subtype, std::string_view payload);
+  /// The drawings of a command that draws, for callers that execute them in turn with others;
+  /// null: the command does not draw, see command(). @throws as command().
+  [[nodiscard]] virtual std::unique_ptr<Drawings> drawings(std::uint8_t subtype,
+                                                           std::string_view payload);
+  /// Checks a request whose answer takes long, for callers that have others to serve. @return what
+  /// makes the answer; empty: the answer does not take long, see request(). @throws as command().
+  [[nodiscard]] virtual LongAnswer long_answer(std::uint8_t subtype, std::string_view payload);
   /// Answers a request.
   /// @return the payload of the acknowledgement; nullopt: the request is refused (NACK).
   /// @throws as command(); the request is then refused, too.

@@ -44,6 +44,11 @@ class CommonDevice : public PlayerDevice {
                                                           std::string_view payload);
   /// The device's numeric settings; null without a device.
   [[nodiscard]] virtual const DeviceSettings* settings() const { return nullptr; }
+  /// Answers a request for a property that is no setting. @return nullopt for other properties.
+  [[nodiscard]] virtual std::optional<std::string> own_property(std::uint8_t /*subtype*/,
+                                                                std::string_view /*payload*/) {
+    return std::nullopt;
+  }
   /// A text property by its name; none without a device.
   [[nodiscard]] virtual std::optional<std::string> text_setting(const std::string& /*name*/) const {
     return std::nullopt;

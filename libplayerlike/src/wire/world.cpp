@@ -78,6 +78,26 @@ class Log final : public CommonDevice {
  public:
   using CommonDevice::CommonDevice;
 
+  // A log that is to be replayed is read first, which may take seconds.
+  [[nodiscard]] LongAnswer long_answer(std::uint8_t subtype, std::string_view payload) override {
+    LogRequest change;
+    if (subtype == PLAYER_LOG_REQ_SET_WRITE_STATE) {
+      change.replay = false;
+      change.running = player::decode<player::LogSetWriteState>(payload).state != 0;
+    } else if (subtype == PLAYER_LOG_REQ_SET_READ_STATE) {
+      change.replay = true;
+      change.running = player::decode<player::LogSetReadState>(payload).state != 0;
+    } else {
+      return {};
+    }
+    if (!change.running.value_or(false)) return {};
+    static_cast<void>(session().request(LogRequest{}));  // whether the client may
+    return [change](Session& client) -> std::optional<std::string> {
+      static_cast<void>(client.request(change));
+      return empty_payload();
+    };
+  }
+
  protected:
   std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
     LogRequest change;
@@ -132,6 +152,18 @@ class Map final : public CommonDevice {
  public:
   using CommonDevice::CommonDevice;
 
+  [[nodiscard]] LongAnswer long_answer(std::uint8_t subtype, std::string_view payload) override {
+    constexpr std::int64_t kQuickCells = 1 << 14;
+    constexpr std::int64_t kMostCells = 1 << 22;  // a server refuses more, see request()
+    if (subtype != PLAYER_MAP_REQ_GET_DATA) return {};
+    const auto asked = player::decode<player::MapData>(payload);
+    const std::optional<WorldMapRequest> tile = tile_of(asked);
+    if (!tile) return {};
+    const std::int64_t cells = std::int64_t{tile->tile->width} * tile->tile->height;
+    if (cells <= kQuickCells || cells > kMostCells) return {};
+    return [asked, tile = *tile](Session& client) { return tile_answer(client, asked, tile); };
+  }
+
  protected:
   std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
     switch (subtype) {
@@ -141,8 +173,11 @@ class Map final : public CommonDevice {
             static_cast<float>(whole.cell_size_m), static_cast<std::uint32_t>(whole.width),
             static_cast<std::uint32_t>(whole.height), pose_2d(whole.origin)});
       }
-      case PLAYER_MAP_REQ_GET_DATA:
-        return tile(player::decode<player::MapData>(payload));
+      case PLAYER_MAP_REQ_GET_DATA: {
+        const auto asked = player::decode<player::MapData>(payload);
+        const std::optional<WorldMapRequest> tile = tile_of(asked);
+        return tile ? tile_answer(session(), asked, *tile) : std::nullopt;
+      }
       default:
         return std::nullopt;
     }
@@ -166,7 +201,8 @@ class Map final : public CommonDevice {
             corner.origin.value_or(sim::Pose{corner.map.origin.x(), corner.map.origin.y(), 0.0})};
   }
 
-  [[nodiscard]] std::optional<std::string> tile(player::MapData asked) const {
+  // The part of the map that is asked for; nullopt if the map has no such part.
+  [[nodiscard]] std::optional<WorldMapRequest> tile_of(const player::MapData& asked) const {
     const Whole whole = whole_map();
     const auto width = static_cast<std::uint32_t>(whole.width);
     const auto height = static_cast<std::uint32_t>(whole.height);
@@ -178,7 +214,13 @@ class Map final : public CommonDevice {
     const sim::CellRect rect{static_cast<int>(asked.col),
                              static_cast<int>(height - asked.row - asked.height),
                              static_cast<int>(asked.width), static_cast<int>(asked.height)};
-    const WorldMap part = session().request(WorldMapRequest{whole.cell_size_m, rect});
+    return WorldMapRequest{whole.cell_size_m, rect};
+  }
+
+  [[nodiscard]] static std::optional<std::string> tile_answer(Session& session,
+                                                              player::MapData asked,
+                                                              const WorldMapRequest& tile) {
+    const WorldMap part = session.request(tile);
     asked.data_range = kMapDataRange;
     asked.data = compressed(map_cells(part.map));
     std::string payload = player::encode(asked);

@@ -1,6 +1,11 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/canvas/cell_raster.h"
 
+#ifdef __linux__
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
+
 #include <algorithm>
 
 #include "canvas/line.h"
@@ -15,6 +20,36 @@ void fill_cells(std::uint8_t* to, std::size_t count, CellValue value) noexcept {
   for (std::size_t i = 0; i < count; ++i) std::memcpy(to + i * sizeof value, &value, sizeof value);
 }
 
+/// Whether one of the cells has another value.
+bool any_other(const std::uint8_t* cells, int count, CellValue value) noexcept {
+  unsigned other = 0;
+  for (int i = 0; i < count; ++i) {
+    CellValue cell;
+    std::memcpy(&cell, cells + static_cast<std::size_t>(i) * sizeof cell, sizeof cell);
+    other |= cell.bits ^ value.bits;
+  }
+  return other != 0;
+}
+
+/// Sets bytes to 0. Linux takes back the whole pages of a large range and gives pages of zeros when
+/// they are used again, in a small part of the time of writing them.
+void clear_bytes(std::uint8_t* begin, std::size_t size) noexcept {
+#ifdef __linux__
+  constexpr std::size_t kLarge = std::size_t{4} << 20U;
+  static const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const std::size_t head = (page - reinterpret_cast<std::uintptr_t>(begin) % page) % page;
+  if (size >= kLarge && size > head + page) {
+    const std::size_t pages = (size - head) / page * page;
+    if (madvise(begin + head, pages, MADV_DONTNEED) == 0) {
+      std::memset(begin, 0, head);
+      std::memset(begin + head + pages, 0, size - head - pages);
+      return;
+    }
+  }
+#endif
+  std::memset(begin, 0, size);
+}
+
 }  // namespace
 
 CellRaster::CellRaster(int width, int height, CellValue blank)
@@ -22,7 +57,7 @@ CellRaster::CellRaster(int width, int height, CellValue blank)
   SIM_ASSERT(width >= 1 && height >= 1);
   tile_stride_ = static_cast<std::size_t>(tile_columns());
   data_.resize(byte_offset(width_) * static_cast<std::size_t>(height_));
-  fill_cells(data_.data(), data_.size() / sizeof blank_, blank_);
+  if (blank_ != CellValue{}) fill_cells(data_.data(), data_.size() / sizeof blank_, blank_);
   tiles_.assign(tile_stride_ * static_cast<std::size_t>(tile_rows()), 0);
 }
 
@@ -44,9 +79,13 @@ void CellRaster::blend_line(int column0, int row0, int column1, int row1, Colour
 void CellRaster::fill_rows(int begin, int end, CellValue value) noexcept {
   SIM_ASSERT(begin >= 0 && begin <= end && end <= height_);
   if (begin == end) return;
-  const auto offset = static_cast<std::size_t>(begin) * byte_offset(width_);
-  const auto count = static_cast<std::size_t>(end - begin) * static_cast<std::size_t>(width_);
-  fill_cells(data_.data() + offset, count, value);
+  if (value == CellValue{} && blank_ == value) {
+    clear_rows(begin, end);
+  } else {
+    const auto offset = static_cast<std::size_t>(begin) * byte_offset(width_);
+    const auto count = static_cast<std::size_t>(end - begin) * static_cast<std::size_t>(width_);
+    fill_cells(data_.data() + offset, count, value);
+  }
   // A tile keeps its mark until all its rows have been filled, which may take several calls.
   const auto marks = [&](int row) {
     return tiles_.begin() +
@@ -63,8 +102,29 @@ void CellRaster::fill_rows(int begin, int end, CellValue value) noexcept {
     const bool whole = (row << kTileShift) >= begin && bottom <= end;
     for (auto tile = marks(row); tile != marks(row + 1); ++tile) {
       // Tiles that were blank before stay unmarked.
-      if ((*tile & (kChanged | kUsed)) != 0) *tile = whole ? kChanged | kUnsaved : kWritten;
+      if ((*tile & (kChanged | kUsed)) != 0) {
+        *tile = whole ? kChanged | kUnsaved | kUncopied : kWritten;
+      }
     }
+  }
+}
+
+// Rows of blank tiles hold zeros already.
+void CellRaster::clear_rows(int begin, int end) noexcept {
+  const auto is_blank = [this](int row) {
+    const auto first = tiles_.begin() +
+                       static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(tile_stride_);
+    return std::none_of(first, first + static_cast<std::ptrdiff_t>(tile_stride_),
+                        [](std::uint8_t tile) { return (tile & kUsed) != 0; });
+  };
+  for (int row = begin; row < end;) {
+    const int first = row;
+    while (row < end && !is_blank(row >> kTileShift)) {
+      row = std::min(end, ((row >> kTileShift) + 1) << kTileShift);
+    }
+    clear_bytes(data_.data() + static_cast<std::size_t>(first) * byte_offset(width_),
+                static_cast<std::size_t>(row - first) * byte_offset(width_));
+    if (row < end) row = std::min(end, ((row >> kTileShift) + 1) << kTileShift);
   }
 }
 
@@ -101,36 +161,54 @@ void CellRaster::set_cells(const CellRect& rect, std::span<const CellValue> valu
   }
 }
 
-std::vector<std::uint8_t> CellRaster::resize(int width, int height,
-                                             std::vector<std::uint8_t> zeros) {
-  SIM_ASSERT(width >= 1 && height >= 1);
-  const std::size_t size = byte_offset(width) * static_cast<std::size_t>(height);
-  if (zeros.size() != size) zeros.assign(size, 0);
-  if (blank_ != CellValue{}) fill_cells(zeros.data(), size / sizeof blank_, blank_);
-  const int columns = std::min(width, width_);
-  const int rows = std::min(height, height_);
-  const bool used = std::any_of(tiles_.begin(), tiles_.end(),
-                                [](std::uint8_t tile) { return (tile & kUsed) != 0; });
-  const auto stride = static_cast<std::size_t>(tiles_across(width));
-  std::vector<std::uint8_t> tiles(stride * static_cast<std::size_t>(tiles_across(height)),
-                                  kChanged | kUnsaved);
-  for (int i = 1; i <= rows && used; ++i) {
-    const int row = height - i;
-    std::uint8_t* const to = zeros.data() + static_cast<std::size_t>(row) * byte_offset(width);
-    std::memcpy(to, row_bytes(height_ - i), byte_offset(columns));
-    std::uint8_t* const marks = tiles.data() + static_cast<std::size_t>(row >> kTileShift) * stride;
-    for (int column = 0; column < columns; ++column) {
-      CellValue value;
-      std::memcpy(&value, to + byte_offset(column), sizeof value);
-      if (value != blank_) marks[column >> kTileShift] = kWritten;
-    }
+void CellRaster::begin_copy() noexcept {
+  for (std::uint8_t& tile : tiles_) {
+    tile = static_cast<std::uint8_t>((tile & kUsed) != 0 ? tile | kUncopied : tile & ~kUncopied);
   }
-  data_.swap(zeros);
-  tiles_.swap(tiles);
-  width_ = width;
-  height_ = height;
-  tile_stride_ = stride;
-  return zeros;
+}
+
+std::size_t CellRaster::copy_some(CellRaster& to, std::size_t& tile, std::size_t cells) {
+  std::size_t copied = 0;
+  for (; tile < tiles_.size() && copied < cells; ++tile) {
+    if ((tiles_[tile] & kUncopied) == 0) continue;
+    copy_tile(to, static_cast<int>(tile % tile_stride_), static_cast<int>(tile / tile_stride_));
+    tiles_[tile] &= static_cast<std::uint8_t>(~kUncopied);
+    copied += std::size_t{kTileSide} * kTileSide;
+  }
+  return copied;
+}
+
+bool CellRaster::copied() const noexcept {
+  unsigned all = 0;
+  for (const std::uint8_t tile : tiles_) all |= tile;
+  return (all & kUncopied) == 0;
+}
+
+// The tiles of rasters of two sizes need not coincide, since rows are counted from the top.
+void CellRaster::copy_tile(CellRaster& to, int column, int row) const {
+  const int left = column << kTileShift;
+  const int right = std::min({left + kTileSide, width_, to.width_});
+  const int shift = to.height_ - height_;
+  const int top = std::max(row << kTileShift, -shift);
+  const int bottom = std::min((row + 1) << kTileShift, height_);
+  if (left >= right) return;
+  const bool same_size = width_ == to.width_ && shift == 0;
+  const std::size_t own =
+      static_cast<std::size_t>(row) * tile_stride_ + static_cast<std::size_t>(column);
+  if (same_size) to.tiles_[own] = tiles_[own] & kUsed;
+  for (int y = top; y < bottom; ++y) {
+    const std::uint8_t* const from = row_bytes(y) + byte_offset(left);
+    std::memcpy(to.data_.data() + static_cast<std::size_t>(y + shift) * byte_offset(to.width_) +
+                    byte_offset(left),
+                from, byte_offset(right - left));
+    if (same_size || !any_other(from, right - left, blank_)) continue;
+    to.tiles_[static_cast<std::size_t>((y + shift) >> kTileShift) * to.tile_stride_ +
+              static_cast<std::size_t>(column)] |= kUsed;
+  }
+}
+
+void CellRaster::mark_all() noexcept {
+  for (std::uint8_t& tile : tiles_) tile |= kChanged | kUnsaved;
 }
 
 void CellRaster::archive(StateArchive& archive) {
@@ -159,6 +237,12 @@ void CellRaster::archive(StateArchive& archive) {
       archive.raw(data_.data() + offset, byte_offset(right - left));
     }
   }
+}
+
+std::size_t CellRaster::archived_bytes() const noexcept {
+  const auto used = static_cast<std::size_t>(std::count_if(
+      tiles_.begin(), tiles_.end(), [](std::uint8_t tile) { return (tile & kUsed) != 0; }));
+  return 64 + tiles_.size() + used * byte_offset(kTileSide * kTileSide);
 }
 
 void CellRaster::clear_changed() noexcept {

@@ -2,281 +2,16 @@
 #include "sim/canvas/layers.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <iterator>
 #include <limits>
-#include <tuple>
 #include <unordered_set>
 #include <utility>
 
+#include "canvas/layer_stack.h"
 #include "sim/core/assert.h"
 #include "sim/core/state_archive.h"
 
 namespace sim {
-namespace {
-
-constexpr float kUnknown = 0.5F;
-
-/// Conversion of a layer's cells to colours: the layer's kind and the relevant parts of its style.
-struct Ink {
-  Ink(LayerKind of_kind, const LayerStyle& style)
-      : kind(of_kind), colour(style.colour), transparent_colour(style.transparent_colour) {
-    const double opaque = 1.0 - style.transparency;
-    // NaN counts as opaque.
-    opacity = opaque < 1.0
-                  ? static_cast<std::uint8_t>(std::floor(255.0 * std::max(opaque, 0.0) + 0.5))
-                  : std::uint8_t{255};
-    if (kind != LayerKind::kBinary) colour = {};
-    if (transparent_colour) transparent_colour->a = 255;
-  }
-
-  [[nodiscard]] Colour drawn(CellValue value) const noexcept {
-    switch (kind) {
-      case LayerKind::kColour:
-        return drawn_as<LayerKind::kColour>(value);
-      case LayerKind::kBinary:
-        return drawn_as<LayerKind::kBinary>(value);
-      case LayerKind::kGrey:
-        break;
-    }
-    return drawn_as<LayerKind::kGrey>(value);
-  }
-
-  /// Like drawn(), for a kind known at compile time; for loops over many cells.
-  template <LayerKind kKind>
-  [[nodiscard]] Colour drawn_as(CellValue value) const noexcept {
-    Colour c = shade<kKind>(value);
-    if (transparent_colour && c.r == transparent_colour->r && c.g == transparent_colour->g &&
-        c.b == transparent_colour->b) {
-      return {0, 0, 0, 0};
-    }
-    if (opacity != 255) c.a = static_cast<std::uint8_t>((c.a * opacity + 127u) / 255u);
-    return c.a == 0 ? Colour{0, 0, 0, 0} : c;
-  }
-
-  friend bool operator==(const Ink&, const Ink&) = default;
-
-  LayerKind kind;
-  Colour colour;
-  std::optional<Colour> transparent_colour;
-  std::uint8_t opacity = 255;
-
- private:
-  template <LayerKind kKind>
-  [[nodiscard]] Colour shade(CellValue value) const noexcept {
-    if constexpr (kKind == LayerKind::kColour) {
-      return value.colour();
-    } else if constexpr (kKind == LayerKind::kBinary) {
-      return value.set() ? colour : Colour{0, 0, 0, 0};
-    } else {
-      const float occupancy = value.occupancy();
-      // Both comparisons fail for NaN.
-      const float p = occupancy >= 0.0F  ? std::min(occupancy, 1.0F)
-                      : occupancy < 0.0F ? 0.0F
-                                         : kUnknown;
-      // 255 (1 - p) rounded to nearest, halves up: computed from its double, rounded down.
-      const auto doubled = static_cast<unsigned>(510.0 * (1.0 - static_cast<double>(p)));
-      const auto grey = static_cast<std::uint8_t>((doubled + 1) / 2);
-      return {grey, grey, grey, 255};
-    }
-  }
-};
-
-CellValue blank_of(LayerKind kind) {
-  return kind == LayerKind::kGrey ? CellValue::of(kUnknown) : CellValue{};
-}
-
-struct Layer {
-  LayerId id;
-  LayerKind kind;
-  int owner;
-  LayerStyle style;
-  Ink ink{LayerKind::kColour, {}};
-  std::unique_ptr<CellRaster> own;  // null for the base layer, whose cells are the canvas's
-  CellRaster* cells;
-
-  /// Whether blank cells are visible.
-  [[nodiscard]] bool blank_shows() const { return ink.drawn(cells->blank()).a != 0; }
-};
-
-/// Whether a is drawn before b.
-bool lies_below(const Layer& a, const Layer& b) {
-  const auto rank = [](const Layer& layer) {
-    return std::tuple(layer.style.priority, layer.id != kBaseLayer, layer.owner, layer.id);
-  };
-  return rank(a) < rank(b);
-}
-
-bool any_bit(const std::vector<std::uint8_t>& bytes, std::uint8_t bits) {
-  unsigned all = 0;
-  for (const std::uint8_t byte : bytes) all |= byte;
-  return (all & bits) != 0;
-}
-
-}  // namespace
-
-struct LayerStack::Impl {
-  explicit Impl(const CanvasDescription& place) : description(place), base(place) {
-    LayerStyle style;
-    style.name = "canvas";
-    const Ink ink(LayerKind::kColour, style);
-    layers.push_back(
-        {kBaseLayer, LayerKind::kColour, 0, std::move(style), ink, nullptr, &cells(base)});
-    dirty.assign(cells(base).tiles().size(), 0);
-    picture.assign(base.data().size(), 0);
-  }
-
-  static CellRaster& cells(Canvas& canvas) { return canvas.cells_; }
-
-  [[nodiscard]] Layer* find(LayerId id) {
-    const auto it =
-        std::find_if(layers.begin(), layers.end(), [id](const Layer& l) { return l.id == id; });
-    return it == layers.end() ? nullptr : &*it;
-  }
-  [[nodiscard]] Layer& get(LayerId id) {
-    Layer* layer = find(id);
-    SIM_ASSERT(layer != nullptr);
-    return *layer;
-  }
-
-  /// Marks as dirty everything that the layer shows, or has shown since it was last composed.
-  void mark(const Layer& layer) {
-    const std::vector<std::uint8_t>& tiles = layer.cells->tiles();
-    const bool everywhere = layer.blank_shows();
-    for (std::size_t i = 0; i < dirty.size(); ++i) {
-      if (everywhere || (tiles[i] & (CellRaster::kChanged | CellRaster::kUsed)) != 0) dirty[i] = 1;
-    }
-  }
-
-  [[nodiscard]] std::vector<LayerId> visible_order() const {
-    std::vector<LayerId> order;
-    for (const Layer& layer : layers) {
-      if (layer.style.visible) order.push_back(layer.id);
-    }
-    return order;
-  }
-
-  void set_style(LayerId id, LayerStyle style) {
-    ++revision;
-    const std::vector<LayerId> order_before = visible_order();
-    Layer& layer = get(id);
-    Layer before{layer.id,  layer.kind, layer.owner, std::move(layer.style),
-                 layer.ink, nullptr,    layer.cells};
-    layer.ink = Ink(layer.kind, style);
-    layer.style = std::move(style);
-    const bool looks_else = layer.style.visible && before.style.visible && layer.ink != before.ink;
-    // The sort determines its new position; `layer` may refer to another layer afterwards.
-    std::sort(layers.begin(), layers.end(), lies_below);
-    if (!looks_else && visible_order() == order_before) return;
-    if (before.style.visible) mark(before);
-    if (get(id).style.visible) mark(get(id));
-  }
-
-  /// Recomputes the tile's cells in `picture`.
-  void compose_tile(int tile_column, int tile_row) {
-    const int left = tile_column << CellRaster::kTileShift;
-    const int right = std::min(left + CellRaster::kTileSide, base.width());
-    const int top = tile_row << CellRaster::kTileShift;
-    const int bottom = std::min(top + CellRaster::kTileSide, base.height());
-    const std::size_t tile =
-        static_cast<std::size_t>(tile_row) * static_cast<std::size_t>(cells(base).tile_columns()) +
-        static_cast<std::size_t>(tile_column);
-    const auto count = static_cast<std::size_t>(right - left);
-    const std::size_t stride = static_cast<std::size_t>(base.width()) * sizeof(Colour);
-    std::uint8_t* const first = picture.data() + static_cast<std::size_t>(top) * stride +
-                                static_cast<std::size_t>(left) * sizeof(Colour);
-    for (int row = top; row < bottom; ++row) {
-      std::memset(first + static_cast<std::size_t>(row - top) * stride, 0, count * sizeof(Colour));
-    }
-    for (const Layer& layer : layers) {
-      if (!layer.style.visible) continue;
-      const bool used = (layer.cells->tiles()[tile] & CellRaster::kUsed) != 0;
-      if (!used && !layer.blank_shows()) continue;
-      for (int row = top; row < bottom; ++row) {
-        draw_row(layer.ink,
-                 layer.cells->row_bytes(row) + static_cast<std::size_t>(left) * sizeof(CellValue),
-                 count, first + static_cast<std::size_t>(row - top) * stride);
-      }
-    }
-    recomposed_cells += count * static_cast<std::size_t>(bottom - top);
-  }
-
-  static void draw_row(const Ink& ink, const std::uint8_t* from, std::size_t count,
-                       std::uint8_t* to) {
-    switch (ink.kind) {
-      case LayerKind::kColour:
-        return draw_row_as<LayerKind::kColour>(ink, from, count, to);
-      case LayerKind::kBinary:
-        return draw_row_as<LayerKind::kBinary>(ink, from, count, to);
-      case LayerKind::kGrey:
-        return draw_row_as<LayerKind::kGrey>(ink, from, count, to);
-    }
-  }
-
-  template <LayerKind kKind>
-  static void draw_row_as(const Ink& layer_ink, const std::uint8_t* from, std::size_t count,
-                          std::uint8_t* to) {
-    const Ink ink = layer_ink;  // a copy, so that the bytes written below cannot alias it
-    for (std::size_t i = 0; i < count; ++i) {
-      CellValue value;
-      std::memcpy(&value, from + i * sizeof value, sizeof value);
-      const Colour above = ink.drawn_as<kKind>(value);
-      if (above.a == 0) continue;
-      Colour cell;
-      std::memcpy(&cell, to + i * sizeof cell, sizeof cell);
-      cell = source_over(above, cell);
-      std::memcpy(to + i * sizeof cell, &cell, sizeof cell);
-    }
-  }
-
-  /// Composes dirty tiles until about `cells_at_most` cells are done.
-  /// @return whether none is left.
-  bool compose(std::size_t cells_at_most) {
-    for (Layer& layer : layers) {
-      if (!layer.style.visible) continue;
-      const std::vector<std::uint8_t>& tiles = layer.cells->tiles();
-      for (std::size_t i = 0; i < dirty.size(); ++i) {
-        dirty[i] = static_cast<std::uint8_t>(dirty[i] | (tiles[i] & CellRaster::kChanged));
-      }
-      layer.cells->clear_changed();
-    }
-    if (!any_bit(dirty, 1)) return true;
-    const std::uint64_t end =
-        recomposed_cells + std::min<std::uint64_t>(cells_at_most, 1ULL << 62U);
-    const int columns = cells(base).tile_columns();
-    const int rows = cells(base).tile_rows();
-    std::size_t tile = 0;
-    for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < columns; ++column, ++tile) {
-        if (dirty[tile] == 0) continue;
-        if (recomposed_cells >= end) return false;
-        compose_tile(column, row);
-        dirty[tile] = 0;
-      }
-    }
-    // Incremented only when all is done: a composition in parts is one change of the picture.
-    ++version;
-    return true;
-  }
-
-  /// Whether compose() has work to do.
-  [[nodiscard]] bool is_dirty() const {
-    return any_bit(dirty, 1) || std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
-             return layer.style.visible && any_bit(layer.cells->tiles(), CellRaster::kChanged);
-           });
-  }
-
-  CanvasDescription description;
-  Canvas base;
-  std::vector<Layer> layers;  // in drawing order
-  LayerId next_id = kBaseLayer + 1;
-  std::vector<std::uint8_t> dirty;    // by tile: must be recomposed, for any reason
-  std::vector<std::uint8_t> picture;  // RGBA; valid where no tile is dirty
-  std::uint64_t version = 0;          // number of compose() runs that found work
-  std::uint64_t recomposed_cells = 0;
-  std::uint64_t revision = 0;
-};
 
 void drop_covered(std::vector<DrawOperation>& operations) {
   std::unordered_set<LayerId> filled;  // layers that a later fill covers
@@ -328,11 +63,20 @@ CanvasDescription LayerStack::description() const { return impl_->description; }
 Canvas& LayerStack::base() noexcept { return impl_->base; }
 const Canvas& LayerStack::base() const noexcept { return impl_->base; }
 
-LayerId LayerStack::add(LayerKind kind, LayerStyle style, int owner) {
+std::unique_ptr<CellRaster> LayerStack::blank_cells(LayerKind kind, int width, int height) {
+  return std::make_unique<CellRaster>(width, height, blank_of(kind));
+}
+
+LayerId LayerStack::add(LayerKind kind, LayerStyle style, int owner,
+                        std::unique_ptr<CellRaster> own) {
   SIM_ASSERT(impl_->next_id < std::numeric_limits<LayerId>::max());
   const LayerId id = impl_->next_id++;
   ++impl_->revision;
-  auto own = std::make_unique<CellRaster>(width(), height(), blank_of(kind));
+  ++impl_->memory;
+  if (own == nullptr || own->width() != width() || own->height() != height() ||
+      own->blank() != blank_of(kind)) {
+    own = blank_cells(kind, width(), height());
+  }
   CellRaster* const cells = own.get();
   const Ink ink(kind, style);
   Layer layer{id, kind, owner, std::move(style), ink, std::move(own), cells};
@@ -343,13 +87,15 @@ LayerId LayerStack::add(LayerKind kind, LayerStyle style, int owner) {
   return id;
 }
 
-bool LayerStack::remove(LayerId layer) {
+std::unique_ptr<CellRaster> LayerStack::remove(LayerId layer) {
   Layer* const found = impl_->find(layer);
-  if (found == nullptr || layer == kBaseLayer) return false;
+  if (found == nullptr || layer == kBaseLayer) return nullptr;
   ++impl_->revision;
+  ++impl_->memory;
   if (found->style.visible) impl_->mark(*found);
+  std::unique_ptr<CellRaster> cells = std::move(found->own);
   impl_->layers.erase(impl_->layers.begin() + (found - impl_->layers.data()));
-  return true;
+  return cells;
 }
 
 bool LayerStack::contains(LayerId layer) const noexcept { return impl_->find(layer) != nullptr; }
@@ -455,39 +201,14 @@ std::vector<CellValue> LayerStack::cells(LayerId layer) const {
   return values;
 }
 
-std::vector<std::vector<std::uint8_t>> LayerStack::resize(
-    int width, int height, std::vector<std::vector<std::uint8_t>> zeros) {
-  SIM_ASSERT(width >= 1 && width <= kMaxCanvasSide && height >= 1 && height <= kMaxCanvasSide);
-  if (width == this->width() && height == this->height()) return zeros;
-  ++impl_->revision;
-  const auto take = [&]() -> std::vector<std::uint8_t> {
-    if (zeros.empty()) return {};
-    std::vector<std::uint8_t> bytes = std::move(zeros.back());
-    zeros.pop_back();
-    return bytes;
-  };
-  std::vector<std::vector<std::uint8_t>> old;
-  old.reserve(impl_->layers.size() + 1 + zeros.size());
-  for (Layer& layer : impl_->layers) old.push_back(layer.cells->resize(width, height, take()));
-  impl_->description.width = width;
-  impl_->description.height = height;
-  const CellRaster& base = Impl::cells(impl_->base);
-  impl_->dirty.assign(base.tiles().size(), 1);
-  std::vector<std::uint8_t> picture = take();
-  if (picture.size() != base.data().size()) picture.assign(base.data().size(), 0);
-  impl_->picture.swap(picture);
-  old.push_back(std::move(picture));
-  std::move(zeros.begin(), zeros.end(), std::back_inserter(old));
-  return old;
-}
-
 void LayerStack::archive_base(StateArchive& archive) {
   archive(impl_->base);
   if (!archive.reading()) return;
   impl_->description.width = width();
   impl_->description.height = height();
   impl_->dirty.assign(Impl::cells(impl_->base).tiles().size(), 1);
-  impl_->picture.assign(impl_->base.data().size(), 0);
+  impl_->picture.clear();
+  ++impl_->memory;
 }
 
 void LayerStack::archive_others(StateArchive& archive) {
@@ -523,10 +244,19 @@ void LayerStack::archive_others(StateArchive& archive) {
   layers.swap(impl_->layers);
 }
 
+std::size_t LayerStack::archived_bytes(bool others) const {
+  std::size_t bytes = 0;
+  for (const Layer& layer : impl_->layers) {
+    if (others || layer.id == kBaseLayer) bytes += layer.cells->archived_bytes();
+  }
+  return bytes;
+}
+
 void LayerStack::take_base(LayerStack& from) {
   SIM_ASSERT(width() == from.width() && height() == from.height());
   CellRaster& base = Impl::cells(impl_->base);
   std::swap(base, Impl::cells(from.impl_->base));
+  ++impl_->memory;
   impl_->dirty.assign(base.tiles().size(), 1);
 }
 
@@ -535,14 +265,28 @@ void LayerStack::take_over_from(const LayerStack& before) {
   impl_->version = before.impl_->version;
   impl_->recomposed_cells = before.impl_->recomposed_cells;
   impl_->revision = before.impl_->revision + 1;
+  impl_->memory = before.impl_->memory + 1;
 }
 
 const std::vector<std::uint8_t>& LayerStack::composed() {
-  impl_->compose(std::numeric_limits<std::size_t>::max());
+  impl_->compose_all();
   return impl_->picture;
 }
 
-bool LayerStack::compose_some(std::size_t cells) { return impl_->compose(cells); }
+std::vector<std::uint8_t> LayerStack::take_composed() {
+  impl_->compose_all();
+  std::fill(impl_->dirty.begin(), impl_->dirty.end(), std::uint8_t{1});
+  return std::exchange(impl_->picture, {});
+}
+
+void LayerStack::composed_rows(int row, std::span<std::uint8_t> to) {
+  const std::size_t line = static_cast<std::size_t>(width()) * sizeof(Colour);
+  const auto end = row + static_cast<int>(to.size() / line);
+  SIM_ASSERT(row >= 0 && end <= height());
+  if (to.empty()) return;
+  impl_->compose(row >> CellRaster::kTileShift, CellRaster::tiles_across(end));
+  std::memcpy(to.data(), impl_->picture.data() + static_cast<std::size_t>(row) * line, to.size());
+}
 
 std::vector<std::uint8_t> LayerStack::picture(LayerId layer) const {
   const Layer& found = impl_->get(layer);

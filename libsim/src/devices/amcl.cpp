@@ -99,14 +99,11 @@ std::optional<std::string> Amcl::connect(std::string_view robot, const DeviceDir
 std::optional<std::string> Amcl::apply(const Command& command) {
   const auto* set = std::get_if<SetPoseCommand>(&command);
   if (set == nullptr) return Device::apply(command);
+  if (auto fault = fault_of(*set)) return fault;
   PoseCovariance covariance = initial_covariance(params_);
   if (set->variance)
     covariance = {*set->variance, set->covariance.value_or(std::array<double, 3>{})};
   const Pose& pose = set->pose;
-  if (!pose.position().allFinite() || !std::isfinite(pose.yaw_rad)) {
-    return "a pose must have finite numbers";
-  }
-  if (!is_valid(covariance)) return "a covariance must be finite and positive semidefinite";
   localizer_->set_pose({pose.x_m, pose.y_m, normalize_angle(pose.yaw_rad)}, covariance);
   return std::nullopt;
 }

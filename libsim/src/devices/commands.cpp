@@ -1,11 +1,14 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // The fields of all commands. A new command needs a table here and a name at the end.
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "sim/devices/actarray.h"
 #include "sim/devices/aio.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/dio.h"
+#include "sim/navigation/particles.h"
 
 namespace sim {
 namespace {
@@ -123,6 +126,24 @@ constexpr Field kTrajectory[] = {
 };
 
 }  // namespace
+
+std::optional<std::string> fault_of(const SetPoseCommand& command) {
+  const Pose& pose = command.pose;
+  const bool within_reach =
+      std::abs(pose.x_m) <= kFarthestPose && std::abs(pose.y_m) <= kFarthestPose;
+  if (!within_reach || !std::isfinite(pose.yaw_rad)) {
+    return "a pose must have finite numbers, and x and y at most 1e9 m from 0";
+  }
+  if (!command.variance) return std::nullopt;
+  const PoseCovariance covariance{*command.variance,
+                                  command.covariance.value_or(std::array<double, 3>{})};
+  const auto is_too_large = [](double number) { return number > kFarthestPose * kFarthestPose; };
+  if (std::ranges::any_of(covariance.variance, is_too_large)) {
+    return "a standard deviation of a pose must be at most 1e9 m or rad";
+  }
+  if (!is_valid(covariance)) return "a covariance must be finite and positive semidefinite";
+  return std::nullopt;
+}
 
 SIM_FIELDS(TwistCommand, kTwist)
 SIM_FIELDS(MotorEnableCommand, kMotorEnable)

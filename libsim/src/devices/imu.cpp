@@ -28,6 +28,7 @@ Imu::Imu(std::string name, const ImuParams& params, double yaw_rad, RandomStream
 std::optional<std::string> Imu::apply(const Command& command) {
   const auto* set = std::get_if<SetPoseCommand>(&command);
   if (set == nullptr) return Device::apply(command);
+  if (auto fault = fault_of(*set)) return fault;
   // The next reading adds the rotation since the last reading, including the part before this
   // command.
   yaw_rad_ = normalize_angle(set->pose.yaw_rad - rotation_rad_);

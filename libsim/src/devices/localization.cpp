@@ -37,6 +37,7 @@ std::optional<std::string> PoseSensor::connect(std::string_view robot,
 std::optional<std::string> PoseSensor::apply(const Command& command) {
   const auto* set = std::get_if<SetPoseCommand>(&command);
   if (set == nullptr) return Device::apply(command);
+  if (auto fault = fault_of(*set)) return fault;
   X_FW_ = set->pose * X_WB_.inverse();
   return std::nullopt;
 }
@@ -107,6 +108,7 @@ std::optional<std::string> Odometry::connect(std::string_view robot,
 std::optional<std::string> Odometry::apply(const Command& command) {
   const auto* set = std::get_if<SetPoseCommand>(&command);
   if (set == nullptr) return Device::apply(command);
+  if (auto fault = fault_of(*set)) return fault;
   const Pose X_BR = X_SB_.inverse() * X_SR_;
   X_SB_ = set->pose;
   X_SB_.yaw_rad = normalize_angle(X_SB_.yaw_rad);

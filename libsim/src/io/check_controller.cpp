@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "io/controller_io.h"
+#include "io/controller_work.h"
 #include "io/document.h"
 #include "io/robot_io.h"
 #include "io/solid_limits.h"
@@ -50,6 +51,10 @@ class ControllerChecker {
     }
     for (std::size_t i = 0; i < controller_.traps.size(); ++i) {
       check_trap(controller_.traps[i], at("/controller/traps", i));
+    }
+    if (arena_trusted_ && robots_trusted_ && trusted_("/controller") && trusted_("/canvas") &&
+        trusted_("/simulation")) {
+      check_work();
     }
     return std::move(issues_);
   }
@@ -169,11 +174,12 @@ class ControllerChecker {
       for (std::size_t i = 0; i < configuration.extended.size(); ++i) {
         need_dynamic(at(pointer + "/extended", i), configuration.extended[i]);
       }
+      const std::set<std::string> extended(configuration.extended.begin(),
+                                           configuration.extended.end());
       for (std::size_t i = 0; i < configuration.retracted.size(); ++i) {
         const std::string& name = configuration.retracted[i];
         need_dynamic(at(pointer + "/retracted", i), name);
-        const auto& extended = configuration.extended;
-        if (std::find(extended.begin(), extended.end(), name) == extended.end()) continue;
+        if (!extended.contains(name)) continue;
         add("world/conflicting-state", at(pointer + "/retracted", i),
             "an obstacle in one of the two lists only", in_quotes(name) + " in \"extended\" too",
             "take it out of one of them");
@@ -181,6 +187,26 @@ class ControllerChecker {
       for (const auto& [name, pose] : configuration.places) {
         need_obstacle(pointer + "/poses/" + escape_pointer_part(name), name);
       }
+    }
+  }
+
+  void check_work() {
+    const ControllerWork work(world_);
+    const std::string most = std::to_string(kMaxControllerWork);
+    for (const ArenaConfiguration& configuration : controller_.configurations) {
+      const std::int64_t changes = work.of_configuration(configuration.name);
+      if (changes <= kMaxControllerWork) continue;
+      add("world/too-much-work",
+          "/controller/configurations/" + escape_pointer_part(configuration.name),
+          "at most " + most + " operations in a change of the arena", std::to_string(changes),
+          "a configuration that changes fewer obstacles");
+    }
+    for (const ControllerWork::Excess& excess : work.excesses()) {
+      add("world/too-much-work",
+          at(excess.is_timer ? "/controller/timers" : "/controller/traps", excess.index),
+          "at most " + most + " operations in a step", text_of(excess),
+          excess.acts > 1 ? "a longer \"every\", or less to do each time"
+                          : "less to do, such as smaller parts of the canvas");
     }
   }
 

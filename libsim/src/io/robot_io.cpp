@@ -359,9 +359,12 @@ std::optional<RealRobotDescription> read_real_robot(Reader& robot) {
   if (reader->choice("drive", "real", {"real", "both"}) == "both") {
     real.drive = RealRobotDescription::Drive::kBoth;
   }
-  if (reader->choice("on_lost", "continue", {"continue", "end"}) == "end") {
-    real.on_lost = RealRobotDescription::OnLost::kEnd;
-  }
+  const std::string on_lost =
+      reader->choice("on_lost", "continue", {"continue", "end", "reconnect"});
+  if (on_lost == "end") real.on_lost = RealRobotDescription::OnLost::kEnd;
+  if (on_lost == "reconnect") real.on_lost = RealRobotDescription::OnLost::kReconnect;
+  real.watchdog_s = reader->number("watchdog", real.watchdog_s, {0.05, 600.0, false, "s"});
+  real.take_over = reader->boolean("take_over", real.take_over);
   if (reader->has("pose")) {
     const std::string text = reader->string("pose", "position2d:0");
     const std::size_t colon = text.find(':');

@@ -33,7 +33,6 @@ namespace {
 
 constexpr int kFirstPort = 6665;  ///< Player's default
 constexpr int kMorsePort = 4000;  ///< on this port all robots are visible
-constexpr std::size_t kMaxRobots = 1000;
 
 /// Side of a canvas cell, to which the limits of the physics do not apply.
 constexpr NumberRange kCellSide{1e-4, 10.0, false, "m"};
@@ -415,7 +414,7 @@ class WorldReader {
       world_.robots.push_back(std::move(robot));
       unplaced.push_back(0);
     } else {
-      for (Reader& reader : root.array("robots", kMaxRobots)) {
+      for (Reader& reader : root.array("robots", kMostRobots)) {
         RobotDescription robot;
         robot.colour = kPalette[world_.robots.size() % kPalette.size()];
         if (reader.expect_object()) {

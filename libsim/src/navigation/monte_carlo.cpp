@@ -68,6 +68,8 @@ void MonteCarloLocalizer::set_pose(const Pose& mean, const PoseCovariance& covar
 
 void MonteCarloLocalizer::move(const Pose& X_AB) {
   if (X_AB == Pose{}) return;
+  // Differences of odometry that jumps by more than doubles can express.
+  if (!X_AB.position().allFinite() || !std::isfinite(X_AB.yaw_rad)) return;
   moved_ = moved_ * X_AB;
 }
 

@@ -23,16 +23,23 @@ struct Bin {
   int yaw;  // 0 .. kPoseBinsPerTurn - 1
 };
 
+/// A number as an integer in a range; NaN becomes the least.
+std::int64_t clamped_integer(double number, std::int64_t least, std::int64_t greatest) {
+  // Outside of the range, the conversion would be undefined.
+  if (!(number >= static_cast<double>(least))) return least;
+  if (number >= static_cast<double>(greatest)) return greatest;
+  return static_cast<std::int64_t>(number);
+}
+
 std::int64_t position_bin(double position_m) {
-  return std::clamp(static_cast<std::int64_t>(std::floor(position_m / kPoseBin_m)), 1 - kBinOffset,
-                    kBinOffset - 2) +
+  return clamped_integer(std::floor(position_m / kPoseBin_m), 1 - kBinOffset, kBinOffset - 2) +
          kBinOffset;
 }
 
 Bin bin_of(const Pose& pose) {
   const double turn = normalize_angle(pose.yaw_rad) / (2.0 * std::numbers::pi) + 0.5;
-  const int yaw = std::min(static_cast<int>(turn * kPoseBinsPerTurn), kPoseBinsPerTurn - 1);
-  return {position_bin(pose.x_m), position_bin(pose.y_m), yaw};
+  const std::int64_t yaw = clamped_integer(turn * kPoseBinsPerTurn, 0, kPoseBinsPerTurn - 1);
+  return {position_bin(pose.x_m), position_bin(pose.y_m), static_cast<int>(yaw)};
 }
 
 std::uint64_t key_of(const Bin& bin) {

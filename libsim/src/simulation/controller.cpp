@@ -2,6 +2,8 @@
 #include "simulation/controller.h"
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "sim/devices/battery.h"
@@ -52,7 +54,7 @@ const char* text_of(TrapDescription::On on) {
 }  // namespace
 
 Simulation::Impl::Controller::Controller(Impl& owner)
-    : impl_(owner), description_(owner.world.controller), watch_(owner.world) {
+    : impl_(owner), description_(owner.world.controller), cost_(owner.world), watch_(owner.world) {
   for (const TimerDescription& timer : description_.timers) {
     timer_of_.emplace(timer.name, timer_of_.size());
   }
@@ -101,6 +103,8 @@ void Simulation::Impl::Controller::after_step() { work(); }
 
 void Simulation::Impl::Controller::work() {
   if (impl_.verdict) return;
+  work_ = 0;
+  cost_.set_canvas(impl_.layers.width(), impl_.layers.height());
   if (impl_.now_ns >= next_time_ns_) {
     end_texts();
     run_timers();
@@ -108,6 +112,21 @@ void Simulation::Impl::Controller::work() {
   }
   if (!trap_counts_.empty()) run_traps();
   if (!waiting_.empty()) retry_restarts();
+}
+
+// io::check_world() refuses a timer or trap that would do too much by itself. Several may do too
+// much together.
+bool Simulation::Impl::Controller::may_work(std::int64_t operations, const std::string& name) {
+  if (impl_.verdict) return false;
+  work_ += operations;
+  if (work_ <= io::kMaxControllerWork) return true;
+  const std::string reason = "the controller would do more than " +
+                             std::to_string(io::kMaxControllerWork) +
+                             " operations in one step, the last of them for \"" + name + '"';
+  if (impl_.log) impl_.log(LogLevel::kError, "the run ends: " + reason);
+  impl_.verdict = Verdict{false, reason, impl_.now_ns};
+  impl_.record(ArenaEventKind::kEnd, name, {}, reason, 0.0);
+  return false;
 }
 
 void Simulation::Impl::Controller::find_next_time() {
@@ -173,6 +192,7 @@ void Simulation::Impl::Controller::run_timers() {
 
 void Simulation::Impl::Controller::act_timer(std::size_t i) {
   const TimerDescription& description = description_.timers[i];
+  if (!may_work(cost_.of(description.conditions), description.name)) return;
   const bool acts = hold(description.conditions, -1);
   if (acts) {
     ++timers_[i].acted;
@@ -221,7 +241,10 @@ void Simulation::Impl::Controller::run_traps() {
 bool Simulation::Impl::Controller::spring(std::size_t trap, std::size_t robot, const char* how) {
   const TrapDescription& description = description_.traps[trap];
   const int index = static_cast<int>(robot);
-  if (impl_.verdict || !watch_.enabled(trap) || !hold(description.conditions, index)) return false;
+  if (!watch_.enabled(trap) || !may_work(cost_.of(description.conditions), description.name) ||
+      !hold(description.conditions, index)) {
+    return false;
+  }
   ++trap_counts_[trap];
   impl_.record(ArenaEventKind::kTrap, description.name, impl_.world.robots[robot].name, how);
   if (description.once) switch_trap(trap, false);
@@ -298,14 +321,10 @@ std::optional<std::string> Simulation::Impl::Controller::configure(const std::st
   std::vector<std::string> extended = found->extended;
   std::vector<std::string> retracted = found->retracted;
   if (found->others != Others::kKeep) {
-    const auto has = [](const std::vector<std::string>& list, const std::string& block) {
-      return std::find(list.begin(), list.end(), block) != list.end();
-    };
+    std::set<std::string_view> listed(found->extended.begin(), found->extended.end());
+    listed.insert(found->retracted.begin(), found->retracted.end());
     for (const ObstacleDescription& block : impl_.world.arena.obstacles) {
-      if (block.type != ObstacleType::kDynamic || has(found->extended, block.name) ||
-          has(found->retracted, block.name)) {
-        continue;
-      }
+      if (block.type != ObstacleType::kDynamic || listed.contains(block.name)) continue;
       (found->others == Others::kExtended ? extended : retracted).push_back(block.name);
     }
   }
@@ -314,6 +333,22 @@ std::optional<std::string> Simulation::Impl::Controller::configure(const std::st
   for (const std::string& block : extended) note(change_block(block, Change::kExtend));
   if (refused.empty()) return std::nullopt;
   return refused;
+}
+
+std::optional<std::string> Simulation::canvas_refusal(int width, int height) const {
+  if (impl_->world.controller.empty()) return std::nullopt;
+  io::ControllerWork work(impl_->world);
+  work.set_canvas(width, height);
+  const std::vector<io::ControllerWork::Excess> excesses = work.excesses();
+  if (excesses.empty()) return std::nullopt;
+  const io::ControllerWork::Excess& first = excesses.front();
+  const ControllerDescription& controller = impl_->world.controller;
+  return "the arena controller fills the canvas, which " + std::to_string(width) + " x " +
+         std::to_string(height) + " cells would make too much work for one step: \"" +
+         (first.is_timer ? controller.timers[first.index].name
+                         : controller.traps[first.index].name) +
+         "\" would do " + io::text_of(first) + ", and at most " +
+         std::to_string(io::kMaxControllerWork) + " are allowed";
 }
 
 // --- Pictures and state

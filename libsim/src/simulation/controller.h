@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "io/controller_work.h"
 #include "sim/core/random_stream.h"
 #include "simulation/simulation_impl.h"
 #include "simulation/trap_watch.h"
@@ -77,6 +78,8 @@ class Simulation::Impl::Controller {
 
   void start();
   void work();
+  // Counts operations of the present step. If there are too many, ends the run and returns false.
+  bool may_work(std::int64_t operations, const std::string& name);
   void begin_timer(std::size_t i);
   void plan_timer(std::size_t i);
   void run_timers();
@@ -122,6 +125,9 @@ class Simulation::Impl::Controller {
   std::map<std::string, std::size_t, std::less<>> robot_of_;
   std::vector<int> batteries_;  // index of each robot's first battery; -1: none
   std::vector<int> fiducials_;  // index of each robot's first fiducial device; -1: none
+
+  io::ControllerWork cost_;
+  std::int64_t work_ = 0;  // operations in the present step
 
   bool started_ = false;
   SimTime origin_ns_ = 0;      // time of the start or of the last reset

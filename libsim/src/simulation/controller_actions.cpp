@@ -103,7 +103,7 @@ bool Simulation::Impl::Controller::holds(const FiducialCondition& condition, int
 void Simulation::Impl::Controller::act(const std::vector<ArenaAction>& actions,
                                        const Cause& cause) {
   for (const ArenaAction& action : actions) {
-    if (impl_.verdict) return;
+    if (!may_work(cost_.of(action), cause.name)) return;
     std::visit([&](const auto& kind) { act(kind, cause); }, action);
   }
 }

@@ -133,6 +133,7 @@ void Simulation::Impl::move_loads() {
 }
 
 std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_WB) {
+  if (auto refusal = refusal_of_mirrored(i)) return refusal;
   std::vector<Pose> poses;
   for (int k = 0; k < physics->robot_count(); ++k) poses.push_back(physics->body(k).X_WB);
   if (const auto what = io::blocked_by(world, poses, i, X_WB)) {
@@ -147,6 +148,21 @@ std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_
   for (const auto& device : robots[i].devices) device->placed(X_WB);
   invalidate_clearances();
   return std::nullopt;
+}
+
+std::optional<std::string> Simulation::Impl::refusal_of_mirrored(std::size_t i) const {
+  const RobotDescription& robot = world.robots.at(i);
+  if (!robot.real) return std::nullopt;
+  return "robot " + robot.name +
+         " mirrors a real robot: it is where that one is, and only commands to its motors move it";
+}
+
+std::optional<std::string> Simulation::refusal_of_mirrored() const {
+  std::optional<std::string> refusal;
+  for (std::size_t i = 0; i < impl_->world.robots.size() && !refusal; ++i) {
+    refusal = impl_->refusal_of_mirrored(i);
+  }
+  return refusal;
 }
 
 std::optional<std::string> Simulation::follow_real(int robot, const Pose& X_WB) {

@@ -27,13 +27,15 @@ RobotSnapshot Simulation::robot_snapshot(int number) const {
   return shot;
 }
 
-SceneSnapshot Simulation::snapshot() const {
+SceneSnapshot Simulation::snapshot(bool with_canvas) const {
   SceneSnapshot scene;
   scene.world_name = impl_->world.name;
   scene.arena = impl_->world.arena;
   scene.canvas_description = impl_->layers.description();
-  scene.canvas = impl_->layers.composed();
-  scene.layers = impl_->layers.layers();
+  if (with_canvas) {
+    scene.canvas = impl_->layers.composed();
+    scene.layers = impl_->layers.layers();
+  }
   scene.view_mode = impl_->view_mode;
   scene.time_s = to_seconds(impl_->now_ns);
   for (int i = 0; i < robot_count(); ++i) scene.robots.push_back(robot_snapshot(i));

@@ -469,7 +469,11 @@ std::optional<std::string> Simulation::apply(DeviceId id, const Command& command
   return device.execute(command, control);
 }
 
-void Simulation::reset() { impl_->reset(); }
+std::optional<std::string> Simulation::reset() {
+  if (auto refusal = refusal_of_mirrored()) return refusal;
+  impl_->reset();
+  return std::nullopt;
+}
 
 void Simulation::set_active(DeviceId id, bool active) {
   Impl::Control control(*impl_, static_cast<std::size_t>(id.robot));
@@ -479,6 +483,7 @@ void Simulation::set_active(DeviceId id, bool active) {
 bool Simulation::active(DeviceId id) const { return impl_->device(id).active(); }
 
 std::optional<std::string> Simulation::set_dynamics(bool on) {
+  if (auto refusal = refusal_of_mirrored()) return refusal;
   for (int i = 0; i < robot_count(); ++i) impl_->physics->set_suspended(i, !on);
   for (int i = 0; i < static_cast<int>(world().arena.obstacles.size()); ++i) {
     const int body = impl_->physics->body_of_obstacle(i);
@@ -492,6 +497,7 @@ std::optional<std::string> Simulation::set_robot_dynamics(int robot, bool on) {
     return "there is no robot number " + std::to_string(robot) + "; this world has " +
            std::to_string(robot_count());
   }
+  if (auto refusal = impl_->refusal_of_mirrored(static_cast<std::size_t>(robot))) return refusal;
   impl_->physics->set_suspended(robot, !on);
   return std::nullopt;
 }

@@ -126,6 +126,8 @@ struct Simulation::Impl {
   // The same with "robot " or "obstacle " in front.
   [[nodiscard]] std::string title_of_body(int body) const;
   std::optional<std::string> place(std::size_t i, const Pose& X_WB);
+  /// Why a robot cannot be placed or suspended; nullopt unless it mirrors a real one.
+  [[nodiscard]] std::optional<std::string> refusal_of_mirrored(std::size_t robot) const;
   std::optional<std::string> place_block(const std::string& name, const Pose& pose);
   // Index of the obstacle of that name.
   [[nodiscard]] std::optional<int> find_obstacle(const std::string& name) const {
@@ -164,20 +166,18 @@ struct Simulation::Impl {
   // --- State (state.cpp)
   // Writes or reads the state. When reading, this object must be newly constructed.
   void archive(StateArchive& archive);
+  // The parts of the state before and after the canvas.
+  void archive_bodies(StateArchive& archive);
+  void archive_rules(StateArchive& archive);
   // Replaces another simulation, see RestoreScope::kWorld.
   void take_over_from(Impl& before);
   void archive_obstacle(StateArchive& archive, ObstacleDescription& thing);
   void archive_robot(StateArchive& archive, std::size_t i);
-  // The layers of clients, and the view mode.
+  // The view mode, and what only pictures show; the layers of clients follow.
   void archive_pictures(StateArchive& archive);
   // The world in its initial state.
   [[nodiscard]] WorldDescription start_world() const;
   [[nodiscard]] std::uint64_t start_hash() const;
-  // A new simulation of the same world in the state of a snapshot. This one does not change, even
-  // if the snapshot turns out to be invalid.
-  [[nodiscard]] std::unique_ptr<Impl> restored(std::span<const std::uint8_t> snapshot,
-                                               LogHook hook) const;
-
   WorldDescription world;
   LogHook log;
   std::unique_ptr<PhysicsWorld> physics;

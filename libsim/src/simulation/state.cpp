@@ -102,6 +102,12 @@ void Simulation::Impl::archive_robot(StateArchive& archive, std::size_t i) {
 }
 
 void Simulation::Impl::archive(StateArchive& archive) {
+  archive_bodies(archive);
+  layers.archive_base(archive);
+  archive_rules(archive);
+}
+
+void Simulation::Impl::archive_bodies(StateArchive& archive) {
   archive.time(now_ns);
   archive(steps);
   physics->archive(archive);
@@ -129,7 +135,9 @@ void Simulation::Impl::archive(StateArchive& archive) {
     archive.index(spoken.robot, robots.size());
     archive(spoken.text);
   });
-  layers.archive_base(archive);
+}
+
+void Simulation::Impl::archive_rules(StateArchive& archive) {
   archive_arena(archive);
   if (obstacle_motions) obstacle_motions->archive(archive);
   if (!archive.reading()) return;
@@ -140,7 +148,51 @@ void Simulation::Impl::archive_pictures(StateArchive& archive) {
   archive.choice(view_mode, ViewMode::kFullScreen);
   // The hash of the state excludes them, because only pictures and reports use them.
   for (Collision& collision : collisions) archive(collision.place);
+}
+
+StateParts Simulation::state_parts() const {
+  const auto bytes_of = [this](void (Impl::*part)(StateArchive&)) {
+    StateArchive archive;
+    ((*impl_).*part)(archive);
+    return archive.take();
+  };
+  StateParts parts;
+  parts.world_ = impl_->start_hash();
+  parts.seed_ = impl_->world.simulation.seed;
+  parts.bodies_ = bytes_of(&Impl::archive_bodies);
+  parts.rules_ = bytes_of(&Impl::archive_rules);
+  parts.pictures_ = bytes_of(&Impl::archive_pictures);
+  return parts;
+}
+
+void StateParts::append_state(StateArchive& archive, LayerStack& layers) {
+  archive.raw(bodies_.data(), bodies_.size());
+  layers.archive_base(archive);
+  archive.raw(rules_.data(), rules_.size());
+}
+
+std::uint64_t StateParts::hash(LayerStack& layers) {
+  StateArchive archive;
+  archive.reserve(bodies_.size() + rules_.size() + layers.archived_bytes(/*others=*/false));
+  append_state(archive, layers);
+  return hash_of(archive.written());
+}
+
+Snapshot StateParts::snapshot(LayerStack& layers) {
+  SnapshotHeader header{kMagic, kSnapshotVersion, world_, seed_, 0, 0, 0};
+  StateArchive archive;
+  archive.reserve(sizeof header + bodies_.size() + rules_.size() + pictures_.size() +
+                  layers.archived_bytes(/*others=*/true));
+  archive.raw(&header, sizeof header);
+  append_state(archive, layers);
+  header.state = archive.written().size() - sizeof header;
+  archive.raw(pictures_.data(), pictures_.size());
   layers.archive_others(archive);
+  header.pictures = archive.written().size() - sizeof header - header.state;
+  header.hash = hash_of(archive.written().subspan(sizeof header));
+  Snapshot snapshot = archive.take();
+  std::memcpy(snapshot.data(), &header, sizeof header);
+  return snapshot;
 }
 
 std::uint64_t Simulation::state_hash() const {
@@ -149,33 +201,27 @@ std::uint64_t Simulation::state_hash() const {
   return hash_of(archive.written());
 }
 
-Snapshot Simulation::save() const {
-  SnapshotHeader header{
-      kMagic, kSnapshotVersion, impl_->start_hash(), impl_->world.simulation.seed, 0, 0, 0};
-  StateArchive archive;
-  archive.raw(&header, sizeof header);
-  impl_->archive(archive);
-  header.state = archive.written().size() - sizeof header;
-  impl_->archive_pictures(archive);
-  header.pictures = archive.written().size() - sizeof header - header.state;
-  header.hash = hash_of(archive.written().subspan(sizeof header));
-  Snapshot snapshot = archive.take();
-  std::memcpy(snapshot.data(), &header, sizeof header);
-  return snapshot;
-}
+Snapshot Simulation::save() const { return state_parts().snapshot(impl_->layers); }
 
-std::unique_ptr<Simulation::Impl> Simulation::Impl::restored(std::span<const std::uint8_t> snapshot,
-                                                             LogHook hook) const {
-  const SnapshotHeader header = checked_header(snapshot, world, start_hash());
-  auto made = std::make_unique<Impl>(start_world(), std::move(hook), true);
-  made->known_start_hash = known_start_hash;
+SnapshotReader::SnapshotReader(WorldDescription start, std::uint64_t hash, LogHook log)
+    : start_(std::move(start)), hash_(hash), log_(std::move(log)) {}
+
+Simulation SnapshotReader::read(std::span<const std::uint8_t> snapshot) const {
+  const SnapshotHeader header = checked_header(snapshot, start_, hash_);
+  auto made = std::make_unique<Simulation::Impl>(start_, log_, true);
+  made->known_start_hash = hash_;
   StateArchive state(snapshot.subspan(sizeof header, header.state));
   made->archive(state);
   state.expect(state.left() == 0, "no more bytes of state");
   StateArchive pictures(snapshot.subspan(sizeof header + header.state));
   made->archive_pictures(pictures);
+  made->layers.archive_others(pictures);
   pictures.expect(pictures.left() == 0, "no more bytes of pictures");
-  return made;
+  return Simulation(std::move(made));
+}
+
+SnapshotReader Simulation::snapshot_reader() const {
+  return {impl_->start_world(), impl_->start_hash(), impl_->log};
 }
 
 void Simulation::Impl::take_over_from(Impl& before) {
@@ -206,15 +252,21 @@ void Simulation::Impl::take_over_from(Impl& before) {
 }
 
 void Simulation::restore(std::span<const std::uint8_t> snapshot, RestoreScope scope) {
-  std::unique_ptr<Impl> restored = impl_->restored(snapshot, impl_->log);
-  if (scope == RestoreScope::kAll) {
-    restored->layers.take_over_from(impl_->layers);
-  } else {
-    restored->take_over_from(*impl_);
-  }
-  impl_ = std::move(restored);
+  static_cast<void>(replace_by(snapshot_reader().read(snapshot), scope));
 }
 
-Simulation Simulation::fork() const { return Simulation(impl_->restored(save(), {})); }
+Simulation Simulation::replace_by(Simulation restored, RestoreScope scope) {
+  if (scope == RestoreScope::kAll) {
+    restored.impl_->layers.take_over_from(impl_->layers);
+  } else {
+    restored.impl_->take_over_from(*impl_);
+  }
+  std::swap(impl_, restored.impl_);
+  return restored;
+}
+
+Simulation Simulation::fork() const {
+  return SnapshotReader(impl_->start_world(), impl_->start_hash(), {}).read(save());
+}
 
 }  // namespace sim

@@ -128,6 +128,38 @@ TEST_P(AmclDriverTest, ASettingStartsTheFilterAnewFromTheLastPose) {
   EXPECT_NEAR(driver.GetHypoth(0).mean.px, 0.5, 0.1);
 }
 
+TEST_P(AmclDriverTest, NumbersAtTheEndOfTheRangeAreRefusedOrUsed) {
+  start(arena());
+  PlayerClient client(host->connect(6665));
+  Position2dProxy odometry(&client, 1);
+  AmclDriver driver(&client);
+  driver.Set("pf_max_samples", 200);
+  constexpr double kHuge = 1e308;
+  const auto expect_refused = [](const auto& action) {
+    EXPECT_EQ(error_code_of(action), PlayerError::kBadArgument);
+  };
+  expect_refused([&] { driver.SetPose(0.5, 0.4, 1.5, 0.1, kHuge); });
+  expect_refused([&] { driver.SetPose(0.5, 0.4, 1.5, kHuge, 0.1); });
+  expect_refused([&] { driver.SetPose(kHuge, 0.4, 1.5, 0.1, 0.1); });
+  expect_refused([&] { driver.SetPose(0.5, -kHuge, 1.5); });
+  expect_refused([&] { odometry.SetOdometry(kHuge, 0.0, 0.0); });
+  expect_refused([&] { driver.Set("init_pose_var", kHuge); });
+  expect_refused([&] { driver.Set("init_pose_var_yaw_deg", kHuge); });
+  for (const double resolution_m : {kHuge, 1e-308, -1.0, 0.0}) {
+    expect_refused([&] { const AmclDriver other(&client, 1, 0, resolution_m); });
+  }
+  driver.SetPose(1e9, -1e9, kHuge, 1e9, 1e9);
+  for (int i = 0; i < 3; ++i) client.Read();
+  ASSERT_GE(driver.GetHypothCount(), 1U);
+  for (uint32_t i = 0; i < driver.GetHypothCount(); ++i) {
+    const player_localize_hypoth_t hypothesis = driver.GetHypoth(i);
+    for (const double number : {hypothesis.mean.px, hypothesis.mean.py, hypothesis.mean.pa,
+                                hypothesis.cov[0], hypothesis.cov[1], hypothesis.cov[2]}) {
+      EXPECT_TRUE(std::isfinite(number)) << i;
+    }
+  }
+}
+
 TEST_P(AmclDriverTest, SettingsHaveNamesAndRanges) {
   start(arena());
   PlayerClient client(host->connect(6665));

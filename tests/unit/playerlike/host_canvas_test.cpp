@@ -5,25 +5,33 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "patient_host.h"
+#include "playerlike/host/event_client.h"
 #include "playerlike/host/host.h"
+#include "playerlike/host/kept_results.h"
 #include "reachable_host.h"
+#include "sim/core/number_text.h"
 #include "sim/io/map_file.h"
 #include "temporary_folder.h"
 
 namespace playerlike {
 namespace {
 
+using nlohmann::json;
 using sim::CellValue;
 using sim::Colour;
 using sim::DrawOperation;
 using sim::LayerId;
 using sim::LayerKind;
+using std::chrono::milliseconds;
 
 constexpr Colour kRed{255, 0, 0, 255};
 constexpr Colour kBlue{0, 0, 255, 255};
@@ -451,6 +459,68 @@ TEST_P(HostCanvas, ManyThreadsMayUseOneSession) {
   // Resizing moves drawings only by whole rows, so every thread's last row exists.
   for (int t = 0; t < 3; ++t) dot(*session, 0, t, kBlue, layer);
   for (int t = 0; t < 3; ++t) EXPECT_EQ(at(*session, 0, t, layer), kBlue);
+}
+
+// The pictures of 2 million cells take a while. The thread that makes steps for others does not
+// write them; the clients learn of the end when they are there.
+TEST(HostEnd, TheLastPicturesOfALargeCanvasAreWrittenBesideTheServer) {
+  const test_support::TemporaryFolder folder;
+  RunSettings settings;
+  settings.output_folder = folder.path();
+  settings.duration_s = 0.05;
+  const auto host = test::patient_host(two_robots(), settings);
+  const auto client = host->connect_events(6665, [] {});
+  client->session().request(ResizeCanvasRequest{2048, 1024});
+  dot(client->session(), 5, 6, kRed);
+  EXPECT_EQ(client->begin_sleep(1, 10.0), EventClient::Outcome::kWaiting);
+  while (host->advance(milliseconds(1))) {
+  }
+  EXPECT_EQ(host->time().steps, 5U);
+  EXPECT_EQ(at(client->session(), 5, 6), kRed) << "others are answered meanwhile";
+  while (client->outcome() == EventClient::Outcome::kWaiting) std::this_thread::yield();
+  EXPECT_EQ(client->outcome(), EventClient::Outcome::kFinished);
+  EXPECT_TRUE(host->finished());
+  const json report = json::parse(test_support::read_bytes(folder / "report.json"));
+  EXPECT_EQ(report.at("run").at("state_hash"), sim::hexadecimal_text(host->state_hash(), 16));
+  EXPECT_TRUE(std::filesystem::exists(folder / "canvas.png"));
+}
+
+TEST(HostEnd, ResultsThatAreTakenOverAreCompletedFromTheMemory) {
+  const test_support::TemporaryFolder folder;
+  const KeptRun kept(std::size_t{1} << 22U);
+  RunSettings settings;
+  settings.output_folder = folder.path();
+  settings.kept_run = kept.file();
+  const auto host = test::patient_host(two_robots(), settings);
+  const auto session = host->connect(6665);
+  session->request(SleepRequest{0.2});
+  host->note_end_request(SIGTERM);
+  EXPECT_TRUE(host->take_over_results());
+  EXPECT_FALSE(host->take_over_results());
+  host->finish();
+  EXPECT_FALSE(std::filesystem::exists(folder / "canvas.png")) << "the host writes none";
+  ProgramEnd end;
+  end.request = SIGTERM;
+  EXPECT_TRUE(complete_results(kept, two_robots(), settings, end));
+  const json report = json::parse(test_support::read_bytes(folder / "report.json"));
+  EXPECT_EQ(report.at("run").at("steps"), 20);
+  EXPECT_EQ(report.at("run").at("state_hash"), nullptr);
+  EXPECT_EQ(report.at("ended").at("signal"), "SIGTERM");
+  EXPECT_TRUE(std::filesystem::exists(folder / "canvas.png"));
+}
+
+TEST(HostCanvasSize, AControllerThatFillsItBoundsItsSize) {
+  const auto host = test::patient_host(two_robots(
+      R"(}, "controller": {"timers": [{"every": 1, "do": [{"canvas": {"colour": "#ff0000"}}]}])"));
+  const auto session = host->connect(6665);
+  session->request(ResizeCanvasRequest{4096, 4096});
+  try {
+    session->request(ResizeCanvasRequest{8192, 8192});
+    ADD_FAILURE() << "accepted";
+  } catch (const SessionError& error) {
+    EXPECT_EQ(error.code(), SessionError::Code::kNotAvailable);
+    EXPECT_THAT(error.what(), testing::HasSubstr("the arena controller fills the canvas"));
+  }
 }
 
 }  // namespace

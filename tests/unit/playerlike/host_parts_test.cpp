@@ -263,7 +263,7 @@ TEST(Pace, ALimitIsUsedUpStepByStep) {
 using InputsTest = HostPartsTest;
 
 TEST_F(InputsTest, OfCommandsInARowTheLastIsApplied) {
-  Inputs inputs(simulation, warn);
+  Inputs inputs(simulation, describe_robots(simulation), warn);
   const auto client = clients.add(6665, EventRole::kParticipant, {});
   const DeviceId motion = device(0, "motion");
   EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{0.1, 0.0, 0.0}}));
@@ -277,7 +277,7 @@ TEST_F(InputsTest, OfCommandsInARowTheLastIsApplied) {
 }
 
 TEST_F(InputsTest, RefusedCommandsAreWarnings) {
-  Inputs inputs(simulation, warn);
+  Inputs inputs(simulation, describe_robots(simulation), warn);
   const auto client = clients.add(6665, EventRole::kParticipant, {});
   static_cast<void>(inputs.add(*client, pose, sim::TwistCommand{}));
   inputs.before_step(clients);
@@ -285,7 +285,7 @@ TEST_F(InputsTest, RefusedCommandsAreWarnings) {
 }
 
 TEST_F(InputsTest, AQueueOfCommandsHasALimit) {
-  Inputs inputs(simulation, warn);
+  Inputs inputs(simulation, describe_robots(simulation), warn);
   const auto client = clients.add(6665, EventRole::kParticipant, {});
   const DeviceId motion = device(0, "motion");
   int added = 0;
@@ -301,7 +301,7 @@ TEST_F(InputsTest, AQueueOfCommandsHasALimit) {
 }
 
 TEST_F(InputsTest, DrawingsOnLayersOfOthersAreLeftOut) {
-  Inputs inputs(simulation, warn);
+  Inputs inputs(simulation, describe_robots(simulation), warn);
   const auto owner = clients.add(6665, EventRole::kParticipant, {});
   const auto other = clients.add(6666, EventRole::kParticipant, {});
   const sim::LayerId layer = inputs.registry.create(simulation.layers(), owner->number, owner->port,

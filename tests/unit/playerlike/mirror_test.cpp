@@ -18,6 +18,8 @@
 #include "host/scan_difference.h"
 #include "patience.h"
 #include "playerlike/host/host.h"
+#include "playerlike/server/server.h"
+#include "raw_client.h"
 #include "sim/core/error.h"
 #include "sim/devices/amcl.h"
 #include "temporary_folder.h"
@@ -61,7 +63,7 @@ std::shared_ptr<FakeWorld> make_real_robot() {
 }
 
 OpenRealRobot opens(const std::shared_ptr<FakeWorld>& real) {
-  return [real](const std::string&, int) { return test::fake_session(real); };
+  return [real](const RealRobotPlace&) { return test::fake_session(real); };
 }
 
 class MirrorTest : public testing::Test {
@@ -278,9 +280,127 @@ TEST_F(MirrorTest, ALostConnectionIsReportedOnceAndCommandsEnd) {
   EXPECT_THAT(report()["lost"]["reason"].get<std::string>(), HasSubstr("is lost"));
 }
 
+// --- Who is in charge of the real robot
+
+TEST_F(MirrorTest, ItShowsTheServerThatItIsThere) {
+  open(world_text(R"(, "watchdog": 0.05)"));
+  EXPECT_TRUE(eventually([this] {
+    const std::lock_guard lock(real_->mutex);
+    return real_->charges >= 5;
+  }));
+  EXPECT_THAT(real_->in_charge, HasSubstr("the mirror on "));
+  EXPECT_THAT(warnings_, IsEmpty());
+}
+
+TEST_F(MirrorTest, ARobotOfAnotherMirrorIsAnErrorUnlessItIsTakenOver) {
+  real_->in_charge = "the mirror on lab7, process 12";
+  EXPECT_THAT([&] { open(world_text()); },
+              ThrowsMessage<sim::ConfigError>(
+                  AllOf(HasSubstr("/robots/0/real"), HasSubstr("lab7, process 12 is in charge"))));
+  real_->closed = false;  // by the attempt
+  open(world_text(R"(, "take_over": true)"));
+  const std::lock_guard lock(real_->mutex);
+  EXPECT_THAT(real_->in_charge, Not(HasSubstr("lab7")));
+}
+
+TEST_F(MirrorTest, AMirrorWhoseRobotIsTakenOverHasLostIt) {
+  open(world_text(R"(, "watchdog": 0.05)"));
+  {
+    const std::lock_guard lock(real_->mutex);
+    real_->in_charge = "another mirror";
+  }
+  EXPECT_TRUE(eventually([this] {
+    step();
+    return !losses_.empty();
+  }));
+  EXPECT_THAT(losses_, ElementsAre(HasSubstr("another mirror is in charge")));
+}
+
+TEST_F(MirrorTest, TheUserIsToldThatTheWatchdogHasStoppedTheRobot) {
+  open(world_text(R"(, "watchdog": 0.05)"));
+  {
+    const std::lock_guard lock(real_->mutex);
+    real_->stopped = true;
+  }
+  EXPECT_TRUE(eventually([this] {
+    step();
+    return !warnings_.empty();
+  }));
+  EXPECT_THAT(warnings_[0], HasSubstr("has stopped it, since it had heard nothing for 0.05 s"));
+}
+
+TEST_F(MirrorTest, AServerThatCannotWatchIsNamedAtTheStart) {
+  real_->watches = false;
+  open(world_text(R"(, "watchdog": 0.05)"));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("if the network fails, the robot drives on")));
+}
+
+TEST_F(MirrorTest, ALostConnectionIsMadeAgainIfTheWorldSaysSo) {
+  open(world_text(R"(, "on_lost": "reconnect")"));
+  const auto set_closed = [this](bool closed) {
+    const std::lock_guard lock(real_->mutex);
+    real_->closed = closed;
+    real_->changed.notify_all();
+  };
+  set_closed(true);
+  EXPECT_TRUE(eventually([this] {
+    step();
+    return !losses_.empty();
+  }));
+  EXPECT_TRUE(mirror_->has_lost(0));
+  EXPECT_EQ(mirror_->loss_of(device("pose")), "") << "nobody waits in vain";
+  EXPECT_THAT(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}),
+              testing::Optional(testing::Optional(HasSubstr("is lost"))));
+  EXPECT_FALSE(report()["connected"]);
+  set_closed(false);
+  measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
+  EXPECT_FALSE(mirror_->has_lost(0));
+  EXPECT_THAT(warnings_, Contains(HasSubstr("is there again")));
+  EXPECT_TRUE(report()["connected"]);
+  EXPECT_EQ(report()["reconnections"], 1);
+  EXPECT_THAT(sent(), IsEmpty()) << "a new command must set it in motion";
+}
+
+// --- What cannot reach the real robot is refused
+
+TEST_F(MirrorTest, DevicesThatTheRealRobotLacksDoNotMoveIt) {
+  open(world_text(R"(}, "devices": {"go": {"type": "waypoint"}, "jump": {"type": "teleport"})"));
+  const auto refusal = [this](const char* name, const sim::Command& command) {
+    const auto executed = mirror_->take_command(device(name), command);
+    return executed ? executed->value_or("done") : "simulated";
+  };
+  EXPECT_THAT(refusal("go", sim::GotoCommand{{3.0, 3.0}, 0.1, 0.2}),
+              HasSubstr("no counterpart of its waypoint go"));
+  EXPECT_THAT(refusal("jump", sim::PlaceCommand{}), HasSubstr("teleport jump"));
+  EXPECT_EQ(refusal("motion", sim::TwistCommand{}), "done");
+  EXPECT_THAT(refusal("motion", sim::HeadingCommand{0.1, 0.0, 0.0, device("pen").device}),
+              HasSubstr("names a frame"));
+}
+
+TEST_F(MirrorTest, DevicesThatAreSwitchedOffTakeNoCommandsAndGiveNoReadings) {
+  open(world_text());
+  simulation_->set_active(device("motion"), false);
+  EXPECT_THAT(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}),
+              testing::Optional(testing::Optional(HasSubstr("switched off"))));
+  simulation_->set_active(device("laser"), false);
+  real_->add_round({{test::kLaser, test::scan(1.0, {1, 2, 3, 4, 5})}});
+  measures({{test::kOdometry, test::pose_reading(1.1, {})}});
+  EXPECT_THAT(mirror_->readings(), SizeIs(1));
+  EXPECT_THAT(sent(), IsEmpty());
+}
+
+TEST_F(MirrorTest, NobodyPutsItElsewhereOrHoldsItFast) {
+  open(world_text());
+  const auto mirrors = testing::Optional(HasSubstr("robot r1 mirrors a real robot"));
+  EXPECT_THAT(simulation_->place_object("r1", {2.0, 2.0, 0.0}), mirrors);
+  EXPECT_THAT(simulation_->set_dynamics(false), mirrors);
+  EXPECT_THAT(simulation_->set_object_dynamics("r1", false), mirrors);
+  EXPECT_THAT(simulation_->reset(), mirrors);
+}
+
 TEST_F(MirrorTest, ServersThatCannotBeReachedAreErrorsWithTheirPlace) {
   sim::Simulation simulation(sim::load_world_text(world_text(), "lab.json"));
-  const OpenRealRobot refuses = [](const std::string&, int) -> std::unique_ptr<Session> {
+  const OpenRealRobot refuses = [](const RealRobotPlace&) -> std::unique_ptr<Session> {
     throw SessionError(SessionError::Code::kDisconnected, "connection refused");
   };
   const auto robots = describe_robots(simulation);
@@ -625,6 +745,91 @@ TEST(MirroredRun, SettingsBindRobots) {
   EXPECT_THAT([&] { settings.apply_to(world); },
               ThrowsMessage<sim::ConfigError>(
                   AllOf(HasSubstr("a robot of the world: r1, r2, r3"), HasSubstr("[run/real]"))));
+}
+
+// --- MORSE's protocol
+
+/// A server of a world whose robot mirrors a real one, and a client of MORSE.
+class MirroredMorse : public testing::Test {
+ protected:
+  MirroredMorse() {
+    ServerSettings settings;
+    settings.port = 0;
+    settings.stream_port = 0;
+    server_.emplace(host_, settings, [](sim::LogLevel, std::string_view) {});
+  }
+  ~MirroredMorse() override { server_->stop(); }
+
+  [[nodiscard]] test_support::RawClient connect() const { return {"127.0.0.1", server_->port()}; }
+  static std::string ask(test_support::RawClient& client, const std::string& request) {
+    client.send("1 " + request + '\n');
+    return client.line();
+  }
+  /// Waits until the real robot has got this speed as its last command.
+  [[nodiscard]] bool real_gets(double v_mps) const {
+    return eventually([&] {
+      const std::lock_guard lock(real_->mutex);
+      const auto* const twist = real_->sent.empty()
+                                    ? nullptr
+                                    : std::get_if<sim::TwistCommand>(&real_->sent.back().second);
+      return twist != nullptr && twist->twist.v_mps == v_mps;
+    });
+  }
+
+  std::shared_ptr<FakeWorld> real_ = make_real_robot();
+  std::shared_ptr<Host> host_ =
+      Host::create(sim::load_world_text(world_text(R"(}, "devices": {"go": {"type": "waypoint"})")),
+                   settings_for(real_));
+  std::optional<Server> server_;
+};
+
+TEST_F(MirroredMorse, CommandsReachTheRealRobotAndAreRefusedWhereTheyCannot) {
+  auto client = connect();
+  EXPECT_EQ(ask(client, "r1.motion set_speed [0.3, 0]"), "1 SUCCESS");
+  EXPECT_TRUE(real_gets(0.3));
+  EXPECT_EQ(ask(client, "r1.motion stop"), "1 SUCCESS");
+  EXPECT_TRUE(real_gets(0.0));
+  EXPECT_THAT(ask(client, "r1.go goto [1, 1, 0]"), HasSubstr("1 FAILED"));
+  for (const char* request :
+       {"simulation suspend_dynamics", "simulation restore_dynamics", "simulation reset_objects",
+        "simulation set_object_dynamics [\"r1\", false]"}) {
+    EXPECT_THAT(ask(client, request), AllOf(HasSubstr("1 FAILED"), HasSubstr("mirrors a real")))
+        << request;
+  }
+}
+
+TEST_F(MirroredMorse, SwitchingItsMotorsOffStopsTheRealRobot) {
+  auto client = connect();
+  EXPECT_EQ(ask(client, "r1.motion set_speed [0.3, 0]"), "1 SUCCESS");
+  EXPECT_TRUE(real_gets(0.3));
+  EXPECT_EQ(ask(client, R"(simulation deactivate ["r1.motion"])"), "1 SUCCESS");
+  EXPECT_TRUE(real_gets(0.0));
+  EXPECT_THAT(ask(client, "r1.motion set_speed [0.3, 0]"), HasSubstr("switched off"));
+  EXPECT_EQ(ask(client, R"(simulation activate ["r1.motion"])"), "1 SUCCESS");
+  EXPECT_EQ(ask(client, "r1.motion set_speed [0.2, 0]"), "1 SUCCESS");
+  EXPECT_TRUE(real_gets(0.2));
+}
+
+TEST_F(MirroredMorse, TheRealRobotStopsWhenItsCommanderIsGone) {
+  auto looker = connect();
+  EXPECT_THAT(ask(looker, "simulation list_robots"), HasSubstr("r1"));
+  {
+    auto client = connect();
+    EXPECT_EQ(ask(client, "r1.motion set_speed [0.3, 0]"), "1 SUCCESS");
+    EXPECT_TRUE(real_gets(0.3));
+  }
+  EXPECT_TRUE(real_gets(0.0));
+}
+
+TEST_F(MirroredMorse, AStreamOfCommandsStopsTheRealRobotAtItsEnd) {
+  auto client = connect();
+  const std::string answer = ask(client, R"(simulation get_stream_port ["r1.motion"])");
+  {
+    test_support::RawClient stream("127.0.0.1", std::stoi(answer.substr(answer.rfind(' '))));
+    stream.send("{\"v\": 0.3, \"w\": 0}\n");
+    EXPECT_TRUE(real_gets(0.3));
+  }
+  EXPECT_TRUE(real_gets(0.0));
 }
 
 }  // namespace

@@ -57,6 +57,34 @@ TEST_F(OnRobot, APioneersIndexZeroStartsAtZero) {
   EXPECT_FALSE(position->GetStall());
 }
 
+TEST_F(OnRobot, ASpeedBeyondTheLimitsIsToldOnce) {
+  start("s1r_full");
+  testing::internal::CaptureStderr();
+  position->SetSpeed(0.5, 3.0);  // the limits
+  position->SetSpeed(-0.5, -3.0);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  testing::internal::CaptureStderr();
+  for (int i = 0; i < 3; ++i) {
+    position->SetSpeed(2.0, 0.0);
+    position->SetSpeed(0.0, 4.0);
+    position->SetCarlike(-2.0, 0.0);
+    read(1);
+  }
+  EXPECT_EQ(
+      testing::internal::GetCapturedStderr(),
+      "playpen: warning: Position2dProxy::SetSpeed: robot r1 drives at most 0.5 m/s, so 2 m/s "
+      "is clamped to that (reported once)\n");
+}
+
+TEST_F(OnRobot, ATurnRateBeyondTheLimitIsToldOnce) {
+  start("s1r_full");
+  testing::internal::CaptureStderr();
+  for (int i = 0; i < 3; ++i) position->SetSpeed(0.1, -4.0);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "playpen: warning: Position2dProxy::SetSpeed: robot r1 turns at most 3 rad/s, so -4 "
+            "rad/s is clamped to that (reported once)\n");
+}
+
 TEST_F(OnRobot, APioneerTellsItsGeometry) {
   start("pioneer2dx");
   position->RequestGeom();

@@ -38,14 +38,15 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
           Pair("PLAYPEN_DURATION", std::nullopt), Pair("PLAYPEN_TIME", std::nullopt),
           Pair("PLAYPEN_PROGRESS", std::nullopt), Pair("PLAYPEN_RUN", std::nullopt),
           Pair("PLAYPEN_RECORD_FPS", std::nullopt), Pair("PLAYPEN_RECORD_SPEED", std::nullopt),
-          Pair("PLAYPEN_RECORD_SIZE", std::nullopt), Pair("PLAYPEN_FOLLOW", std::nullopt),
-          Pair("PLAYPEN_CROP", std::nullopt), Pair("PLAYPEN_HIDE", std::nullopt),
-          Pair("PLAYPEN_COLOUR_BY", std::nullopt), Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt),
-          Pair("PLAYPEN_VIEW_MODE", std::nullopt), Pair("PLAYPEN_VIEW", std::nullopt),
-          Pair("PLAYPEN_CLIENTS", std::nullopt), Pair("PLAYPEN_INTERFACES", std::nullopt),
-          Pair("PLAYPEN_GRADE", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt),
-          Pair("PLAYPEN_STATE", std::nullopt), Pair("PLAYPEN_REALISM", std::nullopt),
-          Pair("PLAYPEN_REAL", std::nullopt), Pair("PLAYPEN_PLAYER_PORT", std::nullopt),
+          Pair("PLAYPEN_RECORD_FROM", std::nullopt), Pair("PLAYPEN_RECORD_SIZE", std::nullopt),
+          Pair("PLAYPEN_FOLLOW", std::nullopt), Pair("PLAYPEN_CROP", std::nullopt),
+          Pair("PLAYPEN_HIDE", std::nullopt), Pair("PLAYPEN_COLOUR_BY", std::nullopt),
+          Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt), Pair("PLAYPEN_VIEW_MODE", std::nullopt),
+          Pair("PLAYPEN_VIEW", std::nullopt), Pair("PLAYPEN_CLIENTS", std::nullopt),
+          Pair("PLAYPEN_INTERFACES", std::nullopt), Pair("PLAYPEN_GRADE", std::nullopt),
+          Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt), Pair("PLAYPEN_STATE", std::nullopt),
+          Pair("PLAYPEN_REALISM", std::nullopt), Pair("PLAYPEN_REAL", std::nullopt),
+          Pair("PLAYPEN_PLAYER_PORT", std::nullopt), Pair("PLAYPEN_TAKE_OVER", std::nullopt),
           Pair("PLAYPEN_PORT", std::nullopt), Pair("PLAYPEN_DESK", std::nullopt)));
 }
 

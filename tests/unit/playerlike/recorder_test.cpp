@@ -53,6 +53,36 @@ struct Case {
   std::size_t frames;
 };
 
+TEST(Recorder, FilmMayBeginLater) {
+  // floor((0.4 - 0.25) * 25) + 1 frames: at 0.25, 0.29, 0.33 and 0.37 s.
+  const TemporaryFolder folder;
+  RunSettings settings;
+  settings.film = folder / "film";
+  settings.film_from_s = 0.25;
+  sim::Simulation simulation(small_world());
+  Recorder recorder(settings, simulation);
+  for (int step = 0; step < 40; ++step) {
+    simulation.step();
+    recorder.observe(simulation);
+  }
+  recorder.close_film();
+  EXPECT_EQ(files_in(folder / "film").size(), 4U);
+}
+
+TEST(Recorder, AFilmThatWouldBeginAfterTheEndIsReported) {
+  const TemporaryFolder folder;
+  RunSettings settings;
+  settings.film = folder / "film.mp4";
+  settings.film_from_s = 2.0;
+  sim::Simulation simulation(small_world());
+  Recorder recorder(settings, simulation);
+  simulation.step();
+  recorder.observe(simulation);
+  EXPECT_THAT([&] { recorder.close_film(); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("begin at 2 s (--record-from)")));
+  EXPECT_FALSE(fs::exists(settings.film));
+}
+
 TEST(Recorder, FilmHasAFrameForEveryPeriodAndOneForTheStart) {
   // floor(duration * fps / speed) + 1 each.
   for (const Case& c : std::vector<Case>{

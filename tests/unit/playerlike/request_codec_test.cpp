@@ -80,6 +80,7 @@ std::vector<Request> examples() {
           RestoreStateRequest{"s"},
           NoteGoalRequest{{1, 2}, {-0.5, 1.0 / 3.0}, 0.05},
           ParticlesRequest{{0, 3}},
+          TakeChargeRequest{{0, 3}, 0.25, true, "m"},
           LogRequest{},
           LogRequest{"f", true, false, true},
           SetBlackboardRequest{"g", "k", 1, 65535, {0, 255, 10}},
@@ -179,6 +180,7 @@ TEST_P(RequestMessages, AnswersComeOutAsTheyWentIn) {
       {ParticlesRequest{}, std::vector<LocalizationParticle>{}},
       {ParticlesRequest{},
        std::vector<LocalizationParticle>{{{0.1, -2.0, 1.0 / 3.0}, 0.25}, {{}, 0.75}}},
+      {TakeChargeRequest{}, Charge{true, false}},
       {BlackboardRequest{}, std::vector<BlackboardEntry>{{"", "k", 1, 2, {0, 255}, 5, 6}}},
       {TimeRequest{}, time}};
   for (const auto& [request, answer] : all) {

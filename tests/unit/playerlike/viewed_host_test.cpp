@@ -16,6 +16,7 @@
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/localization.h"
+#include "sim/devices/motion.h"
 #include "temporary_folder.h"
 
 namespace playerlike {
@@ -279,18 +280,95 @@ TEST_F(ViewedHostTest, TheRunGoesOnAfterGarbage) {
   read();
 }
 
-TEST(ViewedHost, InLockstepNeitherSpeedNorPauseAreOffered) {
-  const FakeViewer viewer;
-  RunSettings settings;
-  settings.view_socket = viewer.socket_for_run();
-  const auto host = Host::create(sim::load_world(""), std::move(settings));
-  viewer.hello();
+// A run in lockstep with a window or without one, by a program of one thread.
+class WatchedLockstep : public testing::Test {
+ protected:
+  void start(RunSettings settings) {
+    host = Host::create(sim::load_world(""), std::move(settings));
+    session = host->connect(6665);
+    const auto position = find_interface(session->robots(), session->port(), "position2d", 0);
+    motors = position.motion.value();
+    session->request(SubscribeRequest{position.reading});
+  }
+  void start_watched(double from_s = 0.0) {
+    RunSettings settings;
+    settings.view_socket = viewer.socket_for_run();
+    settings.film_from_s = from_s;
+    start(std::move(settings));
+    viewer.hello();
+  }
+  void drive(int reads) const {
+    NewestPose newest;
+    for (int i = 0; i < reads; ++i) {
+      session->wait();
+      static_cast<void>(session->take(newest));
+      session->send(motors, sim::TwistCommand{{0.2, 0.1 * i}});
+    }
+  }
+  std::string shown_with(const std::string& words) const {
+    std::string text;
+    while (text.find(words) == std::string::npos) text = viewer.show().value().text;
+    return text;
+  }
+  void TearDown() override {
+    session.reset();
+    host.reset();
+  }
+
+  FakeViewer viewer;
+  std::shared_ptr<Host> host;
+  std::unique_ptr<Session> session;
+  DeviceId motors;
+};
+
+TEST_F(WatchedLockstep, IsTheSameRunAndNoFasterThanItsViewers) {
+  start({});
+  drive(5);
+  const std::uint64_t hash = host->state_hash();
+  const sim::SimTime end_ns = host->now_ns();
+  TearDown();
+  const auto begin = Clock::now();
+  start_watched();
+  drive(5);
+  EXPECT_EQ(host->state_hash(), hash);
+  EXPECT_EQ(host->now_ns(), end_ns);
+  EXPECT_EQ(host->time().mode, sim::TimeMode::kLockstep);
+  EXPECT_TRUE(host->time().unrepeatable.empty());
+  // The first step is due at once.
+  EXPECT_GE(std::chrono::duration<double>(Clock::now() - begin).count(),
+            sim::to_seconds(end_ns) - 0.02);
+  EXPECT_THAT(shown_with("lockstep"), HasSubstr("x 1 "));
+}
+
+TEST_F(WatchedLockstep, RunsAtFullSpeedUntilTheViewBegins) {
+  // Ten minutes, in which a run at the viewers' speed would exceed all patience.
+  start_watched(600.0);
+  drive(100);
+  EXPECT_THAT(shown_with("lockstep"), HasSubstr("full speed"));
+}
+
+TEST_F(WatchedLockstep, CanBePausedAndItsSpeedChanged) {
+  start_watched();
   viewer.press(' ');
-  viewer.press('s');
-  std::string text;
-  while (text.find("no output folder") == std::string::npos) text = viewer.show().value().text;
-  EXPECT_THAT(text, HasSubstr("lockstep"));
-  EXPECT_THAT(text, Not(HasSubstr("paused")));
+  static_cast<void>(shown_with("paused"));
+  const sim::SimTime paused_ns = host->now_ns();
+  viewer.press('+');
+  static_cast<void>(shown_with("x 2 "));
+  EXPECT_EQ(host->now_ns(), paused_ns);
+  viewer.press(' ');
+  drive(2);
+  EXPECT_GT(host->now_ns(), paused_ns);
+}
+
+TEST_F(WatchedLockstep, GoesOnAtFullSpeedWithoutItsWindow) {
+  start_watched();
+  for (int i = 0; i < 4; ++i) viewer.press('-');
+  static_cast<void>(shown_with("x 0.0625"));
+  viewer.press(' ');
+  static_cast<void>(shown_with("paused"));
+  viewer.die();
+  drive(600);  // a minute, which would take 16
+  EXPECT_GE(host->now_ns(), 59 * sim::kNanosecondsPerSecond);
 }
 
 TEST(ViewedHost, OfAProgramKeepsTheWindowFromThoseItStarts) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/core/error.h"
 #include "sim/core/number_text.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/robot_model.h"
@@ -616,6 +617,90 @@ TEST(ArenaScene, HasTheEventsOfTheLastSecond) {
     times_s.push_back(to_seconds(event.time_ns));
   }
   EXPECT_THAT(times_s, ElementsAre(1.3, 1.7));
+}
+
+// --- The work of a step
+
+// The only issue of a world; its id and place.
+ConfigIssue issue_of(const std::string& controller, const std::string& more) {
+  try {
+    static_cast<void>(room(controller, more));
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.issues(), SizeIs(1));
+    return error.issues().front();
+  }
+  ADD_FAILURE() << "accepted";
+  return {};
+}
+
+// A regression: 5.7 kB of such actions took minutes for each step, in which nobody was answered.
+TEST(ControllerWork, ATimerThatWouldDoTooMuchInAStepIsRefused) {
+  std::string fills;
+  for (int i = 0; i < 90; ++i)
+    fills += std::string(i == 0 ? "" : ",") + R"({"canvas": {"colour": "#ff0000"}})";
+  const std::string canvas = R"(, "canvas": {"size": [8192, 8192], "cell_size": 0.001})";
+  const ConfigIssue one = issue_of(R"("timers": [{"every": 0.001, "do": [)" + fills + "]}]",
+                                   R"(, "simulation": {"step": 0.1})" + canvas);
+  EXPECT_EQ(one.id, "world/too-much-work");
+  EXPECT_EQ(one.pointer, "/controller/timers/0");
+  // 8192^2 cells are 65 536 operations, and one more for each of the 90 actions and the conditions.
+  // A step of 0.1 s has 101 times of a timer that acts every millisecond.
+  EXPECT_THAT(one.found, HasSubstr("101 times 5898331 operations"));
+  EXPECT_EQ(
+      issue_of(R"("traps": [{"near": {"place": [1, 2]}, "do": [)" + fills + "]}]", canvas).pointer,
+      "/controller/traps/0");
+  // To clear the canvas costs a sixteenth, and a small canvas little.
+  static_cast<void>(room(R"("timers": [{"every": 0.1, "do": [{"canvas": {}}]}])", canvas));
+  static_cast<void>(room(R"("timers": [{"every": 0.01, "do": [)" + fills + "]}]"));
+}
+
+TEST(ControllerWork, AConfigurationOfVeryManyBlocksIsRefused) {
+  std::string blocks;
+  std::string names;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string name = "b" + std::to_string(i);
+    blocks += R"(,{"name": ")" + name +
+              R"(", "type": "dynamic", "center": [3.5, 3.5], "size": [0.01, 0.01]})";
+    names += (i == 0 ? "\"" : ",\"") + name + '"';
+  }
+  const auto world = [&](const std::string& controller) {
+    return load_world_text(
+        R"({"arena": {"size": [4, 4], "obstacles": [{"name": "d", "center": [3, 1]})" + blocks +
+        R"(]}, "controller": {)" + controller + "}}");
+  };
+  // A block is found among 1001: 4 + 1001 / 64 = 19 operations. 1000 of them are 19 001.
+  const std::string open = R"("configurations": {"open": {"retracted": [)" + names + "]}}";
+  static_cast<void>(world(open));
+  try {
+    static_cast<void>(world(open + R"(, "timers": [{"do": [{"configuration": "open"},
+                                                           {"configuration": "open"}]}])"));
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.issues().front().id, "world/too-much-work");
+    EXPECT_THAT(error.issues().front().found, HasSubstr("38003"));
+  }
+}
+
+TEST(ControllerWork, TimersThatDoTooMuchTogetherEndTheRun) {
+  // Each of 16 timers colours 2048 x 2048 cells, 4096 operations: the fifth is too much.
+  std::string timers;
+  for (int i = 0; i < 16; ++i) {
+    timers += std::string(i == 0 ? "" : ",") + R"({"name": "t)" + std::to_string(i) +
+              R"(", "at": 0.05, "do": [{"canvas": {"colour": "#00ff00"}}]})";
+  }
+  Simulation simulation(room("\"timers\": [" + timers + "]",
+                             R"(, "canvas": {"size": [2048, 2048], "cell_size": 0.002})"));
+  run(simulation, 0.1);
+  EXPECT_TRUE(simulation.finished());
+  ASSERT_TRUE(simulation.verdict());
+  EXPECT_FALSE(simulation.verdict()->passed);
+  EXPECT_THAT(simulation.verdict()->reason,
+              AllOf(HasSubstr("more than 20000 operations in one step"), HasSubstr("\"t4\"")));
+  EXPECT_THAT(times_of(simulation, ArenaEventKind::kCanvas), SizeIs(4));
+  // The canvas may not become so large that one of them does too much.
+  EXPECT_EQ(simulation.canvas_refusal(4096, 4096), std::nullopt);
+  EXPECT_THAT(simulation.canvas_refusal(8192, 8192).value_or(""),
+              HasSubstr("\"t0\" would do 65538"));
 }
 
 }  // namespace

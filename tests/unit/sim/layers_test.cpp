@@ -11,9 +11,12 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
+
+#include "sim/core/state_archive.h"
 
 namespace sim {
 namespace {
@@ -260,7 +263,7 @@ class Editor {
     } else if (what < 94) {
       add_layer();
     } else if (what < 98) {
-      EXPECT_EQ(stack->remove(id), id != kBaseLayer && plain.find(id) != nullptr);
+      EXPECT_EQ(stack->remove(id) != nullptr, id != kBaseLayer && plain.find(id) != nullptr);
       if (id != kBaseLayer) {
         std::erase_if(plain.layers, [id](const PlainLayer& l) { return l.info.id == id; });
       }
@@ -736,18 +739,87 @@ TEST(LayerStack, IsComposedInPiecesToTheSamePicture) {
   stack.draw(drawings);
   whole.draw(drawings);
   const std::uint64_t version = stack.version();
-  int pieces = 1;
-  while (!stack.compose_some(1000)) {
+  std::vector<std::uint8_t> picture(4 * 200 * 100);
+  for (int row = 0; row < 100; row += 7) {
+    const auto rows = static_cast<std::size_t>(std::min(7, 100 - row));
+    stack.composed_rows(
+        row, std::span(picture).subspan(static_cast<std::size_t>(800 * row), 800 * rows));
     EXPECT_EQ(stack.version(), version) << "the picture is what it will be";
-    ++pieces;
   }
-  EXPECT_GE(pieces, 10) << "of 20 000 cells";
-  EXPECT_EQ(stack.version(), version);
+  EXPECT_EQ(picture, whole.composed());
   EXPECT_EQ(stack.composed(), whole.composed());
   EXPECT_EQ(stack.recomposed_cells(), whole.recomposed_cells());
 }
 
-TEST(LayerStack, TakesAndGivesBackMemoryWhenItIsResized) {
+/// Copies a stack in pieces of `cells` cells, and calls between() before each but the first one.
+template <typename Between>
+LayerCopy copied(LayerStack& stack, std::size_t cells, const Between& between,
+                 LayerCopy copy = LayerCopy()) {
+  for (;;) {
+    const LayerStack::CopyState state = stack.copy_some(copy, cells);
+    if (state == LayerStack::CopyState::kComplete) return copy;
+    if (state == LayerStack::CopyState::kNeedsMemory) {
+      copy.allocate();
+    } else {
+      between();
+    }
+  }
+}
+
+TEST(LayerStack, IsCopiedInPiecesWhileItChanges) {
+  LayerStack stack(CanvasDescription{200, 100, 0.01, Vec2(0, 0)});
+  const LayerId grey = stack.add(LayerKind::kGrey, {.name = "grey", .priority = -1}, 7);
+  stack.draw(many_drawings(grey, 200));
+  stack.draw(many_drawings(kBaseLayer, 200));
+  int pieces = 0;
+  LayerId added = 0;
+  // Draws where the copy has been already, clears, and adds a layer, which begins the copy anew.
+  LayerCopy copy = copied(stack, 1000, [&] {
+    ++pieces;
+    DrawOperation cell;
+    cell.layer = grey;
+    cell.x0 = pieces;
+    cell.value = CellValue::of(0.25F);
+    if (pieces < 60) stack.draw({&cell, 1});
+    if (pieces == 10) stack.base().clear();
+    if (pieces == 20) added = stack.add(LayerKind::kBinary, {.name = "late"}, 1);
+  });
+  EXPECT_GT(pieces, 40) << "of 40 000 cells, half of them twice";
+  LayerStack same = copy.take();
+  ASSERT_EQ(same.layers().size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(same.layers()[i].id, stack.layers()[i].id);
+    EXPECT_EQ(same.layers()[i].style, stack.layers()[i].style);
+    EXPECT_EQ(same.layers()[i].owner, stack.layers()[i].owner);
+  }
+  for (const LayerId layer : {kBaseLayer, grey, added}) {
+    EXPECT_EQ(same.cells(layer), stack.cells(layer)) << layer;
+  }
+  EXPECT_EQ(same.composed(), stack.composed());
+  // Also in what only archives show: the tiles that count as used.
+  StateArchive one;
+  StateArchive other;
+  for (auto* pair : {&stack, &same}) {
+    StateArchive& archive = pair == &stack ? one : other;
+    pair->archive_base(archive);
+    pair->archive_others(archive);
+  }
+  EXPECT_EQ(one.take(), other.take());
+}
+
+TEST(LayerStack, ACopyThatAnotherOneHasOvertakenBeginsAnew) {
+  LayerStack stack(CanvasDescription{200, 100, 0.01, Vec2(0, 0)});
+  stack.draw(many_drawings(kBaseLayer, 200));
+  bool overtaken = false;
+  LayerCopy copy = copied(stack, 1000, [&] {
+    if (std::exchange(overtaken, true)) return;
+    EXPECT_EQ(copied(stack, 1U << 20U, [] {}).take().cells(kBaseLayer), stack.cells(kBaseLayer));
+  });
+  EXPECT_TRUE(overtaken);
+  EXPECT_EQ(copy.take().cells(kBaseLayer), stack.cells(kBaseLayer));
+}
+
+TEST(LayerStack, IsResizedByACopyOfAnotherSize) {
   LayerStack stack(CanvasDescription{40, 30, 0.01, Vec2(0, 0)});
   const LayerId grey = stack.add(LayerKind::kGrey, {.name = "grey"}, 1);
   LayerStack plain(CanvasDescription{40, 30, 0.01, Vec2(0, 0)});
@@ -755,11 +827,11 @@ TEST(LayerStack, TakesAndGivesBackMemoryWhenItIsResized) {
   const auto drawings = many_drawings(grey, 100);
   stack.draw(drawings);
   plain.draw(drawings);
-  std::vector<std::vector<std::uint8_t>> memory(4, std::vector<std::uint8_t>(4 * 50 * 20));
-  memory = stack.resize(50, 20, std::move(memory));
+  LayerCopy copy = copied(
+      stack, 100, [] {}, LayerCopy(50, 20));
+  stack.resize(copy);
   plain.resize(50, 20);
-  EXPECT_EQ(memory.size(), 4U) << "two layers, the picture, and one that was not needed";
-  EXPECT_EQ(memory.front().size(), 4U * 40 * 30);
+  EXPECT_EQ(stack.width(), 50);
   EXPECT_EQ(stack.cells(kBaseLayer), plain.cells(kBaseLayer));
   EXPECT_EQ(stack.cells(grey), plain.cells(grey));
   EXPECT_EQ(stack.composed(), plain.composed());

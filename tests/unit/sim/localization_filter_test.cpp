@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -226,6 +227,14 @@ TEST(PoseCovariance, IsSampledAndChecked) {
   EXPECT_NEAR(xx, 0.04, 4.0 * 0.04 * std::sqrt(2.0 / kDraws));
   EXPECT_NEAR(xy, 0.03, 4.0 * std::sqrt((0.04 * 0.09 + 0.03 * 0.03) / kDraws));
   EXPECT_NEAR(ya, -0.01, 4.0 * std::sqrt((0.09 * 0.01 + 0.01 * 0.01) / kDraws));
+}
+
+TEST(PoseBins, PutAnyPoseIntoABin) {
+  PoseBins bins;
+  EXPECT_TRUE(bins.add({1e308, 1e308, 0.0}));
+  EXPECT_FALSE(bins.add({std::numeric_limits<double>::infinity(), 1e300, 0.0}));
+  EXPECT_TRUE(bins.add({-1e308, 0.0, 0.0}));
+  EXPECT_FALSE(bins.add({NAN, 0.0, 0.0})) << "the least bin";
 }
 
 TEST(ResampleLowVariance, KeepsTheSharesWithinOneParticle) {

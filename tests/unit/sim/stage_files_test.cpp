@@ -547,6 +547,54 @@ TEST_F(StageFiles, IncludesOfPlayersFilesAreFollowed) {
   }
 }
 
+// Each of 29 files includes the next one twice: 2^28 times the last one.
+TEST_F(StageFiles, FilesThatIncludeEachOtherTwiceAreRefused) {
+  for (int i = 1; i < 29; ++i) {
+    const std::string next = "include \"f" + std::to_string(i + 1) + ".inc\"\n";
+    folder_.write("f" + std::to_string(i) + ".inc", next + next);
+  }
+  folder_.write("f29.inc", "");
+  try {
+    static_cast<void>(read("include \"f1.inc\"\n" + std::string(kSmallRobot)));
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.issues().front().id, "stage/include");
+    EXPECT_THAT(error.issues().front().expected, HasSubstr("at most 1000 files"));
+    EXPECT_THAT(error.issues().front().file, HasSubstr(".inc"));
+  }
+}
+
+// 900 times 20 kB.
+TEST_F(StageFiles, TheTextOfAllIncludesIsBounded) {
+  folder_.write("long.inc", "#" + std::string(20'000, '-') + "\n");
+  std::string text;
+  for (int i = 0; i < 900; ++i) text += "include \"long.inc\"\n";
+  try {
+    static_cast<void>(read(text + kSmallRobot));
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.issues().front().id, "stage/too-large");
+    EXPECT_EQ(error.issues().front().line, 839) << "16 MiB / 20 002 bytes";
+  }
+}
+
+// Ten definitions, each with the next one twice: 1024 robots.
+TEST_F(StageFiles, DefinitionsThatMakeTooManyRobotsAreRefusedAtTheFirstThatIsTooMany) {
+  std::string text;
+  for (int i = 1; i <= 12; ++i) {
+    const std::string next = "d" + std::to_string(i + 1) + " ()";
+    text += "define d" + std::to_string(i) + " model ( " + next + ' ' + next + " )\n";
+  }
+  text += "define d13 position ()\nd1 ()\n";
+  try {
+    static_cast<void>(read(text));
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.issues().front().id, "world/too-many");
+    EXPECT_EQ(error.issues().front().line, 12);
+  }
+}
+
 TEST_F(StageFiles, AConfigurationFileOfThatNameThatIsWrongHasALine) {
   folder_.write("w.cfg", "driver ( name \"stage\" provides [\"simulation:0\"]\n");
   const WorldDescription world = read(kSmallRobot);

@@ -45,5 +45,12 @@ TEST(Utf8, FindsTheFirstByteThatBeginsNoCharacter) {
   EXPECT_EQ(find_invalid_utf8("\xc3\xbc\xff"), 2U);
 }
 
+TEST(Utf8, EscapesTheBytesThatBeginNoCharacter) {
+  EXPECT_EQ(escape_invalid_utf8(""), "");
+  EXPECT_EQ(escape_invalid_utf8("gr\xc3\xbcn\n"), "gr\xc3\xbcn\n");
+  EXPECT_EQ(escape_invalid_utf8("gr\xfcn\x0f\x80"), "gr\\xfcn\x0f\\x80");
+  EXPECT_EQ(escape_invalid_utf8("\xe2\x82"), "\\xe2\\x82");
+}
+
 }  // namespace
 }  // namespace sim

@@ -34,11 +34,10 @@ namespace playerlike {
 [[nodiscard]] std::unique_ptr<Session> open_session(const std::string& host, int port);
 
 /// Opens a session with a real robot, for RunSettings::open_real_robot: with the server that
-/// "player://HOST[:PORT]" or "tcp://HOST[:PORT]" names.
-/// @param port  Player port of the robot at a Playpen server, and the default port of a Player
-///     server.
+/// "player://HOST[:PORT]" or "tcp://HOST[:PORT]" names. RealRobotPlace::port is also the default
+/// port of a Player server.
 /// @throws SessionError.
-[[nodiscard]] std::unique_ptr<Session> open_real_robot(const std::string& server, int port);
+[[nodiscard]] std::unique_ptr<Session> open_real_robot(const RealRobotPlace& place);
 
 /// Ends and removes all embedded simulations, so that the next client starts a new one. For tests
 /// and for programs that run several worlds in sequence.

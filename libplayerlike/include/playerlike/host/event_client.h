@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "playerlike/process/thread_id.h"
@@ -88,6 +89,25 @@ class EventClient final {
   std::shared_ptr<Host> host_;
   std::shared_ptr<Client> client_;
   std::unique_ptr<Session> session_;
+};
+
+/// Commands robots for somebody without a session, such as a client in MORSE's protocol. Any thread
+/// may call the members.
+class Commander final {
+ public:
+  explicit Commander(std::shared_ptr<Host> host);
+  Commander(const Commander&) = delete;
+  Commander& operator=(const Commander&) = delete;
+  /// The real robots that it has commanded last stop. Simulated ones drive on, as in MORSE.
+  ~Commander();
+
+  /// Executes a command at once, in the simulation or by the real robot that the device mirrors.
+  /// @return nothing on success, otherwise the reason: the device refuses, it is not there at the
+  ///         real robot, the connection to that one is lost, or the run is over.
+  std::optional<std::string> command(DeviceId device, const sim::Command& command);
+
+ private:
+  std::shared_ptr<Host> host_;
 };
 
 /// An event that an event loop waits for, in addition to its clients' readings.

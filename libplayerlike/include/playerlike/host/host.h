@@ -66,8 +66,13 @@ class Host : public std::enable_shared_from_this<Host> {
   /// advanced, a warning is printed.
   void note_program_ends(int status);
   /// Notes for the report that a signal has requested the end of the run. The caller must call
-  /// finish() afterwards.
-  void note_end_request(int signal);
+  /// finish() afterwards. Does not wait for the simulation.
+  void note_end_request(int signal) noexcept;
+  /// Takes the writing of the results away from the host, unless it has begun. Does not wait for
+  /// the simulation.
+  /// @return whether the host will write none. The caller then completes them, see
+  ///         complete_results(), although the host still exists.
+  [[nodiscard]] bool take_over_results() noexcept;
 
   /// Notes for the report that an onlooker has commanded a robot or changed the world, so that the
   /// run depends on the wall clock.
@@ -83,7 +88,12 @@ class Host : public std::enable_shared_from_this<Host> {
   /// @return whether it was still set. If not, it has been notified or is being notified.
   bool cancel_alarm(AlarmId alarm);
 
-  /// Calls `action` with the simulation between two steps. `action` must not call the host.
+  /// Switches a device on or off, see sim::Simulation::set_active(). A real robot whose motors are
+  /// switched off stops. @return nothing on success, otherwise the reason.
+  std::optional<std::string> set_active(DeviceId device, bool active);
+
+  /// Calls `action` with the simulation between two steps. `action` must not call the host, and
+  /// must not command devices: Commander does.
   void with_simulation(const std::function<void(sim::Simulation&)>& action);
 
   /// Limits the number of further steps, for clock synchronisation; nullopt (initially): no limit.
@@ -126,6 +136,7 @@ class Host : public std::enable_shared_from_this<Host> {
  private:
   friend class InProcessSession;
   friend class EventClient;
+  friend class Commander;
   friend class InsideCore;
   class Core;
   explicit Host(std::unique_ptr<Core> core);

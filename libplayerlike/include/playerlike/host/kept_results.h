@@ -11,7 +11,7 @@ namespace playerlike {
 /// Completes the results of a run whose program has died: writes the missing report and pictures
 /// from the data that the host has kept. Trails, scans and cells are those after the last step;
 /// other device data in pictures is up to 50 ms of wall time older. "state_hash" in the report is
-/// null if it is unknown, and "ended" describes the end of the program.
+/// null, and "ended" describes the end of the program.
 /// @param world  the simulated world, with all settings applied.
 /// @param settings  settings of the run: output folder, contents of pictures, and the film that was
 ///     being recorded; the incomplete film is removed.

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -24,8 +25,11 @@ class KeptRun {
     kDone,      ///< all possible results are complete
   };
 
+  static constexpr std::size_t kSize = std::size_t{128} << 20U;  ///< [bytes]
+  /// @param size  of the memory; the system allocates only what is used. Layers of the canvas that
+  ///     do not fit are not kept [bytes].
   /// @throws std::runtime_error if the system cannot provide the memory.
-  KeptRun();
+  explicit KeptRun(std::size_t size = kSize);
   KeptRun(const KeptRun&) = delete;
   KeptRun& operator=(const KeptRun&) = delete;
   ~KeptRun();
@@ -37,6 +41,14 @@ class KeptRun {
   [[nodiscard]] Phase phase() const noexcept;
   /// The first signal that the host has noted as a request to end its run; 0: none.
   [[nodiscard]] int interrupt_noted() const noexcept;
+  /// How far the run is.
+  struct Progress {
+    int process = 0;          ///< process id of the host; 0: none yet
+    std::uint64_t steps = 0;  ///< made so far
+    std::int64_t now_ns = 0;  ///< simulated time
+    friend bool operator==(const Progress&, const Progress&) = default;
+  };
+  [[nodiscard]] Progress progress() const noexcept;
   /// Tells the host that another program of the run has asked for its world in vain.
   void note_conflict() const noexcept;
 

@@ -72,6 +72,9 @@ struct RunWatch {
   /// Where programs of the run ask for its world; a conflict ends the run.
   ProgramDesk* desk = nullptr;
   std::function<void(const std::string&)> tell = {};  ///< receives messages for the user
+  /// Processor time that the program may use between two steps before tell() says so [s]; infinity:
+  /// any.
+  double standstill_s = 5.0;
   /// Called when the program and all its descendants have ended, while signals are still blocked.
   /// It runs in this process or, if this process was killed, in another process that then ends.
   std::function<void(const ProgramEnd&)> on_end = {};

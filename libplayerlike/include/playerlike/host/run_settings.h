@@ -17,9 +17,14 @@ namespace playerlike {
 
 class Session;
 
-/// Connects to a real robot: opens a session with a server ("player://..." or "tcp://...") and,
-/// at a Playpen server, a robot's Player port. It throws SessionError if that fails.
-using OpenRealRobot = std::function<std::unique_ptr<Session>(const std::string& server, int port)>;
+/// Where a real robot is.
+struct RealRobotPlace {
+  std::string server;       ///< "player://..." or "tcp://..."
+  int port = 0;             ///< Player port of the robot at a Playpen server
+  double timeout_s = 10.0;  ///< of connecting [s]
+};
+/// Connects to a real robot: opens a session with its server. It throws SessionError if that fails.
+using OpenRealRobot = std::function<std::unique_ptr<Session>(const RealRobotPlace& place)>;
 
 /// Binds a robot of the world to a real one. It overrides the server in the world.
 struct RealRobotChoice {
@@ -58,6 +63,9 @@ struct RunSettings {
   std::string film;           ///< .mp4 or .avi file, or folder for PNGs; "": no film
   double film_fps = 25.0;     ///< frames per second of the film, 1..240
   double film_speed = 1.0;    ///< simulated seconds per second of film, 0.01..1000
+  /// Simulated time at which the film begins, and at which a run in lockstep that is shown in a
+  /// window slows down for its viewers [s], 0..1e9.
+  double film_from_s = 0.0;
   /// Contents of pictures and films. size_px, width_px and height_px are the size of the film; the
   /// default of its longer side is 800.
   sim::render::RenderOptions pictures = default_pictures();
@@ -71,6 +79,7 @@ struct RunSettings {
                                   ///< the others keep their distance to it
   std::vector<InterfaceChoice> interfaces;   ///< override the world's order of devices
   std::vector<RealRobotChoice> real_robots;  ///< override the world's "real"
+  bool take_over = false;  ///< real robots from other clients that are in charge of them
   /// Connects to the real robots of the world; empty: a world with real robots is refused.
   OpenRealRobot open_real_robot;
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
@@ -101,12 +110,12 @@ struct RunSettings {
 
   /// Reads the settings from the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME
   /// (lockstep, real or a factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS,
-  /// PLAYPEN_RECORD_SPEED, PLAYPEN_RECORD_SIZE, PLAYPEN_FOLLOW, PLAYPEN_CROP, PLAYPEN_HIDE,
-  /// PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground,
-  /// mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
+  /// PLAYPEN_RECORD_SPEED, PLAYPEN_RECORD_FROM, PLAYPEN_RECORD_SIZE, PLAYPEN_FOLLOW, PLAYPEN_CROP,
+  /// PLAYPEN_HIDE, PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE
+  /// (ground, mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
   /// descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
   /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_TASK,
-  /// PLAYPEN_INTERFACES and PLAYPEN_REAL (choices, separated by commas).
+  /// PLAYPEN_TAKE_OVER, PLAYPEN_INTERFACES and PLAYPEN_REAL (choices, separated by commas).
   /// @throws sim::ConfigError naming the variable, the expected value and the actual value.
   [[nodiscard]] static RunSettings from_environment();
 
@@ -150,12 +159,18 @@ struct RunSettings {
 void apply_interface_choices(sim::WorldDescription& world,
                              const std::vector<InterfaceChoice>& choices);
 
+/// The value of PLAYPEN_SILENCE_LIMIT, or the default of RunSettings::silence_limit_s if it has no
+/// valid one.
+[[nodiscard]] double silence_limit_s_of_environment();
+
 /// Parses the frames per second of a film, 1..240.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_film_fps(const std::string& text, double& frames_per_second);
 /// Parses the simulated seconds per second of film, 0.01..1000.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_film_speed(const std::string& text, double& speed);
+/// Parses the simulated time at which a film begins, 0..1e9. @return whether the text is valid.
+[[nodiscard]] bool parse_film_start(const std::string& text, double& from_s);
 /// Parses the size of a film: "640x480", or the longer side, "640". Each side is 64..4096 pixels.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_film_size(const std::string& text, sim::render::RenderOptions& options);
@@ -195,6 +210,8 @@ inline constexpr const char* kRealRobotChoiceExpected =
 inline constexpr const char* kFilmFpsExpected = "a number of frames a second from 1 to 240";
 /// Description of the values that parse_film_speed() accepts, for messages.
 inline constexpr const char* kFilmSpeedExpected = "a number from 0.01 to 1000";
+/// Description of the values that parse_film_start() accepts, for messages.
+inline constexpr const char* kFilmStartExpected = "a number of seconds from 0 to 1e9";
 /// Description of the values that parse_film_size() accepts, for messages.
 inline constexpr const char* kFilmSizeExpected =
     "WIDTHxHEIGHT or the longer side, in pixels from 64 to 4096, such as 640x480";

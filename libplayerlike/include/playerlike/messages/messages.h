@@ -128,7 +128,8 @@ class SessionError : public std::runtime_error {
 };
 
 /// Checks the numbers of a command before it is sent.
-/// @throws SessionError kBadArgument if any number is NaN or infinite.
+/// @throws SessionError kBadArgument if any number is NaN or infinite, or for a pose that
+///         sim::fault_of() refuses.
 void require_finite(const sim::Command& command);
 
 /// Whether devices of a type provide an interface, e.g. "pose" devices provide "position2d".

@@ -436,6 +436,37 @@ struct NoteGoalRequest {
                                       field("tolerance", &NoteGoalRequest::tolerance_m)};
 };
 
+/// How a server keeps watch over a robot; see TakeChargeRequest.
+struct Charge {
+  bool watched = false;  ///< the server stops the robot if the session falls silent
+  bool stopped = false;  ///< it has done so since the session's last such request
+  static constexpr std::tuple kFields{field("watched", &Charge::watched),
+                                      field("stopped", &Charge::stopped)};
+};
+/// Takes charge of a robot, for a session whose robot must not drive without it: that of a mirror
+/// (docs/mirror.md). From then on the robot stops when the session that is in charge and has
+/// commanded it last ends, or sends no such request for `watchdog_s` of wall-clock time. Sessions
+/// that are not in charge may command the robot, too. A session keeps its charge until it ends; it
+/// repeats the request to show that it is there.
+/// @throws SessionError kNoSuchDevice; kBadArgument for a number outside of kLeastWatchdog_s to
+///         kMostWatchdog_s, or a name that is not at most 200 printable bytes; kNotAvailable if
+///         another session is in charge, or has taken over.
+struct TakeChargeRequest {
+  using Result = Charge;
+  static constexpr const char* kName = "take_charge";
+  static constexpr double kLeastWatchdog_s = 0.05;
+  static constexpr double kMostWatchdog_s = 600.0;
+  DeviceId device{-1, -1};  ///< any device of the robot
+  double watchdog_s = 0.4;
+  bool take_over = false;  ///< from another session, whose commands are refused from then on
+  std::string name = {};   ///< of the client, for messages to others
+  static constexpr std::tuple kFields{
+      field("device", &TakeChargeRequest::device),
+      field("watchdog", &TakeChargeRequest::watchdog_s),
+      field("take_over", &TakeChargeRequest::take_over, Presence::kOptional),
+      field("name", &TakeChargeRequest::name, Presence::kOptional)};
+};
+
 /// A possible pose of a robot, from its localisation.
 struct LocalizationParticle {
   sim::Pose pose;       ///< X_WB
@@ -539,18 +570,17 @@ struct LogRequest {
 /// @}
 
 /// Any request.
-using Request =
-    std::variant<SubscribeRequest, UnsubscribeRequest, ReplaceRequest, OverflowRequest, JoinRequest,
-                 SleepRequest, TimeRequest, PreferRealTimeRequest, NoteLooksRequest,
-                 AnswerTimeoutRequest, RetriesRequest, FlushDrawingsRequest, SetCellsRequest,
-                 CellRequest, CellsRequest, CreateLayerRequest, RemoveLayerRequest,
-                 SetLayerStyleRequest, LayersRequest, CanvasImageRequest, CanvasInfoRequest,
-                 ResizeCanvasRequest, SaveImageRequest, SaveMapRequest, ViewModeRequest,
-                 SetViewModeRequest, WorldMapRequest, ObjectPoseRequest, PlaceObjectRequest,
-                 ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest,
-                 RestoreStateRequest, NoteGoalRequest, ParticlesRequest, LogRequest,
-                 SetBlackboardRequest, BlackboardRequest, ArenaRequest, ArenaEventsRequest,
-                 SetConfigurationRequest, SetBlockRequest, SetTimerRequest, SetTrapRequest>;
+using Request = std::variant<
+    SubscribeRequest, UnsubscribeRequest, ReplaceRequest, OverflowRequest, JoinRequest,
+    SleepRequest, TimeRequest, PreferRealTimeRequest, NoteLooksRequest, AnswerTimeoutRequest,
+    RetriesRequest, FlushDrawingsRequest, SetCellsRequest, CellRequest, CellsRequest,
+    CreateLayerRequest, RemoveLayerRequest, SetLayerStyleRequest, LayersRequest, CanvasImageRequest,
+    CanvasInfoRequest, ResizeCanvasRequest, SaveImageRequest, SaveMapRequest, ViewModeRequest,
+    SetViewModeRequest, WorldMapRequest, ObjectPoseRequest, PlaceObjectRequest,
+    ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest, RestoreStateRequest,
+    NoteGoalRequest, ParticlesRequest, LogRequest, SetBlackboardRequest, BlackboardRequest,
+    ArenaRequest, ArenaEventsRequest, SetConfigurationRequest, SetBlockRequest, SetTimerRequest,
+    SetTrapRequest, TakeChargeRequest>;
 
 /// The result of any request; std::monostate for requests without a result.
 using Answer =
@@ -558,7 +588,7 @@ using Answer =
                  std::vector<sim::CellValue>, std::vector<sim::LayerInfo>, CanvasImage, CanvasInfo,
                  sim::ViewMode, WorldMap, ObjectPose, PropertyValue, LogStatus, TimeStatistics,
                  std::vector<LocalizationParticle>, std::vector<BlackboardEntry>, ArenaStatus,
-                 ArenaEventList>;
+                 ArenaEventList, Charge>;
 
 /// Calls the function of `visitor` for the type of a request. The function returns the `Result` of
 /// the request's type.

@@ -5,7 +5,8 @@
 
 namespace playerlike {
 
-/// Returns a log hook that writes each message as a line to stderr, with spdlog. Thread-safe.
+/// Returns a log hook that writes each message as a line to stderr, with spdlog. Bytes that are no
+/// valid UTF-8 appear as "\xNN". Thread-safe.
 /// @param least  lowest level that is logged.
 [[nodiscard]] sim::LogHook log_to_stderr(sim::LogLevel least = sim::LogLevel::kInfo);
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,22 +20,24 @@ namespace playerlike {
 /// calls.
 class LayerRegistry {
  public:
+  /// The cells of removed layers, whose memory may take a while to free.
+  using Freed = std::vector<std::unique_ptr<sim::CellRaster>>;
+
   /// @param client  unique number of the session, >= 0; never reused.
   /// @param port    port of the session.
+  /// @param cells   see sim::LayerStack::add().
+  /// @param freed   gets the cells of layers that make room; null: they are freed at once.
   /// @throws SessionError for the same errors as CreateLayerRequest.
   sim::LayerId create(sim::LayerStack& stack, int client, int port, sim::LayerKind kind,
-                      sim::LayerStyle style);
+                      sim::LayerStyle style, std::unique_ptr<sim::CellRaster> cells = nullptr,
+                      Freed* freed = nullptr);
+  /// @param freed  gets the cells of the layer; null: they are freed at once.
   /// @throws SessionError for the same errors as RemoveLayerRequest.
-  void remove(sim::LayerStack& stack, int client, sim::LayerId layer);
+  void remove(sim::LayerStack& stack, int client, sim::LayerId layer, Freed* freed = nullptr);
   /// @throws SessionError for the same errors as SetLayerStyleRequest.
   void set_style(sim::LayerStack& stack, int client, sim::LayerId layer, sim::LayerStyle style);
   /// @throws SessionError for the same errors as ResizeCanvasRequest.
   void require_size(const sim::LayerStack& stack, int width, int height) const;
-  /// @param zeros  see sim::LayerStack::resize().
-  /// @return memory that is no longer used.
-  /// @throws SessionError for the same errors as ResizeCanvasRequest.
-  std::vector<std::vector<std::uint8_t>> resize(sim::LayerStack& stack, int width, int height,
-                                                std::vector<std::vector<std::uint8_t>> zeros = {});
 
   /// Returns the base layer and the client's layers, lowest first.
   [[nodiscard]] std::vector<sim::LayerInfo> list(const sim::LayerStack& stack, int client) const;
@@ -58,7 +61,8 @@ class LayerRegistry {
   [[nodiscard]] bool owns(int client, sim::LayerId layer) const noexcept;
   void require_name(const sim::LayerStack& stack, int client, sim::LayerId layer,
                     const std::string& name) const;
-  void make_room(sim::LayerStack& stack, int client);
+  void make_room(sim::LayerStack& stack, int client, Freed* freed);
+  static void remove_from(sim::LayerStack& stack, sim::LayerId layer, Freed* freed);
 
   std::vector<Entry> entries_;  // oldest first
 };

@@ -73,9 +73,10 @@ class CellRaster {
   static constexpr int kTileShift = 4;
   static constexpr int kTileSide = 1 << kTileShift;
   /// Flags of a tile.
-  static constexpr std::uint8_t kChanged = 1;  ///< written since clear_changed()
-  static constexpr std::uint8_t kUsed = 2;     ///< may hold cells that are not blank
-  static constexpr std::uint8_t kUnsaved = 4;  ///< written since clear_unsaved()
+  static constexpr std::uint8_t kChanged = 1;   ///< written since clear_changed()
+  static constexpr std::uint8_t kUsed = 2;      ///< may hold cells that are not blank
+  static constexpr std::uint8_t kUnsaved = 4;   ///< written since clear_unsaved()
+  static constexpr std::uint8_t kUncopied = 8;  ///< to be copied by copy_some()
 
   /// @param blank  initial value of all cells, and of those that resize() adds.
   /// @pre sides >= 1.
@@ -126,17 +127,27 @@ class CellRaster {
   /// Tiles in which no cell changes are not marked.
   /// @pre values.size() == rect.width * rect.height, sides >= 0.
   void set_cells(const CellRect& rect, std::span<const CellValue> values) noexcept;
-  /// Changes the number of columns and rows. The bottom left cell stays in place; cells are cut off
-  /// or added (blank) at the top and the right. Marks every tile as changed.
-  /// @param zeros  4 * width * height bytes, all 0, that become the new storage, so that this call
-  ///     need not allocate and clear memory; a vector of any other size is ignored.
-  /// @return the old storage.
-  /// @pre sides >= 1.
-  std::vector<std::uint8_t> resize(int width, int height, std::vector<std::uint8_t> zeros = {});
+
+  /// @name A copy that is made in pieces, while this raster is in use
+  /// @{
+  /// Begins a copy; an earlier one that is not complete is abandoned.
+  void begin_copy() noexcept;
+  /// Continues the copy with about `cells` cells: those that are not blank, and those that were
+  /// written after they had been copied. The bottom left cells of both rasters correspond; cells
+  /// that `to` has no room for are left out.
+  /// @param to    blank when the copy began, of any size, with the same blank value.
+  /// @param tile  where the search for cells to copy begins; advanced by this call.
+  /// @return number of cells copied; less than `cells` if the end of the raster was reached.
+  std::size_t copy_some(CellRaster& to, std::size_t& tile, std::size_t cells);
+  /// Whether the copy is complete.
+  [[nodiscard]] bool copied() const noexcept;
+  /// Marks every tile as changed and unsaved.
+  void mark_all() noexcept;
+  /// @}
 
   [[nodiscard]] int tile_columns() const noexcept { return tiles_across(width_); }
   [[nodiscard]] int tile_rows() const noexcept { return tiles_across(height_); }
-  /// Flags kChanged, kUsed and kUnsaved of each tile, row-major from the top; tile_columns() x
+  /// The flags of each tile, row-major from the top; tile_columns() x
   /// tile_rows().
   [[nodiscard]] const std::vector<std::uint8_t>& tiles() const noexcept { return tiles_; }
   /// Clears kChanged of all tiles.
@@ -147,6 +158,8 @@ class CellRaster {
   /// Writes or reads size and cells; a blank tile takes one byte. Cells that were read count as
   /// written.
   void archive(StateArchive& archive);
+  /// About the number of bytes that archive() writes.
+  [[nodiscard]] std::size_t archived_bytes() const noexcept;
 
   /// Number of tiles that cover this many cells.
   [[nodiscard]] static int tiles_across(int cells) noexcept {
@@ -154,7 +167,7 @@ class CellRaster {
   }
 
  private:
-  static constexpr std::uint8_t kWritten = kChanged | kUsed | kUnsaved;
+  static constexpr std::uint8_t kWritten = kChanged | kUsed | kUnsaved | kUncopied;
 
   [[nodiscard]] static std::size_t byte_offset(int cells) noexcept {
     return static_cast<std::size_t>(cells) * sizeof(CellValue);
@@ -166,6 +179,9 @@ class CellRaster {
                 sizeof value);
     tiles_[(r >> kTileShift) * tile_stride_ + (c >> kTileShift)] = kWritten;
   }
+
+  void copy_tile(CellRaster& to, int column, int row) const;
+  void clear_rows(int begin, int end) noexcept;
 
   int width_;
   int height_;

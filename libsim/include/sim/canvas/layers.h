@@ -81,6 +81,32 @@ void drop_covered(std::vector<DrawOperation>& operations);
 [[nodiscard]] std::size_t cells_written(const DrawOperation& operation, int width,
                                         int height) noexcept;
 
+class LayerStack;
+
+/// A copy of all layers of a LayerStack that is made in pieces, between which the stack may change;
+/// see LayerStack::copy_some(). Memory is allocated and freed by calls that need no access to the
+/// stack.
+class LayerCopy {
+ public:
+  /// A copy of the stack as it is.
+  LayerCopy();
+  /// A copy of another size, for LayerStack::resize(). @pre sides in 1..kMaxCanvasSide
+  LayerCopy(int width, int height);
+  ~LayerCopy();
+  LayerCopy(LayerCopy&&) noexcept;
+  LayerCopy& operator=(LayerCopy&&) noexcept;
+
+  /// Allocates the memory that copy_some() has asked for.
+  void allocate();
+  /// The copied layers as a stack of their own. @pre the copy is complete.
+  [[nodiscard]] LayerStack take();
+
+ private:
+  friend class LayerStack;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// The grid-maps of a simulation: the base canvas and the layers that clients put above or below
 /// it, all with the same size and position.
 ///
@@ -98,6 +124,10 @@ class LayerStack {
 
   [[nodiscard]] int width() const noexcept;
   [[nodiscard]] int height() const noexcept;
+  /// Number of cells of a layer.
+  [[nodiscard]] std::size_t cell_count() const noexcept {
+    return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+  }
   /// Current size and position; only width and height ever change.
   [[nodiscard]] CanvasDescription description() const;
 
@@ -107,10 +137,16 @@ class LayerStack {
   [[nodiscard]] const Canvas& base() const noexcept;
 
   /// Creates a layer above the existing ones of the same priority and owner.
-  LayerId add(LayerKind kind, LayerStyle style, int owner);
+  /// @param cells  its cells if they are of the right size, so that no memory is allocated; see
+  ///     blank_cells().
+  LayerId add(LayerKind kind, LayerStyle style, int owner,
+              std::unique_ptr<CellRaster> cells = nullptr);
+  /// Blank cells for a new layer. @pre sides >= 1
+  [[nodiscard]] static std::unique_ptr<CellRaster> blank_cells(LayerKind kind, int width,
+                                                               int height);
   /// Removes a layer. The base layer cannot be removed.
-  /// @return whether the layer existed.
-  bool remove(LayerId layer);
+  /// @return its cells, whose memory may take a while to free; null if there was no such layer.
+  std::unique_ptr<CellRaster> remove(LayerId layer);
   [[nodiscard]] bool contains(LayerId layer) const noexcept;
   [[nodiscard]] LayerKind kind(LayerId layer) const;           ///< @pre contains(layer)
   [[nodiscard]] const LayerStyle& style(LayerId layer) const;  ///< @pre contains(layer)
@@ -148,6 +184,8 @@ class LayerStack {
   /// Writes or reads the other layers and the styles of all layers. When reading, no other layers
   /// may exist, and the base layer must have been read before.
   void archive_others(StateArchive& archive);
+  /// About the number of bytes that archive_base() writes, or both functions together.
+  [[nodiscard]] std::size_t archived_bytes(bool others) const;
   /// Moves the cells of another stack's base layer into this one. The cells of the other are
   /// undefined afterwards.
   /// @pre both have the same size.
@@ -157,23 +195,36 @@ class LayerStack {
   void take_over_from(const LayerStack& before);
   /// @}
 
+  /// State of a copy.
+  enum class CopyState {
+    kNeedsMemory,  ///< call LayerCopy::allocate() next
+    kUnfinished,
+    kComplete,  ///< the copy equals the stack at this moment
+  };
+  /// Continues a copy by about `cells` cells. Cells that change after they were copied are copied
+  /// again. A change of the set of layers or of their size begins the copy anew, and so does
+  /// another copy of this stack that was begun since.
+  /// @param cells  >= 1.
+  CopyState copy_some(LayerCopy& copy, std::size_t cells);
+
   /// Changes the number of columns and rows of all layers. Drawings keep their position in the
   /// world: the bottom left corner stays, cells are added or cut off at the top and the right.
   /// @pre sides in 1..kMaxCanvasSide
-  void resize(int width, int height) { static_cast<void>(resize(width, height, {})); }
-  /// Resizes with memory that was prepared before.
-  /// @param zeros  one block of 4 * width * height zero bytes for each layer and one for the
-  ///     composed picture, as far as they suffice.
-  /// @return the memory no longer used; freeing it can take a while.
-  std::vector<std::vector<std::uint8_t>> resize(int width, int height,
-                                                std::vector<std::vector<std::uint8_t>> zeros);
+  void resize(int width, int height);
+  /// Gives the layers the size and the memory of a copy. The copy then has the memory that is no
+  /// longer used, so that it can be freed later.
+  /// @pre the copy is complete, and this stack has not changed since.
+  void resize(LayerCopy& copy);
 
   /// All visible layers composed, as RGBA bytes, row-major from the top; transparent black where
   /// nothing is drawn. Recomposes what has changed since the last call.
   [[nodiscard]] const std::vector<std::uint8_t>& composed();
-  /// Does a part of the work of composed(), about `cells` cells of it.
-  /// @return whether no work is left.
-  bool compose_some(std::size_t cells);
+  /// Like composed(), but the caller gets the memory, and the next picture is composed as a whole.
+  [[nodiscard]] std::vector<std::uint8_t> take_composed();
+  /// Whole rows of the picture of composed(), as many as fit; composes only the tiles in these
+  /// rows.
+  /// @pre 0 <= row, `to` has room for whole rows, and for none beyond the last one.
+  void composed_rows(int row, std::span<std::uint8_t> to);
   /// One layer alone as RGBA bytes, with its own transparency and transparent colour, even if it is
   /// hidden. @pre contains(layer)
   [[nodiscard]] std::vector<std::uint8_t> picture(LayerId layer) const;
@@ -197,6 +248,7 @@ class LayerStack {
   [[nodiscard]] std::uint64_t recomposed_cells() const noexcept;
 
  private:
+  friend class LayerCopy;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -51,6 +51,10 @@ class StateArchive {
   [[nodiscard]] bool reading() const noexcept { return reading_; }
   /// Returns the bytes written so far and leaves the archive without memory.
   [[nodiscard]] std::vector<std::uint8_t> take();
+  /// Makes room for so many bytes more, so that they are written without copying earlier ones.
+  void reserve(std::size_t size) {
+    if (written_.size() - end_ < size) grow(size);
+  }
   /// The bytes written so far.
   [[nodiscard]] std::span<const std::uint8_t> written() const noexcept {
     return {written_.data(), end_};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 /// UTF-8 as defined by the Unicode Standard 15 (table 3-7: no overlong forms, no surrogates,
@@ -14,5 +15,9 @@ namespace sim {
 
 /// Offset of the first byte that starts no valid character, or npos.
 [[nodiscard]] std::size_t find_invalid_utf8(std::string_view text) noexcept;
+
+/// Replaces each byte that starts no valid character by "\xNN", for messages with names from
+/// outside.
+[[nodiscard]] std::string escape_invalid_utf8(std::string_view text);
 
 }  // namespace sim

@@ -71,6 +71,14 @@ struct SetPoseCommand {
   /// Covariances of x y [m^2], y yaw and x yaw [m rad], with `variance`; none: 0.
   std::optional<std::array<double, 3>> covariance = {};
 };
+/// Greatest absolute value of a coordinate in a SetPoseCommand [m], and of the standard deviations
+/// in its covariance [m, rad]. Larger than any map's grid on Earth, and small enough for exact sums
+/// of squares.
+inline constexpr double kFarthestPose = 1e9;
+/// What is wrong with the numbers of a command: not finite, beyond kFarthestPose, or no covariance.
+/// @return nullopt if nothing is.
+[[nodiscard]] std::optional<std::string> fault_of(const SetPoseCommand& command);
+
 /// Drive to a point of the world (waypoint, destination). All numbers must be finite, tolerance and
 /// speed > 0.
 struct GotoCommand {

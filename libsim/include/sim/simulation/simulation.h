@@ -68,6 +68,43 @@ enum class RestoreScope {
   kWorld,  ///< the world only, not what clients have observed: see Simulation::restore()
 };
 
+class Simulation;
+
+/// The state of a simulation at a moment, without its layers. Together with a copy of the layers of
+/// that moment it gives the hash and the snapshot.
+class StateParts {
+ public:
+  /// See Simulation::state_hash().
+  [[nodiscard]] std::uint64_t hash(LayerStack& layers);
+  /// See Simulation::save().
+  [[nodiscard]] Snapshot snapshot(LayerStack& layers);
+
+ private:
+  friend class Simulation;
+  void append_state(StateArchive& archive, LayerStack& layers);
+
+  std::uint64_t world_ = 0;  ///< world_hash() of the world in its initial state
+  std::uint64_t seed_ = 0;
+  std::vector<std::uint8_t> bodies_;    ///< what is archived before the canvas
+  std::vector<std::uint8_t> rules_;     ///< and after it
+  std::vector<std::uint8_t> pictures_;  ///< what only pictures show, before the clients' layers
+};
+
+/// Reads snapshots of simulations of one world; it needs no access to these simulations.
+class SnapshotReader {
+ public:
+  /// @throws SnapshotError as Simulation::restore().
+  [[nodiscard]] Simulation read(std::span<const std::uint8_t> snapshot) const;
+
+ private:
+  friend class Simulation;
+  SnapshotReader(WorldDescription start, std::uint64_t hash, LogHook log);
+
+  WorldDescription start_;
+  std::uint64_t hash_;  ///< of start_
+  LogHook log_;
+};
+
 /// A running world. Owns all its parts. Single-threaded and deterministic: the same description,
 /// commands and steps give bit-identical states.
 class Simulation {
@@ -129,7 +166,8 @@ class Simulation {
   /// path length); the view mode; the layers of clients; arena_events(), scores() and verdict().
   /// The timers and traps of the arena controller start anew.
   /// Invalidates references to devices and readings.
-  void reset();
+  /// @return nothing on success, otherwise the reason: refusal_of_mirrored().
+  std::optional<std::string> reset();
 
   /// Switches a device on or off; initially all are on. An inactive device makes no readings (its
   /// schedule continues), refuses commands and does not act: motors stop unless another device
@@ -142,10 +180,11 @@ class Simulation {
   /// whatever pushes it; its sensors and the clock continue. A resumed robot continues with its
   /// last command. Later calls of set_robot_dynamics() make exceptions.
   ///
-  /// @return nothing on success, otherwise the reason.
+  /// @return nothing on success, otherwise the reason: refusal_of_mirrored().
   std::optional<std::string> set_dynamics(bool on);
   /// Suspends or resumes the dynamics of one robot.
-  /// @return nothing on success, otherwise the reason: no such robot.
+  /// @return nothing on success, otherwise the reason: no such robot, or one that mirrors a real
+  /// one.
   std::optional<std::string> set_robot_dynamics(int robot, bool on);
   /// Suspends or resumes the dynamics of an object by name.
   /// @return nothing on success, otherwise the reason: no such object, or one that never moves by
@@ -182,6 +221,10 @@ class Simulation {
   /// @return nothing on success, otherwise the reason.
   std::optional<std::string> set_object_fiducial(const std::string& name, int fiducial);
 
+  /// Why the whole world can neither be put back nor held fast: a robot mirrors a real one
+  /// (RobotDescription::real), for which that would have no effect. Such a robot cannot be placed
+  /// either. @return nullopt if no robot does.
+  [[nodiscard]] std::optional<std::string> refusal_of_mirrored() const;
   /// Puts a robot where its real counterpart is (RobotDescription::real), between two steps. From
   /// the first call on, the robot moves in no other way, whatever its commands are. It may overlap
   /// obstacles, and no collisions are counted for it. The first call adds no path length.
@@ -235,6 +278,9 @@ class Simulation {
   [[nodiscard]] const ArenaEvents& arena_events() const noexcept;
   /// Points of the robots, by index; empty without an arena controller. A reset keeps them.
   [[nodiscard]] const std::vector<double>& scores() const noexcept;
+  /// Why the canvas cannot have this size, in one sentence; nullopt if it can. The arena controller
+  /// may do so much in a step only, and it may fill the canvas.
+  [[nodiscard]] std::optional<std::string> canvas_refusal(int width, int height) const;
   /// How the arena controller ended the run; nullopt if it did not.
   [[nodiscard]] const std::optional<Verdict>& verdict() const noexcept;
   /// The dynamic obstacles that rise, sink or wait, by index.
@@ -253,6 +299,9 @@ class Simulation {
   /// of its bytes, so that damage is detected. It takes about 1 KB per robot, 2.5 KB per device
   /// with noise, and the readings. Saving takes about 0.5 ms per megabyte.
   [[nodiscard]] Snapshot save() const;
+  /// The state without the layers, for callers that hash or save it later, when this simulation is
+  /// in use again.
+  [[nodiscard]] StateParts state_parts() const;
 
   /// Continues from a snapshot that a simulation of the same world and seed has saved, perhaps in
   /// another process. All later states are bit-identical.
@@ -266,18 +315,27 @@ class Simulation {
   /// @throws SnapshotError if the snapshot is truncated or altered, or has another version, world
   ///     or seed. The simulation is then unchanged.
   void restore(std::span<const std::uint8_t> snapshot, RestoreScope scope = RestoreScope::kAll);
+  /// For callers that read a snapshot while this simulation is in use, and then call replace_by().
+  [[nodiscard]] SnapshotReader snapshot_reader() const;
+  /// Continues as the simulation that a snapshot_reader() of this one has read, like restore().
+  /// Takes time only if the sizes of the canvases differ.
+  /// @return the state before, whose memory may take a while to free. Its layers are undefined.
+  [[nodiscard]] Simulation replace_by(Simulation restored, RestoreScope scope = RestoreScope::kAll);
 
   /// Creates an independent copy of this simulation in the same state, for programs that search
   /// ahead. The copy has no log.
   [[nodiscard]] Simulation fork() const;
 
   /// The current scene. The caller records trails, since Simulation keeps no history.
-  [[nodiscard]] SceneSnapshot snapshot() const;
+  /// @param with_canvas  false: the picture of the canvas and the list of layers are left out, for
+  ///     callers that have a copy of the layers.
+  [[nodiscard]] SceneSnapshot snapshot(bool with_canvas = true) const;
   /// One robot's part of the scene.
   /// @param robot  its index in the world; it must exist.
   [[nodiscard]] RobotSnapshot robot_snapshot(int robot) const;
 
  private:
+  friend class SnapshotReader;
   struct Impl;
   explicit Simulation(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

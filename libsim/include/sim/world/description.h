@@ -200,10 +200,11 @@ struct RealRobotDescription {
     kReal,  ///< to the real robot only
     kBoth,  ///< also to a simulated ghost, for comparison
   };
-  /// What happens when the connection is lost. In both cases the robot stops.
+  /// What happens when the connection is lost. In each case the robot stops.
   enum class OnLost {
-    kContinue,  ///< the run continues without it
-    kEnd,       ///< the run ends
+    kContinue,   ///< the run continues without it
+    kEnd,        ///< the run ends
+    kReconnect,  ///< the run continues, and the connection is made again as soon as possible
   };
   std::string server;  ///< "player://HOST[:PORT]" or "tcp://HOST[:PORT]"
   int port = 0;        ///< its Player port at a "tcp://" server; 0: that of the world's robot
@@ -212,6 +213,10 @@ struct RealRobotDescription {
   int pose_index = 0;  ///< of the device whose readings say where the real robot is
   Pose X_WF;           ///< pose of that device's frame F in W
   OnLost on_lost = OnLost::kContinue;
+  /// A Playpen server stops the real robot if it hears nothing for so long, and a connection is
+  /// lost if nothing arrives for twice as long; wall-clock time, [0.05, 600] [s].
+  double watchdog_s = 0.4;
+  bool take_over = false;  ///< from another client that is in charge of the real robot
 };
 
 struct RobotModel;

@@ -21,6 +21,8 @@ inline constexpr double kGreatestMass_kg = 10'000.0;  ///< maximum mass of a rob
 
 /// Maximum height of a robot [m].
 inline constexpr double kGreatestRobotHeight_m = 10.0;
+/// Maximum number of robots of a world.
+inline constexpr std::size_t kMostRobots = 1000;
 /// Maximum number of convex parts of a robot's body.
 inline constexpr std::size_t kMostBodyParts = 16;
 /// Maximum number of superstructures of a robot model.

@@ -70,12 +70,27 @@ class Includer {
       throw ConfigError(issue_at(name.place, "stage/syntax", "the name of a file in double quotes",
                                  described(name)));
     }
-    if (depth + 1 > kMaxIncludeDepth || ++includes_ > kMaxIncludes) {
+    if (depth + 1 > kMaxIncludeDepth) {
       throw ConfigError(issue_at(word.place, "stage/include",
                                  "files that do not include themselves", in_quotes(name.text),
                                  "are there two files that include each other?"));
     }
+    if (++includes_ > kMaxIncludes) {
+      throw ConfigError(issue_at(
+          word.place, "stage/include",
+          "at most " + std::to_string(kMaxIncludes) + " files, each as often as it is included",
+          "more, with " + in_quotes(name.text),
+          "files that include others twice are read twice as often at each "
+          "level"));
+    }
     const auto [text, path] = find_include(name, from);
+    included_bytes_ += text.size();
+    if (included_bytes_ > kMaxFileBytes) {
+      throw ConfigError(issue_at(word.place, "stage/too-large",
+                                 "at most 16 MiB of text in all included files, each as often as "
+                                 "it is included",
+                                 "more, with " + in_quotes(name.text)));
+    }
     file(text, path, depth + 1);
   }
 
@@ -116,6 +131,7 @@ class Includer {
   bool shipped_;
   Report& report_;
   int includes_ = 0;
+  std::size_t included_bytes_ = 0;
   std::vector<Token> tokens_;
 };
 

@@ -437,6 +437,11 @@ class Translator {
   /// A position model: a robot.
   void robot(const Properties& model, const Body& body, const Frame& frame,
              const std::string& stage_name) {
+    // Said here, before all of them are translated.
+    if (out_.robots.size() >= kMostRobots) {
+      throw ConfigError(issue_at(model.entity().place, "world/too-many",
+                                 "at most " + std::to_string(kMostRobots) + " robots", "more"));
+    }
     RobotDraft draft;
     draft.stage_name = stage_name;
     draft.kind = model.entity().kinds.empty() ? "robot" : world_name(model.entity().kinds.front());
