@@ -116,6 +116,11 @@ TEST_F(PermissionsTest, OtherRobotsAreRefusedOnEveryPort) {
                   session->send(device(1, "motion"), sim::TwistCommand{{0.1, 0.0}});
                 }),
                 HasSubstr("the device motion of robot r2"));
+    EXPECT_THAT(error_of([&] {
+                  static_cast<void>(session->request(TakeChargeRequest{device(1, "motion")}));
+                }),
+                HasSubstr("r2"))
+        << "it would stop the robot";
     EXPECT_THAT(
         error_of([&] { session->open_follower()->send(device(1, "motion"), sim::TwistCommand{}); }),
         HasSubstr("r2"));
