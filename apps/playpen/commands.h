@@ -42,6 +42,7 @@ struct GradeRequest {
   std::string output_folder;            ///< "": out/grade/TASK
   std::string json_file;                ///< "": grade.json in the output folder
   std::vector<std::string> command;     ///< program and arguments
+  std::string invocation;               ///< how the user calls playpen, for advice
 };
 
 /// Runs a client program on the worlds of a task, grades it, prints a table and writes a JSON file.

@@ -46,6 +46,7 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"PLAYPEN_TAKE_OVER",
        "If it is 1, real robots are taken over from other clients that are in charge of them.",
        true},
+      {"PLAYPEN_TASK", "What the task of a graded run lets the program use.", true},
       {"PLAYPEN_TIME", "lockstep, real, or a factor of real time.", true},
       {"PLAYPEN_TOKEN", "The token that a program presents to a server.", false},
       {"PLAYPEN_VIEW", "The number of the descriptor that leads to the live window.", true},

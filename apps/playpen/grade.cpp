@@ -11,10 +11,13 @@
 #include <utility>
 
 #include "commands.h"
+#include "debugger_hint.h"
 #include "playerlike/host/program.h"
 #include "preload.h"
 #include "shipped.h"
+#include "sim/core/number_text.h"
 #include "sim/core/replace_file.h"
+#include "sim/world/realism.h"
 #include "terminal.h"
 
 namespace playpen {
@@ -48,6 +51,72 @@ void write_file(const fs::path& file, const std::string& text) {
                              "' can't be written: " + std::strerror(error));
   }
 }
+
+/// The name by which the user would call a world.
+std::string short_name_of(const std::string& file) {
+  const std::string name = grade::world_name(file);
+  try {
+    std::error_code error;
+    return file.empty() || fs::equivalent(find_world(name), file, error) ? name : file;
+  } catch (const std::exception&) {
+    return file;  // no world has that name
+  }
+}
+
+/// What helps to find out why a run has failed.
+class Advice {
+ public:
+  Advice(const GradeRequest& request, const grade::GradeSettings& settings)
+      : request_(request), settings_(settings) {}
+
+  [[nodiscard]] std::vector<std::string> operator()(const grade::GradedRun& run) const {
+    if (run.ending == grade::Ending::kNotRun) return {};
+    std::vector<std::string> lines;
+    const fs::path folder = fs::path(settings_.output_folder) / run.folder;
+    std::error_code error;
+    if (const fs::path picture = folder / "scene.png"; fs::exists(picture, error)) {
+      lines.push_back("picture: " + picture.string());
+    }
+    if (const fs::path log = folder / "program.log"; fs::file_size(log, error) > 0 && !error) {
+      lines.push_back("what the program printed: " + log.string());
+    }
+    const auto world =
+        std::find_if(settings_.task.worlds.begin(), settings_.task.worlds.end(),
+                     [&run](const auto& w) { return grade::world_name(w.file) == run.world; });
+    if (world == settings_.task.worlds.end()) return lines;
+    std::vector<std::string> program = request_.command;
+    for (const auto* more : {&settings_.task.arguments, &world->arguments}) {
+      program.insert(program.end(), more->begin(), more->end());
+    }
+    const std::vector<std::string> call = call_of_run(*world, run);
+    std::string repeat;
+    for (const std::string& word : call) repeat += shell_word(word) + ' ';
+    repeat += "--";
+    for (const std::string& word : program) repeat += ' ' + shell_word(word);
+    lines.push_back("repeat: " + repeat);
+    if (run.signal && is_crash(*run.signal)) {
+      lines.push_back("to see where it happened: " + debugger_command(call, program));
+    }
+    return lines;
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::string> call_of_run(const grade::TaskWorld& world,
+                                                     const grade::GradedRun& run) const {
+    std::vector<std::string> call = {request_.invocation, "run", short_name_of(world.file),
+                                     "--seed", std::to_string(run.seed)};
+    if (settings_.task.duration_s) {
+      call.insert(call.end(), {"--duration", sim::shortest_text(*settings_.task.duration_s)});
+    }
+    if (settings_.realism) {
+      call.insert(call.end(), {"--realism", std::string(sim::to_string(*settings_.realism))});
+    }
+    return call;
+  }
+
+  const GradeRequest& request_;
+  const grade::GradeSettings& settings_;
+};
 
 }  // namespace
 
@@ -84,8 +153,9 @@ int grade_program(GradeRequest request) {
       });
   line.clear();
   result.program = request.command;  // as the user wrote it
-  std::cout << grade::table(
-      result, {.columns = terminal_columns(STDOUT_FILENO), .colour = shows_colour(STDOUT_FILENO)});
+  std::cout << grade::table(result, {.columns = terminal_columns(STDOUT_FILENO),
+                                     .colour = shows_colour(STDOUT_FILENO),
+                                     .advice = Advice(request, settings)});
   write_file(file, grade::json_text(result));
   std::cout << "details: " << file.string() << '\n';
   return result.passed() == result.runs.size() ? kOk : kProgramFailed;

@@ -76,6 +76,7 @@ void add_grade(CommandLine& line) {
   command.callback([request, &line] {
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
     request->command = line.program;
+    request->invocation = line.invocation;
     line.status = grade_program(*request);
   });
 }

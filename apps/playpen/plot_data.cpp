@@ -29,6 +29,7 @@ using sim::Vec2;
 constexpr std::string_view kHeader = "time,robot,x,y,yaw,v,omega,stalled";
 constexpr const char* kPlottedFile = "trajectory.csv";
 constexpr const char* kReport = "report.json";
+constexpr const char* kGrade = "grade.json";
 constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
 
 std::string text_of(const fs::path& file) {
@@ -146,7 +147,61 @@ void read_marks(const json& report, RunData& run) {
       if (earlier.robot == robot) earlier.newest = false;
     }
     run.goals.push_back({robot, place, !event.at("reached").is_null(), true});
+    if (!event.at("reached").is_null()) {
+      run.reached.push_back({robot, event.at("reached").get<double>()});
+    }
   });
+}
+
+// Adds the goal of a graded run's task. It is reached when the robot is first within the tolerance.
+void add_goal_of_task(const json& graded, RunData& run) {
+  const json goal = graded.value("goal", json());
+  const auto robot = index_of(run, graded.value("robot", ""));
+  if (goal.is_null() || !robot) return;
+  sim::GoalMark mark;
+  mark.robot = *robot;
+  mark.place = {goal.at("x").get<double>(), goal.at("y").get<double>()};
+  const Track& track = run.tracks[static_cast<std::size_t>(*robot)];
+  for (std::size_t i = 0; i < track.time_s.size() && !mark.reached; ++i) {
+    const double distance_m = (track.X_WB[i].position() - mark.place).norm();
+    if (distance_m > goal.at("tolerance").get<double>()) continue;
+    mark.reached = true;
+    run.reached.push_back({*robot, track.time_s[i]});
+  }
+  run.goals.push_back(mark);
+}
+
+// The runs in a grade.json.
+json graded_runs(const fs::path& file) {
+  try {
+    return json::parse(text_of(file)).at("runs");
+  } catch (const json::exception& error) {
+    throw std::runtime_error(
+        file.string() + ": expected the grade of a program, found something else: " + error.what());
+  }
+}
+
+// If a run belongs to a grade, adds what the grade knows of it.
+void read_grade(const fs::path& folder, RunData& run) {
+  const fs::path whole = fs::absolute(folder / "").parent_path();
+  const fs::path file = whole.parent_path() / kGrade;
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return;
+  try {
+    for (const json& graded : graded_runs(file)) {
+      if (graded.at("folder").get<std::string>() == whole.filename().string()) {
+        add_goal_of_task(graded, run);
+      }
+    }
+  } catch (const json::exception& e) {
+    throw std::runtime_error(file.string() + ": expected the grade of a program: " + e.what());
+  }
+}
+
+bool has_run(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_regular_file(folder / kPlottedFile, error) &&
+         fs::is_regular_file(folder / kReport, error);
 }
 
 void read_report(const fs::path& file, RunData& run) {
@@ -250,6 +305,22 @@ std::vector<Outline> body_at(const sim::RobotModel& model, const sim::Pose& X_WB
 
 }  // namespace
 
+std::vector<std::string> run_folders(const std::string& folder, std::vector<std::string>& skipped) {
+  const fs::path path(folder);
+  std::error_code error;
+  if (has_run(path) || !fs::is_regular_file(path / kGrade, error)) return {folder};
+  std::vector<std::string> runs;
+  for (const json& graded : graded_runs(path / kGrade)) {
+    const fs::path run = path / graded.value("folder", "");
+    (has_run(run) ? runs : skipped).push_back(run.string());
+  }
+  if (runs.empty()) {
+    throw std::runtime_error("expected a grade with results, found none of a run in '" + folder +
+                             "'");
+  }
+  return runs;
+}
+
 RunData read_run(const std::string& folder) {
   RunData run;
   run.folder = folder;
@@ -262,10 +333,12 @@ RunData read_run(const std::string& folder) {
     if (fs::is_regular_file(path / name, error)) continue;
     throw std::runtime_error("expected a folder of results, found no " + std::string(name) +
                              " in '" + folder + "'; 'playpen run WORLD --out " + folder +
-                             " -- PROGRAM' makes one");
+                             " -- PROGRAM' makes one, 'playpen grade TASK --out " + folder +
+                             " -- PROGRAM' several");
   }
   read_trajectory(path / kPlottedFile, run);
   read_report(path / kReport, run);
+  read_grade(path, run);
   return run;
 }
 

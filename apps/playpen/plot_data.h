@@ -24,6 +24,12 @@ struct Track {
   std::vector<double> clearance_m;
 };
 
+/// A moment of a robot that the charts mark.
+struct Moment {
+  int robot = 0;  ///< index into RunData::tracks
+  double time_s = 0.0;
+};
+
 /// A run, read from its result folder.
 struct RunData {
   std::string folder;
@@ -33,9 +39,18 @@ struct RunData {
   std::vector<Track> tracks;                   ///< in the order of trajectory.csv
   std::vector<sim::CollisionMark> collisions;  ///< robots are indices into `tracks`
   std::vector<sim::GoalMark> goals;            ///< robots are indices into `tracks`
+  std::vector<Moment> reached;                 ///< when goals were reached
 };
 
+/// The folders of runs that a folder of the user means: the folder itself, or the runs of a folder
+/// of `playpen grade`, in the order of grade.json.
+/// @param skipped  gets those runs of a grade that have no results to plot.
+/// @throws std::runtime_error for an unusable grade.json, or if no run of the grade has results.
+[[nodiscard]] std::vector<std::string> run_folders(const std::string& folder,
+                                                   std::vector<std::string>& skipped);
+
 /// Reads trajectory.csv and report.json from a result folder, and the world that the report names.
+/// In a folder of `playpen grade`, the goal of the task is a goal of the graded robot.
 /// @throws std::runtime_error naming the file or folder, the expected content and the actual
 ///         content.
 [[nodiscard]] RunData read_run(const std::string& folder);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "sim/core/number_text.h"
@@ -26,24 +27,29 @@ constexpr int kWidth = 1200;
 constexpr int kHeight = 780;
 constexpr double kLeft = 62.0;    // left edge of the panels [pixels]
 constexpr double kRight = 640.0;  // right edge of the panels [pixels]
-constexpr double kTop = 92.0;
+constexpr double kTop = 104.0;
 constexpr double kBottom = 734.0;
 constexpr double kTitleGap = 30.0;  // space for the title above each panel
-constexpr int kSceneSide = 530;
 constexpr double kSceneLeft = 662.0;
-constexpr double kText = 10.0;  // height of a capital letter [pixels]
+constexpr double kScenesWidth = 530.0;  // for all scenes
+constexpr double kSceneGap = 14.0;      // between scenes side by side
+constexpr double kSceneFoot = 64.0;     // below a scene, for its key and the next scene's title
+constexpr double kText = 10.0;          // height of a capital letter [pixels]
 constexpr double kSmallText = 8.6;
 constexpr Colour kInk{0x35, 0x38, 0x3d, 0xff};
 constexpr Colour kFaintInk{0x6d, 0x6f, 0x72, 0xff};
 constexpr Colour kGrid{0xe4, 0xe4, 0xe2, 0xff};
 constexpr Colour kFrame{0xb4, 0xb6, 0xb8, 0xff};
 constexpr Colour kRed{0xe0, 0x1e, 0x37, 0xff};
+constexpr Colour kGreen{0x1c, 0x8a, 0x3c, 0xff};
 constexpr std::size_t kMostEntries = 8;  // maximum number of entries in the legend
 
 // A curve in the charts: one robot of one run.
 struct Series {
   const Track* track;
+  const RunData* data;
   std::size_t run;
+  int robot;  // index into the run's tracks
   Colour colour;
   std::string name;
 };
@@ -97,7 +103,8 @@ std::vector<Series> series_of(const std::vector<RunData>& runs) {
             folder.has_filename() ? folder.filename() : folder.parent_path().filename();
         name = last.string() + ": " + name;
       }
-      all.push_back({&track, r, *colour, std::move(name)});
+      const auto robot = static_cast<int>(&track - runs[r].tracks.data());
+      all.push_back({&track, &runs[r], r, robot, *colour, std::move(name)});
     }
   }
   return all;
@@ -105,6 +112,19 @@ std::vector<Series> series_of(const std::vector<RunData>& runs) {
 
 std::string tick_text(double value) {
   return sim::rounded_text(std::abs(value) < 1e-12 ? 0.0 : value, 6);
+}
+
+// The mark of a collision, as in pictures of scenes.
+void add_cross(Drawing& page, const Vec2& place) {
+  for (const double side : {-1.0, 1.0}) {
+    page.add_line({place + Vec2(-4.5, -4.5 * side), place + Vec2(4.5, 4.5 * side)}, kRed, 2.2);
+  }
+}
+
+// The mark of a reached goal.
+void add_diamond(Drawing& page, const Vec2& place) {
+  page.add_area({place + Vec2(-6, 0), place + Vec2(0, -6), place + Vec2(6, 0), place + Vec2(0, 6)},
+                kGreen);
 }
 
 // A chart of one quantity over time.
@@ -119,6 +139,7 @@ class Chart {
     draw_grid(with_times);
     bool any = false;
     for (const Series& series : all) any = draw_line(series) || any;
+    for (const Series& series : all) draw_marks(series);
     if (!any) {
       page_.add_text("not known: the world's file was not found",
                      {0.5 * (kLeft + kRight), 0.5 * (top_ + bottom_)}, kText, kFaintInk,
@@ -184,6 +205,35 @@ class Chart {
     return !values.empty();
   }
 
+  // Marks collisions and reached goals on a curve.
+  void draw_marks(const Series& series) {
+    constexpr double kLeastGap = 3.0;  // [pixels]; marks that are nearer look like one
+    double last = -std::numeric_limits<double>::infinity();
+    for (const sim::CollisionMark& mark : series.data->collisions) {
+      if (mark.robot != series.robot) continue;
+      const std::optional<Vec2> place = place_at(series, mark.time_s);
+      if (!place || place->x() - last < kLeastGap) continue;
+      last = place->x();
+      add_cross(page_, *place);
+    }
+    for (const Moment& moment : series.data->reached) {
+      if (moment.robot != series.robot) continue;
+      if (const std::optional<Vec2> place = place_at(series, moment.time_s)) {
+        add_diamond(page_, *place);
+      }
+    }
+  }
+
+  // Where a curve is at a time; none if it has no values.
+  [[nodiscard]] std::optional<Vec2> place_at(const Series& series, double time_s) const {
+    const std::vector<double>& values = series.track->*panel_.values;
+    if (values.empty()) return std::nullopt;
+    const std::vector<double>& times = series.track->time_s;
+    const auto after = std::lower_bound(times.begin(), times.end(), time_s);
+    const auto row = std::min(static_cast<std::size_t>(after - times.begin()), values.size() - 1);
+    return Vec2(x(time_s), y(values[row]));
+  }
+
   Drawing& page_;
   const Panel& panel_;
   double top_;
@@ -193,46 +243,66 @@ class Chart {
   double high_ = 1.0;
 };
 
-// Draws the scene of the first run with the trajectories of all runs.
-sim::SceneSnapshot scene_of(const std::vector<RunData>& runs, const std::vector<Series>& all) {
+// The runs of one world; their indices.
+using Group = std::vector<std::size_t>;
+
+// Runs of the same world share a scene.
+std::vector<Group> groups_of(const std::vector<RunData>& runs) {
+  std::vector<Group> groups;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& known) {
+      const RunData& first = runs[known.front()];
+      return first.world_name == runs[r].world_name &&
+             first.world.has_value() == runs[r].world.has_value() &&
+             (!first.world || first.world->file == runs[r].world->file);
+    });
+    if (group == groups.end()) {
+      groups.push_back({r});
+    } else {
+      group->push_back(r);
+    }
+  }
+  return groups;
+}
+
+const sim::RobotModel& model_of(const RunData& run, const std::string& robot) {
+  if (run.world) {
+    for (const sim::RobotDescription& described : run.world->robots) {
+      if (described.name != robot) continue;
+      if (const auto* own = sim::find_robot_model(*run.world, described.model)) return *own;
+    }
+  }
+  return sim::default_robot_model();
+}
+
+// The scene of a world with the trajectories of all its runs.
+sim::SceneSnapshot scene_of(const std::vector<RunData>& runs, const Group& group,
+                            const std::vector<Series>& all) {
   sim::SceneSnapshot scene;
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
   Vec2 high = -low;
-  for (const Series& series : all) {
-    const RunData& run = runs[series.run];
-    sim::RobotSnapshot robot;
-    robot.name = series.name;
-    robot.colour = series.colour;
-    robot.X_WB = series.track->X_WB.back();
-    const sim::RobotModel* model = &sim::default_robot_model();
-    if (run.world) {
-      for (const sim::RobotDescription& described : run.world->robots) {
-        if (described.name != series.track->robot) continue;
-        if (const auto* own = sim::find_robot_model(*run.world, described.model)) model = own;
+  for (const std::size_t r : group) {
+    const RunData& run = runs[r];
+    const auto first = static_cast<int>(scene.robots.size());
+    for (const Series& series : all) {
+      if (series.run != r) continue;
+      sim::RobotSnapshot robot;
+      robot.name = series.name;
+      robot.colour = series.colour;
+      robot.X_WB = series.track->X_WB.back();
+      const sim::RobotModel& model = model_of(run, series.track->robot);
+      robot.footprint = model.footprint;
+      robot.parts = model.parts;
+      for (const sim::Superstructure& part : model.superstructures) {
+        robot.superstructures.push_back(part.outline);
       }
+      for (const sim::Pose& X_WB : series.track->X_WB) {
+        robot.trail.push_back(X_WB.position());
+        low = low.cwiseMin(X_WB.position());
+        high = high.cwiseMax(X_WB.position());
+      }
+      scene.robots.push_back(std::move(robot));
     }
-    robot.footprint = model->footprint;
-    robot.parts = model->parts;
-    for (const sim::Superstructure& part : model->superstructures) {
-      robot.superstructures.push_back(part.outline);
-    }
-    for (const sim::Pose& X_WB : series.track->X_WB) {
-      robot.trail.push_back(X_WB.position());
-      low = low.cwiseMin(X_WB.position());
-      high = high.cwiseMax(X_WB.position());
-    }
-    scene.robots.push_back(std::move(robot));
-  }
-  if (runs.front().world) {
-    scene.arena = runs.front().world->arena;
-  } else {
-    const double room_m = 0.1 * std::max((high - low).maxCoeff(), 1.0);
-    scene.arena.origin = low - Vec2::Constant(room_m);
-    scene.arena.size = high - low + Vec2::Constant(2.0 * room_m);
-    scene.arena.border = false;
-  }
-  int first = 0;  // index of the robot in its run
-  for (const RunData& run : runs) {
     for (sim::CollisionMark mark : run.collisions) {
       mark.robot += first;
       scene.collisions.push_back(mark);
@@ -241,54 +311,110 @@ sim::SceneSnapshot scene_of(const std::vector<RunData>& runs, const std::vector<
       mark.robot += first;
       scene.goals.push_back(mark);
     }
-    first += static_cast<int>(run.tracks.size());
+  }
+  if (const auto& world = runs[group.front()].world) {
+    scene.arena = world->arena;
+  } else {
+    const double room_m = 0.1 * std::max((high - low).maxCoeff(), 1.0);
+    scene.arena.origin = low - Vec2::Constant(room_m);
+    scene.arena.size = high - low + Vec2::Constant(2.0 * room_m);
+    scene.arena.border = false;
   }
   return scene;
 }
 
+// Names the curves in at most two lines.
 void draw_legend(Drawing& page, const std::vector<Series>& all) {
+  constexpr double kFirstY = 52.0;
+  constexpr double kLineHeight = 18.0;
+  constexpr double kEnd = kWidth - 110.0;  // there must be room for how many more there are
   double x = kLeft;
-  constexpr double kY = 54.0;
-  const std::size_t count = std::min(all.size(), kMostEntries);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Series& series = all[i];
-    page.add_line({{x, kY - 4.0}, {x + 30.0, kY - 4.0}}, series.colour, 3.0, series.run > 0);
-    page.add_text(series.name, {x + 38.0, kY}, kText, kInk);
-    x += 38.0 + Drawing::text_width_px(series.name, kText) + 26.0;
-    if (x > kWidth - 150.0) break;
+  double y = kFirstY;
+  std::size_t named = 0;
+  for (; named < std::min(all.size(), kMostEntries); ++named) {
+    const Series& series = all[named];
+    const double width = 38.0 + Drawing::text_width_px(series.name, kText);
+    if (x + width > kEnd && x > kLeft) {
+      if (y > kFirstY) break;
+      x = kLeft;
+      y += kLineHeight;
+    }
+    page.add_line({{x, y - 4.0}, {x + 30.0, y - 4.0}}, series.colour, 3.0, series.run > 0);
+    page.add_text(series.name, {x + 38.0, y}, kText, kInk);
+    x += width + 26.0;
   }
-  if (all.size() > count) {
-    page.add_text("and " + std::to_string(all.size() - count) + " more", {x, kY}, kText, kFaintInk);
+  if (all.size() > named) {
+    page.add_text("and " + std::to_string(all.size() - named) + " more", {x, y}, kText, kFaintInk);
   }
 }
 
-void draw_scene(Drawing& page, const std::vector<RunData>& runs, const std::vector<Series>& all) {
-  const sim::SceneSnapshot scene = scene_of(runs, all);
+// Draws a scene with its title and key.
+// @param side  longer side of its picture [pixels].
+void draw_scene(Drawing& page, const sim::SceneSnapshot& scene, const std::string& title,
+                bool with_names, const Vec2& corner, double side) {
   sim::render::RenderOptions options;
-  options.size_px = kSceneSide;
+  options.size_px = static_cast<int>(side);
   options.legend = false;
-  options.names = all.size() <= kMostEntries && runs.size() == 1;
+  options.names = with_names;
   sim::render::Image image = sim::render::draw_scene(scene, options);
-  const double left = kSceneLeft + 0.5 * (kSceneSide - image.width);
-  const double bottom = kTop + image.height;
-  page.add_text("trajectories", {left + 4.0, kTop - 9.0}, kText, kInk);
-  page.add_picture(std::move(image), {left, kTop});
-  const double key = bottom + 24.0;
+  const double left = corner.x() + 0.5 * (side - image.width);
+  const double key = corner.y() + image.height + 24.0;
+  page.add_text(title, {left + 4.0, corner.y() - 9.0}, kText, kInk);
+  page.add_picture(std::move(image), {left, corner.y()});
+  double x = left + 11.0;
   if (!scene.collisions.empty()) {
-    for (const double side : {-1.0, 1.0}) {
-      page.add_line({{left + 6.0, key - 4.0 - 5.0 * side}, {left + 16.0, key - 4.0 + 5.0 * side}},
-                    kRed, 2.4);
-    }
-    page.add_text(std::to_string(scene.collisions.size()) +
-                      (scene.collisions.size() == 1 ? " collision" : " collisions"),
-                  {left + 26.0, key}, kText, kInk);
+    add_cross(page, {x, key - 4.5});
+    const std::string text = std::to_string(scene.collisions.size()) +
+                             (scene.collisions.size() == 1 ? " collision" : " collisions");
+    page.add_text(text, {x + 14.0, key}, kText, kInk);
+    x += 14.0 + Drawing::text_width_px(text, kText) + 26.0;
   }
   if (!scene.goals.empty()) {
     const auto reached = std::count_if(scene.goals.begin(), scene.goals.end(),
                                        [](const sim::GoalMark& goal) { return goal.reached; });
+    if (reached > 0) add_diamond(page, {x, key - 4.5});
     page.add_text(std::to_string(reached) + " of " + std::to_string(scene.goals.size()) +
                       (scene.goals.size() == 1 ? " goal reached" : " goals reached"),
-                  {left + 170.0, key}, kText, kInk);
+                  {x + (reached > 0 ? 14.0 : 0.0), key}, kText, kInk);
+  }
+}
+
+// The places of scenes: one large one, two above each other, or rows of two.
+class SceneGrid {
+ public:
+  explicit SceneGrid(std::size_t scenes) : columns_(scenes > 2 ? 2 : 1), scenes_(scenes) {
+    side_ = scenes == 1   ? kScenesWidth
+            : scenes == 2 ? 0.5 * (kBottom - kTop - kSceneFoot)
+                          : 0.5 * (kScenesWidth - kSceneGap);
+  }
+  [[nodiscard]] double side() const noexcept { return side_; }
+  [[nodiscard]] Vec2 corner(std::size_t scene) const {
+    const auto column = static_cast<double>(scene % columns_);
+    const auto row = static_cast<double>(scene / columns_);
+    const double width = static_cast<double>(columns_) * (side_ + kSceneGap) - kSceneGap;
+    return {kSceneLeft + 0.5 * (kScenesWidth - width) + column * (side_ + kSceneGap),
+            kTop + row * (side_ + kSceneFoot)};
+  }
+  /// Height of a page on which all scenes fit [pixels].
+  [[nodiscard]] int page_height() const {
+    const double end = corner(scenes_ - 1).y() + side_ + kSceneFoot - 18.0;
+    return std::max(kHeight, static_cast<int>(end));
+  }
+
+ private:
+  std::size_t columns_;
+  std::size_t scenes_;
+  double side_;
+};
+
+void draw_scenes(Drawing& page, const SceneGrid& grid, const std::vector<Group>& groups,
+                 const std::vector<RunData>& runs, const std::vector<Series>& all) {
+  const bool with_names = all.size() <= kMostEntries && runs.size() == 1;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const std::string title =
+        groups.size() == 1 ? "trajectories" : runs[groups[g].front()].world_name;
+    draw_scene(page, scene_of(runs, groups[g], all), title, with_names, grid.corner(g),
+               grid.side());
   }
 }
 
@@ -309,14 +435,19 @@ std::vector<double> ticks(double least, double most, int count) {
 }
 
 Drawing plot_page(const std::vector<RunData>& runs) {
-  Drawing page(kWidth, kHeight);
+  constexpr std::size_t kMostScenes = 40;  // the page would become too high
+  std::vector<Group> groups = groups_of(runs);
+  if (groups.size() > kMostScenes) groups.resize(kMostScenes);
+  const SceneGrid grid(groups.size());
+  Drawing page(kWidth, grid.page_height());
   const std::vector<Series> all = series_of(runs);
   double end_s = 0.0;
   for (const Series& series : all) end_s = std::max(end_s, series.track->time_s.back());
   if (!(end_s > 0.0)) end_s = 1.0;
-  std::string title = runs.front().world_name;
+  std::string title;
+  std::set<std::string> named;
   for (const RunData& run : runs) {
-    if (run.world_name != runs.front().world_name) title += ", " + run.world_name;
+    if (named.insert(run.world_name).second) title += (title.empty() ? "" : ", ") + run.world_name;
   }
   page.add_text(title, {kLeft, 30.0}, 13.0, kInk);
   draw_legend(page, all);
@@ -326,7 +457,7 @@ Drawing plot_page(const std::vector<RunData>& runs) {
     Chart(page, kPanels.at(i), top, top + height, end_s).draw(all, i + 1 == kPanels.size());
   }
   page.add_text("time [s]", {kRight, kBottom + 36.0}, kText, kInk, Align::kRight);
-  draw_scene(page, runs, all);
+  draw_scenes(page, grid, groups, runs, all);
   return page;
 }
 

@@ -14,8 +14,9 @@ namespace playpen {
 [[nodiscard]] std::vector<double> ticks(double least, double most, int count);
 
 /// Draws the page of `playpen plot`. The left side shows speed, turn rate, clearance and path
-/// length over time. The right side shows the trajectories on the scene. The first run has solid
-/// curves, the other runs have dashed curves.
+/// length over time; crosses mark collisions, diamonds reached goals. The right side shows the
+/// trajectories, on one scene for each world. The first run has solid curves, the other runs have
+/// dashed curves.
 /// @pre !runs.empty()
 [[nodiscard]] sim::render::Drawing plot_page(const std::vector<RunData>& runs);
 

@@ -106,7 +106,10 @@ TEST_F(PlaypenGrade, TheTemplateFailsWithoutCrashing) {
   task_ = kIntroTask;
   const ProcessResult run = grade({"--seeds", "1,"}, {TEMPLATE_PROGRAM});
   EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.out, HasSubstr("par_intro seed 1: path 0.00 m, at least 12 m needed"));
+  EXPECT_THAT(
+      run.out,
+      HasSubstr("par_intro seed 1: distance driven, without movements on the spot, 0.00 m, at "
+                "least 12 m needed"));
   EXPECT_EQ(result().at("runs").at(0).at("end"), json({{"kind", "time-over"}}));
 }
 
@@ -136,6 +139,72 @@ TEST_F(PlaypenGrade, WhatProgramsDoIsAResult) {
                              HasSubstr("room      4  pass  time over"),
                              HasSubstr("try: 1 of 5 runs passed"), Not(HasSubstr("seed 2\n"))));
   EXPECT_EQ(log("room_seed2"), "seed 2\nerror\n");
+}
+
+TEST_F(PlaypenGrade, ARunThatDiesKeepsItsResultsAsAfterRun) {
+  struct Case {
+    const char* how;
+    const char* fault;
+    bool is_crash;
+  };
+  for (const Case& c :
+       {Case{"null", "the program was ended by signal 11 (Segmentation fault)", true},
+        Case{"abort", "the program was ended by signal 6 (Aborted)", true},
+        Case{"kill", "the program was ended by signal 9 (Killed)", false},
+        Case{"leave", "the program ended with status 3", false}}) {
+    SCOPED_TRACE(c.how);
+    const ProcessResult graded = grade({"--seeds", "7,"}, {ENDS_PROGRAM, c.how, "20"});
+    EXPECT_EQ(graded.status, 1);
+    const std::string run_folder = folder_ / "run";
+    EXPECT_EQ(playpen({"run", world_, "--seed", "7", "--duration", "5", "--out", run_folder, "--",
+                       ENDS_PROGRAM, c.how, "20"})
+                  .status,
+              1);
+    // The same steps, distances and pictures.
+    json report = read_report(fs::path(out_) / "room_seed7");
+    json of_run = read_report(run_folder);
+    for (json* one : {&report, &of_run}) {
+      one->erase("graded");
+      for (const char* key : {"wall_time", "real_time_factor"}) (*one)["run"].erase(key);
+    }
+    EXPECT_EQ(report, of_run);
+    EXPECT_FALSE(report.at("ended").is_null());
+    for (const char* file : {"scene.png", "canvas.png"}) {
+      EXPECT_EQ(read_bytes(fs::path(out_) / "room_seed7" / file),
+                read_bytes(fs::path(run_folder) / file))
+          << file;
+    }
+    const json run = result().at("runs").at(0);
+    EXPECT_EQ(run.at("path_length"), report.at("robots").at(0).at("path_length"));
+    EXPECT_EQ(run.at("sim_time"), 2.1);
+    EXPECT_EQ(run.at("faults"), json({std::string(c.fault) + " after 2.10 s of simulated time"}));
+    // The table says where to look and what to do.
+    EXPECT_THAT(
+        graded.out,
+        AllOf(HasSubstr("  picture: " + out_ + "/room_seed7/scene.png\n"),
+              HasSubstr("  what the program printed: " + out_ + "/room_seed7/program.log\n"),
+              HasSubstr("  repeat: " PLAYPEN_COMMAND " run " + world_ +
+                        " --seed 7 --duration 5 -- " ENDS_PROGRAM " " + c.how + " 20\n")));
+    EXPECT_EQ(graded.out.find("-- gdb -ex run --args " ENDS_PROGRAM) != std::string::npos,
+              c.is_crash);
+  }
+}
+
+TEST_F(PlaypenGrade, SaysOnceWhatAllSeedsHaveInCommon) {
+  // It drives in a circle of 0.8 m and meets the wall of the room at y = 2 m.
+  json world = json::parse(room_world());
+  world["robots"][0]["pose"]["y"] = 1.6;
+  folder_.write("room.json", world.dump());
+  const ProcessResult graded = grade({"--seeds", "3"}, {ENDS_PROGRAM, "drive"});
+  EXPECT_EQ(graded.status, 1);
+  const json first = result().at("runs").at(0).at("first_collision");
+  ASSERT_FALSE(first.is_null()) << graded.out;
+  EXPECT_EQ(first.at("with"), "border");
+  EXPECT_THAT(graded.out, HasSubstr("\nroom seeds 1 to 3: collisions "));
+  EXPECT_THAT(graded.out, HasSubstr("at most 0 allowed: the first after "));
+  EXPECT_THAT(graded.out, HasSubstr(" s with border at ("));
+  EXPECT_THAT(graded.out, Not(HasSubstr("seed 2")));
+  EXPECT_THAT(graded.out, HasSubstr("picture: " + out_ + "/room_seed1/scene.png\n"));
 }
 
 TEST_F(PlaypenGrade, AProgramThatHangsIsEnded) {

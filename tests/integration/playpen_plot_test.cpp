@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,8 +31,8 @@ constexpr const char* kRows =
     "0.100,r1,0.550000,0.500000,0.000000,0.500000,0.000000,0\n"
     "0.200,r1,0.600000,0.500000,0.000000,0.500000,-1.000000,0\n";
 
-std::string report(const std::string& world_file) {
-  return R"({"run": {"world": "small", "world_file": ")" + world_file + R"("},
+std::string report(const std::string& world_file, const std::string& world = "small") {
+  return R"({"run": {"world": ")" + world + R"(", "world_file": ")" + world_file + R"("},
     "collisions": [{"time": 0.2, "robot": "r1", "with": "border", "x": 1.9, "y": 0.5}],
     "goals": [{"time": 0.0, "robot": "r1", "x": 1.5, "y": 0.5, "reached": null}]})";
 }
@@ -56,6 +57,7 @@ TEST(PlaypenPlot, DrawsARunAsPngAndAsSvg) {
   const ProcessResult result = plot(folder, {"one"}, "a.png");
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out, "plot: " + (folder / "a.png") + ", of 1 run\n");
   EXPECT_THAT(read_bytes(folder / "a.png"), StartsWith("\x89PNG"));
   ASSERT_EQ(plot(folder, {"one"}, "a.svg").status, 0);
   const std::string svg = read_bytes(folder / "a.svg");
@@ -88,6 +90,68 @@ TEST(PlaypenPlot, WithoutTheWorldItSaysSoAndDrawsTheRest) {
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.err, AllOf(HasSubstr("no clearance and no scene"), HasSubstr("gone.json")));
   EXPECT_THAT(read_bytes(folder / "a.svg"), HasSubstr("not known"));
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(PlaypenPlot, MarksCollisionsAndReachedGoalsInTheCharts) {
+  const TemporaryFolder folder;
+  write_run(folder, "one");
+  ASSERT_EQ(plot(folder, {"one"}, "a.svg").status, 0);
+  const std::string svg = read_bytes(folder / "a.svg");
+  // A cross of two red lines on each of four curves, and in the key.
+  EXPECT_EQ(count_of(svg, "#e01e37"), 2U * (4U + 1U));
+  EXPECT_EQ(count_of(svg, "#1c8a3c"), 0U) << "the goal was not reached";
+  std::string reached = report(folder / "small.json");
+  reached.replace(reached.find("null"), 4, "0.1");
+  folder.write("one/report.json", reached);
+  ASSERT_EQ(plot(folder, {"one"}, "a.svg").status, 0);
+  EXPECT_EQ(count_of(read_bytes(folder / "a.svg"), "#1c8a3c"), 4U + 1U);
+}
+
+TEST(PlaypenPlot, EachWorldHasItsOwnScene) {
+  const TemporaryFolder folder;
+  write_run(folder, "one");
+  write_run(folder, "again");
+  folder.write("large.json", R"({"name": "large", "arena": {"size": [9, 9]},
+    "robots": [{"name": "r1", "pose": {"x": 0.5, "y": 0.5}}]})");
+  folder.write("two/trajectory.csv", kRows);
+  folder.write("two/report.json", report(folder / "large.json", "large"));
+  ASSERT_EQ(plot(folder, {"one", "again"}, "a.svg").status, 0);
+  EXPECT_EQ(count_of(read_bytes(folder / "a.svg"), "<image"), 1U);
+  ASSERT_EQ(plot(folder, {"one", "two", "again"}, "a.svg").status, 0);
+  const std::string svg = read_bytes(folder / "a.svg");
+  EXPECT_EQ(count_of(svg, "<image"), 2U);
+  EXPECT_THAT(svg, AllOf(HasSubstr(">small, large<"), HasSubstr(">small<"), HasSubstr(">large<"),
+                         HasSubstr("2 collisions"), HasSubstr("1 collision<")));
+}
+
+TEST(PlaypenPlot, TakesTheFolderOfAGrade) {
+  const TemporaryFolder folder;
+  write_run(folder, "grade/small_seed1");
+  write_run(folder, "grade/small_seed2");
+  folder.write("grade/grade.json", R"({"runs": [
+    {"folder": "small_seed1", "robot": "r1", "goal": {"x": 0.6, "y": 0.5, "tolerance": 0.02}},
+    {"folder": "small_seed2", "robot": "r1", "goal": null},
+    {"folder": "small_seed3", "robot": "r1", "goal": null}]})");
+  const ProcessResult result = plot(folder, {"grade"}, "a.svg");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("a.svg, of 2 runs\n"));
+  EXPECT_THAT(result.err, AllOf(HasSubstr("left out"), HasSubstr("small_seed3")));
+  const std::string svg = read_bytes(folder / "a.svg");
+  EXPECT_THAT(svg, AllOf(HasSubstr(">small_seed1: r1<"), HasSubstr(">small_seed2: r1<")));
+  EXPECT_THAT(svg, HasSubstr("1 of 3 goals reached")) << "two of the reports, one of the task";
+  // A single run of a grade knows the goal, too.
+  ASSERT_EQ(plot(folder, {"grade/small_seed1/"}, "b.svg").status, 0);
+  EXPECT_THAT(read_bytes(folder / "b.svg"), HasSubstr("1 of 2 goals reached"));
+  folder.write("grade/grade.json", "[]");
+  EXPECT_THAT(plot(folder, {"grade"}, "a.svg").err, HasSubstr("expected the grade of a program"));
 }
 
 TEST(PlaypenPlot, SaysWhatIsWrongWithAFolder) {

@@ -4,7 +4,6 @@
 #include "imr-h/imr_config.h"
 #include "imr-h/logging.h"
 #include "libCCMorse/CCMorse.h"
-#include "quarry.h"
 #include "robot.h"
 
 int main(int argc, char** argv) {
@@ -14,10 +13,8 @@ int main(int argc, char** argv) {
     if (!config.parse_command_line(argc, argv)) return 0;  // the user asked for --help
 
     CRobot robot(config);
-    CQuarry quarry(config.get<std::string>("host"), config.get<unsigned>("quarry-port"));
-    quarry.execute();  // starts the fox's thread
-    robot.execute();   // starts the robot's thread
-    robot.join();      // waits until it ends
+    robot.execute();  // starts the robot's thread
+    robot.join();     // waits until it ends
     return robot.succeeded() ? 0 : 1;
   } catch (const CCMorse::MorseError& e) {
     ERROR("No robot: " << e.GetErrorStr() << " (in " << e.GetErrorFun() << ")");

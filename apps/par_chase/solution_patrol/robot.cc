@@ -42,7 +42,6 @@ par::FollowerParams followerParams() {
 imr::CConfig& CRobot::getConfig(imr::CConfig& config) {
   config.add<std::string>("host", "where the robot is", "localhost");
   config.add<unsigned>("port", "its port", 6665);
-  config.add<unsigned>("quarry-port", "port of the other robot", 6666);
   config.add<unsigned>("position2d-index", "number of the drive", 0);
   config.add<unsigned>("fiducial-index", "number of the fiducial finder", 0);
   return config;
@@ -90,8 +89,6 @@ void CRobot::threadBody() {
   } catch (const CCMorse::MorseError& e) {
     ERROR("No verdict: " << e.GetErrorStr());
   }
-  // Simulated time advances only while all clients wait in Read(). The fox can go on, and end, only
-  // after this client has gone.
   delete &window;
   fiducial.reset();
   position.reset();

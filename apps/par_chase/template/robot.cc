@@ -24,7 +24,6 @@ const double REACH = 0.5;    // see moveToFree() [m]
 imr::CConfig& CRobot::getConfig(imr::CConfig& config) {
   config.add<std::string>("host", "where the robot is", "localhost");
   config.add<unsigned>("port", "its port", 6665);
-  config.add<unsigned>("quarry-port", "port of the other robot", 6666);
   config.add<unsigned>("position2d-index", "number of the drive", 0);
   config.add<unsigned>("fiducial-index", "number of the fiducial finder", 0);
   return config;
@@ -62,8 +61,6 @@ void CRobot::threadBody() {
     // Read() also throws when the simulated run ends: here, when the arena's controller ends it.
     INFO("The run is over: " << e.GetErrorStr());
   }
-  // Simulated time advances only while all clients wait in Read(). The fox can go on, and end, only
-  // after this client has gone.
   delete &window;
   fiducial.reset();
   position.reset();

@@ -15,6 +15,7 @@
 #include "grade/map_score.h"
 #include "grade/shortest_path.h"
 #include "grade/text.h"
+#include "sim/core/base64.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
 #include "sim/core/number_text.h"
@@ -92,7 +93,7 @@ sim::ArenaDescription with_blocks(sim::ArenaDescription arena,
 /// Compares a map with the arena at the end of the run. Floor counts as reachable if the robot's
 /// start leads to it through blocks that were out of the way at some time.
 MapScore score_with_blocks(const sim::OccupancyMap& map, const Reference& reference,
-                           const Blocks& blocks) {
+                           const Blocks& blocks, const SeenFloor* seen) {
   const auto stands = [&blocks](const std::string& name) {
     const auto found = blocks.at_end.find(name);
     return found != blocks.at_end.end() && found->second;
@@ -102,13 +103,79 @@ MapScore score_with_blocks(const sim::OccupancyMap& map, const Reference& refere
   };
   return score_map_within(
       map, make_truth(with_blocks(reference.arena, stands)),
-      reachable_cells(make_truth(with_blocks(reference.arena, never_opened)), reference.start));
+      reachable_cells(make_truth(with_blocks(reference.arena, never_opened)), reference.start),
+      seen);
+}
+
+/// What of the arena a report tells, for the judgement of a map.
+struct Floor {
+  std::optional<Blocks> blocks;
+  std::optional<SeenFloor> seen;
+};
+
+/// Reads the floor that a robot has seen from its entry in a report; nullopt if there is none.
+std::optional<SeenFloor> read_seen(const nlohmann::json& robot) {
+  if (!robot.contains("seen")) return std::nullopt;
+  const nlohmann::json& entry = robot.at("seen");
+  SeenFloor seen;
+  seen.cell_size_m = entry.at("cell_size").get<double>();
+  seen.origin = {entry.at("x").get<double>(), entry.at("y").get<double>()};
+  seen.width = entry.at("width").get<int>();
+  seen.height = entry.at("height").get<int>();
+  seen.bits = sim::from_base64(entry.at("cells").get<std::string>()).value_or(seen.bits);
+  const bool has_size = seen.cell_size_m > 0.0 && seen.width > 0 && seen.height > 0;
+  if (!has_size || seen.bits.size() * 8 / static_cast<std::size_t>(seen.width) <
+                       static_cast<std::size_t>(seen.height)) {
+    return std::nullopt;
+  }
+  return seen;
+}
+
+/// The first contact of a robot; nullopt if there was none, or if the report does not have it any
+/// more.
+std::optional<Contact> first_collision(const nlohmann::json& report, const std::string& robot,
+                                       int count) {
+  std::optional<Contact> first;
+  int listed = 0;
+  for (const nlohmann::json& collision : report.value("collisions", nlohmann::json::array())) {
+    if (collision.at("robot").get<std::string>() != robot) continue;
+    if (++listed > 1) continue;
+    first = Contact{collision.at("time").get<double>(),
+                    collision.at("with").get<std::string>(),
+                    {collision.at("x").get<double>(), collision.at("y").get<double>()}};
+  }
+  return listed < count ? std::nullopt : first;
+}
+
+void read_achievements(const nlohmann::json& robot, Measures& measures) {
+  if (robot.contains("distance")) measures.distance_m = robot.at("distance").get<double>();
+  if (robot.contains("visited_area")) {
+    measures.visited_area_m2 = robot.at("visited_area").get<double>();
+  }
+}
+
+/// Reads what was refused to the program.
+std::vector<Refusal> read_refusals(const nlohmann::json& report) {
+  std::vector<Refusal> refused;
+  for (const nlohmann::json& refusal : report.value("refused", nlohmann::json::array())) {
+    refused.push_back({refusal.at("time").get<double>(), refusal.at("what").get<std::string>()});
+  }
+  return refused;
+}
+
+/// Reads which robots the program has commanded, and what was refused to it.
+void read_use(const nlohmann::json& report, Measures& measures) {
+  for (const nlohmann::json& robot : report.at("robots")) {
+    if (robot.value("commanded", nlohmann::json()).is_null()) continue;
+    measures.commanded.push_back(robot.at("name").get<std::string>());
+  }
+  measures.refused = read_refusals(report);
 }
 
 /// Copies the graded robot's results from the report. @return an error, if there is one.
 std::optional<std::string> read_report(const fs::path& file, const Reference& reference,
                                        const playerlike::Grading& asked, Measures& measures,
-                                       std::optional<Blocks>& blocks) {
+                                       Floor& floor) {
   std::string text;
   if (const auto problem = sim::read_whole_file(file.string(), {}, text)) {
     if (problem->fault == sim::FileFault::kMissing) {
@@ -121,13 +188,22 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
     if (report.contains("ended") && report.at("ended").is_null()) {
       return "the report is of a run that has not ended: the program was cut short";
     }
-    if (auto fault = playerlike::fault_of_graded(text, asked)) return fault;
+    if (auto fault = playerlike::fault_of_graded(text, asked)) {
+      // A program may have died of a refusal before the first step.
+      const bool is_own = report.is_object() && report.contains("graded") &&
+                          report.at("graded").value("nonce", "") == asked.nonce;
+      if (is_own) measures.refused = read_refusals(report);
+      return fault;
+    }
     Measures found = measures;
     found.sim_time_s = report.at("run").at("sim_time").get<double>();
     for (const nlohmann::json& robot : report.at("robots")) {
       if (robot.at("name").get<std::string>() != reference.robot) continue;
       found.path_length_m = robot.at("path_length").get<double>();
       found.collisions = robot.at("collisions").get<int>();
+      found.first_collision = first_collision(report, reference.robot, *found.collisions);
+      read_achievements(robot, found);
+      floor.seen = read_seen(robot);
       // null: the world contains nothing solid.
       if (const nlohmann::json& clearance = robot.at("least_clearance"); !clearance.is_null()) {
         found.least_clearance_m = clearance.get<double>();
@@ -148,7 +224,8 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
       }
     }
     read_verdict(report, reference, found);
-    blocks = read_blocks(report, reference);
+    read_use(report, found);
+    floor.blocks = read_blocks(report, reference);
     measures = found;
     if (!measures.path_length_m) return "the report has no robot " + reference.robot;
   } catch (const nlohmann::json::exception& error) {
@@ -158,16 +235,20 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
 }
 
 std::optional<std::string> read_drawn_map(const fs::path& folder, const Task& task,
-                                          const Reference& reference,
-                                          const std::optional<Blocks>& blocks, Measures& measures) {
+                                          const Reference& reference, const Floor& floor,
+                                          Measures& measures) {
+  if (!floor.seen) return "no map: the report does not tell which floor the robot has seen";
   const std::string name = "layers/" + task.map_layer + ".yaml";
   std::error_code error;
   if (!fs::is_regular_file(folder / name, error)) return "no map: there is no " + name;
   try {
     const sim::OccupancyMap map = sim::io::read_map((folder / name).string());
-    const MapScore score = blocks ? score_with_blocks(map, reference, *blocks)
-                                  : score_map(map, reference.truth, reference.start);
+    const MapScore score = floor.blocks
+                               ? score_with_blocks(map, reference, *floor.blocks, &*floor.seen)
+                               : score_map(map, reference.truth, reference.start, &*floor.seen);
     measures.coverage = score.coverage;
+    measures.drawn = score.drawn;
+    measures.seen = score.seen;
     measures.correctness = score.correctness;
   } catch (const sim::ConfigError& e) {
     return std::string("the map can't be read: ") + e.what();
@@ -199,19 +280,39 @@ Ending ending_of(const playerlike::JobEnd& end, const Measures& measures,
   return over ? Ending::kTimeOver : Ending::kBySelf;
 }
 
+/// The thresholds that what a program has not done any more cannot violate.
+Thresholds upper_limits(const Thresholds& thresholds) {
+  Thresholds upper;
+  upper.max_collisions = thresholds.max_collisions;
+  upper.min_clearance_m = thresholds.min_clearance_m;
+  upper.max_path_length_m = thresholds.max_path_length_m;
+  upper.max_sim_time_s = thresholds.max_sim_time_s;
+  upper.max_stalled_time_s = thresholds.max_stalled_time_s;
+  return upper;
+}
+
+/// " after 3.21 s of simulated time", if the results are those until then.
+std::string time_text(bool completed, const Measures& measures) {
+  if (!completed || !measures.sim_time_s) return "";
+  return " after " + sim::fixed_text(*measures.sim_time_s, 2) + " s of simulated time";
+}
+
 /// The fault of an ending, independent of the thresholds; nullopt if there is none.
-std::optional<std::string> fault_of(Ending ending, const playerlike::JobEnd& end,
-                                    const Task& task) {
+/// @param when  see time_text().
+std::optional<std::string> fault_of(Ending ending, const playerlike::JobEnd& end, const Task& task,
+                                    bool completed, const std::string& when) {
   switch (ending) {
     case Ending::kBySelf:
     case Ending::kTimeOver:
     case Ending::kVerdict:
-      return std::nullopt;
+      if (!completed) return std::nullopt;
+      return "the program left in the middle of the run (by _exit?)" + when;
     case Ending::kBadStatus:
     case Ending::kSignal:
-      return "the program " + end.program.text();
+      return "the program " + end.program.text() + when;
     case Ending::kTimedOut:
-      return "timeout: still running after " + sim::shortest_text(task.timeout_s) + " s";
+      return "timeout: still running after " + sim::shortest_text(task.timeout_s) + " s" +
+             (when.empty() ? "" : "; it was ended" + when);
     case Ending::kTooMuchOutput:
       return "the program wrote more than " + std::to_string(kMostOutput / 1'000'000) +
              " MB into its output folder";
@@ -236,23 +337,46 @@ std::optional<std::string> impossible_path(const Reference& reference, const Mea
          " m): the robot has not driven there; does the world lock its objects (lock_objects)?";
 }
 
+/// ": the first after 10.61 s with border at (1.16, 3.72)"; "" if it is not known.
+std::string first_collision_text(const Measures& measures) {
+  if (!measures.first_collision) return "";
+  const Contact& first = *measures.first_collision;
+  return ": the first after " + sim::fixed_text(first.time_s, 2) + " s with " + first.partner +
+         " at (" + sim::fixed_text(first.place.x(), 2) + ", " +
+         sim::fixed_text(first.place.y(), 2) + ')';
+}
+
+/// Says that a map shows floor that the robot has not seen; "" if that makes no difference.
+std::string unseen_text(const Measures& measures) {
+  if (!measures.coverage || !measures.drawn || !measures.seen) return "";
+  constexpr double kDifference = 0.0005;  // not visible in the table
+  if (*measures.drawn - *measures.coverage < kDifference) return "";
+  return ": the map shows " + sim::fixed_text(*measures.drawn, 3) +
+         " of the floor, but the robot's own sensors have seen only " +
+         sim::fixed_text(*measures.seen, 3) + " of it";
+}
+
 /// Adds a fault if a measure violates its limit, or is missing.
 class Judge {
  public:
+  /// @param more  what to say beside the numbers.
   void at_least(const char* what, const std::optional<double>& value,
-                const std::optional<double>& limit, int decimals, const char* unit = "") {
-    compare(what, value, limit, decimals, unit, true);
+                const std::optional<double>& limit, int decimals, const char* unit = "",
+                const std::string& more = "") {
+    compare(what, value, limit, decimals, unit, true, more);
   }
   void at_most(const char* what, const std::optional<double>& value,
-               const std::optional<double>& limit, int decimals, const char* unit = "") {
-    compare(what, value, limit, decimals, unit, false);
+               const std::optional<double>& limit, int decimals, const char* unit = "",
+               const std::string& more = "") {
+    compare(what, value, limit, decimals, unit, false, more);
   }
   void add(std::string fault) { faults_.push_back(std::move(fault)); }
   [[nodiscard]] std::vector<std::string> take() { return std::move(faults_); }
 
  private:
   void compare(const char* what, const std::optional<double>& value,
-               const std::optional<double>& limit, int decimals, const char* unit, bool least) {
+               const std::optional<double>& limit, int decimals, const char* unit, bool least,
+               const std::string& more) {
     if (!limit) return;
     const std::string bound = least ? "at least " : "at most ";
     if (!value) {
@@ -260,14 +384,53 @@ class Judge {
           " asked for");
     } else if (least ? *value < *limit : *value > *limit) {
       add(std::string(what) + ' ' + telling_number(*value, *limit, decimals) + unit + ", " + bound +
-          sim::shortest_text(*limit) + unit + (least ? " needed" : " allowed"));
+          sim::shortest_text(*limit) + unit + (least ? " needed" : " allowed") + more);
     }
   }
 
   std::vector<std::string> faults_;
 };
 
+/// Refuses a task whose "may_use" names robots or devices that the world does not have.
+void require_known_names(const Task& task, const Reference& reference,
+                         const sim::WorldDescription& world) {
+  if (!task.may_use) return;
+  const std::vector<std::string> robots = rules_of(task, reference).may_use->robots;
+  std::set<std::string> devices;
+  for (const std::string& name : robots) {
+    const auto robot =
+        std::find_if(world.robots.begin(), world.robots.end(),
+                     [&name](const sim::RobotDescription& r) { return r.name == name; });
+    if (robot == world.robots.end()) {
+      refuse(task, "task/unknown-robot", "/may_use/robots", "robots of \"" + reference.world + '"',
+             name + ", which is not there");
+    }
+    for (const sim::DeviceDescription& device : robot->devices) {
+      devices.insert(device.name);
+      devices.insert(device.type);
+    }
+  }
+  for (const std::string& name : task.may_use->devices.value_or(std::vector<std::string>())) {
+    if (devices.contains(name)) continue;
+    std::string known;
+    for (const std::string& device : devices) known += (known.empty() ? "" : ", ") + device;
+    refuse(task, "task/unknown-device", "/may_use/devices",
+           "names or types of devices of " + robots.front() + " in \"" + reference.world + '"',
+           name + ", which is none of them", "there are " + known);
+  }
+}
+
 }  // namespace
+
+playerlike::TaskRules rules_of(const Task& task, const Reference& reference) {
+  playerlike::TaskRules rules;
+  rules.may_use = task.may_use;
+  if (rules.may_use && rules.may_use->robots.empty()) {
+    rules.may_use->robots.push_back(reference.robot);
+  }
+  if (!task.map_layer.empty()) rules.seen_by = reference.robot;
+  return rules;
+}
 
 Reference make_reference(const Task& task, const TaskWorld& task_world,
                          const sim::WorldDescription& world) {
@@ -285,6 +448,7 @@ Reference make_reference(const Task& task, const TaskWorld& task_world,
            "none in \"" + reference.world + '"');
   }
   reference.robot = robot->name;
+  require_known_names(task, reference, world);
   reference.start = robot->pose.position();
   reference.arena = world.arena;
   reference.duration_s = task.duration_s;
@@ -362,28 +526,46 @@ std::vector<std::string> faults_of(const Thresholds& t, const Measures& m, Endin
     judge.add("verdict: failed" + (m.verdict_reason.empty() ? "" : ": " + m.verdict_reason));
   }
   judge.at_least("score", m.score, t.min_score, 0);
-  judge.at_least("coverage", m.coverage, t.min_coverage, 3);
+  judge.at_least("coverage", m.coverage, t.min_coverage, 3, "", unseen_text(m));
   judge.at_least("map correctness", m.correctness, t.min_correctness, 3);
   judge.at_most("collisions", m.collisions ? std::optional<double>(*m.collisions) : std::nullopt,
-                t.max_collisions ? std::optional<double>(*t.max_collisions) : std::nullopt, 0);
+                t.max_collisions ? std::optional<double>(*t.max_collisions) : std::nullopt, 0, "",
+                first_collision_text(m));
   judge.at_least("least clearance", m.least_clearance_m, t.min_clearance_m, 3, " m");
   judge.at_least("path", m.path_length_m, t.min_path_length_m, 2, " m");
   judge.at_most("path", m.path_length_m, t.max_path_length_m, 2, " m");
+  judge.at_least("distance driven, without movements on the spot,", m.distance_m, t.min_distance_m,
+                 2, " m");
+  judge.at_least("visited floor", m.visited_area_m2, t.min_visited_area_m2, 2, " m^2");
   judge.at_most("path to shortest path", m.path_ratio, t.max_path_ratio, 2);
   judge.at_most("simulated time", m.sim_time_s, t.max_sim_time_s, 1, " s");
   judge.at_most("stalled time", m.stalled_time_s, t.max_stalled_time_s, 2, " s");
   return judge.take();
 }
 
+namespace {
+
+/// Adds the faults of a run whose report is known.
+void judge(const Task& task, const Reference& reference, bool completed, GradedRun& run) {
+  if (auto fault = impossible_path(reference, run.measures)) {
+    run.faults.push_back(*std::move(fault));
+  }
+  const std::vector<std::string> beyond = faults_of(
+      completed ? upper_limits(task.thresholds) : task.thresholds, run.measures, run.ending);
+  run.faults.insert(run.faults.end(), beyond.begin(), beyond.end());
+}
+
+}  // namespace
+
 void evaluate(const Task& task, const Reference& reference, const playerlike::JobEnd& end,
-              const fs::path& folder, GradedRun& run) {
+              const fs::path& folder, bool completed, GradedRun& run) {
   std::optional<std::string> problem;
   if (end.kind != playerlike::JobEnd::Kind::kNotStarted) {
     run.measures.shortest_path_m = reference.shortest_path_m;
-    std::optional<Blocks> blocks;
-    problem = read_report(folder / "report.json", reference, run.asked, run.measures, blocks);
+    Floor floor;
+    problem = read_report(folder / "report.json", reference, run.asked, run.measures, floor);
     if (!problem && !task.map_layer.empty()) {
-      problem = read_drawn_map(folder, task, reference, blocks, run.measures);
+      problem = read_drawn_map(folder, task, reference, floor, run.measures);
       // A missing map is no problem if no threshold needs it.
       if (!task.thresholds.min_coverage && !task.thresholds.min_correctness) problem.reset();
     }
@@ -394,19 +576,22 @@ void evaluate(const Task& task, const Reference& reference, const playerlike::Jo
   if (run.ending == Ending::kSignal) run.signal = end.program.signal;
 
   run.faults.clear();
-  if (auto fault = fault_of(run.ending, end, task)) {
+  const std::string when = time_text(completed, run.measures);
+  if (auto fault = fault_of(run.ending, end, task, completed, when)) {
     // After a bad ending, do not report what is missing because of it.
     run.faults.push_back(*std::move(fault));
   } else if (problem) {
     run.faults.push_back(*std::move(problem));
   }
   // Without a report there is nothing to grade; the missing report is already a fault.
-  if (!run.measures.sim_time_s) return;
-  if (auto fault = impossible_path(reference, run.measures)) {
-    run.faults.push_back(*std::move(fault));
+  if (run.measures.sim_time_s) judge(task, reference, completed, run);
+  if (run.faults.empty()) return;
+  // A refusal alone is no fault, but it may be the reason of one.
+  for (const Refusal& refusal : run.measures.refused) {
+    run.faults.push_back("the program asked for " + refusal.what +
+                         ", which the task does not let it use; the first time after " +
+                         sim::fixed_text(refusal.time_s, 2) + " s");
   }
-  const std::vector<std::string> beyond = faults_of(task.thresholds, run.measures, run.ending);
-  run.faults.insert(run.faults.end(), beyond.begin(), beyond.end());
 }
 
 }  // namespace playpen::grade

@@ -34,28 +34,48 @@ struct Reference {
 /// The path is that of the robot's centre on the true map (kTruthCell_m), inflated by the radius of
 /// the largest circle around the middle of its axle that fits into its outline.
 ///
-/// @throws sim::ConfigError if the task does not match the world: no robot of that name; a goal or
-///         a controller that is missing although the thresholds need one; or a goal that can't be
-///         reached.
+/// @throws sim::ConfigError if the task does not match the world: no robot or device of a name; a
+///         goal or a controller that is missing although the thresholds need one; or a goal that
+///         can't be reached.
 [[nodiscard]] Reference make_reference(const Task& task, const TaskWorld& task_world,
                                        const sim::WorldDescription& world);
+
+/// A contact of the graded robot.
+struct Contact {
+  double time_s = 0.0;
+  std::string partner;                  ///< an obstacle, a robot, "border" or "wall"
+  sim::Vec2 place = sim::Vec2::Zero();  ///< in W [m]
+};
+
+/// Something that the task does not let a program use, and that the program has asked for in vain.
+struct Refusal {
+  double time_s = 0.0;  ///< of the first time
+  std::string what;     ///< "the map of the world"
+};
 
 /// The measures of a run; unknown ones are empty.
 struct Measures {
   std::optional<bool> reached;  ///< whether the robot reached the goal; none without a goal
   std::optional<double> goal_distance_m;  ///< from the goal, at the end [m]
   std::optional<double> coverage;         ///< see MapScore
+  std::optional<double> drawn;            ///< see MapScore
+  std::optional<double> seen;             ///< see MapScore
   std::optional<double> correctness;      ///< see MapScore
   std::optional<double> path_length_m;    ///< length of the driven path [m]
+  std::optional<double> distance_m;       ///< driven, without movements on the spot [m]
+  std::optional<double> visited_area_m2;  ///< of the floor that the robot has been on [m^2]
   std::optional<double> shortest_path_m;  ///< length of the shortest possible path [m]
   std::optional<double> path_ratio;       ///< their ratio, if the goal was reached
   std::optional<int> collisions;
+  std::optional<Contact> first_collision;
   std::optional<double> least_clearance_m;
   std::optional<double> stalled_time_s;
   std::optional<double> sim_time_s;
   std::optional<double> score;  ///< points of the robot; none without a controller of the arena
   std::optional<bool> verdict;  ///< of the controller: whether the run has passed; none: no verdict
   std::string verdict_reason;   ///< for people; may be empty
+  std::vector<std::string> commanded;  ///< names of the robots that the program has commanded
+  std::vector<Refusal> refused;        ///< in the order of their times
 };
 
 /// Limit of the output of a program [bytes]: the total size of the files in its output folder.
@@ -83,6 +103,8 @@ struct GradedRun {
   std::string world;
   std::uint64_t seed = 0;
   std::string folder;  ///< folder of its results, in the grader's output folder
+  std::string robot;   ///< the robot that is graded
+  std::optional<Goal> goal;
   Ending ending = Ending::kNotRun;
   playerlike::Grading asked;  ///< settings that the report must match
   int status = 0;             ///< exit status of the program, with kBadStatus
@@ -94,11 +116,16 @@ struct GradedRun {
   [[nodiscard]] bool passed() const noexcept { return faults.empty(); }
 };
 
+/// The rules of a task for the host of a run.
+[[nodiscard]] playerlike::TaskRules rules_of(const Task& task, const Reference& reference);
+
 /// Grades a run by the content of its output folder. Whatever the program has done, and whatever
 /// its files contain, gives a result and not an error.
+/// @param completed  the program died or left in the middle of its run, and the results are those
+///     until then. Such a run fails.
 /// @param run  with world, seed, folder and settings; the function fills in the rest.
 void evaluate(const Task& task, const Reference& reference, const playerlike::JobEnd& end,
-              const std::filesystem::path& folder, GradedRun& run);
+              const std::filesystem::path& folder, bool completed, GradedRun& run);
 
 /// The threshold violations: "3 collisions, at most 0 allowed".
 [[nodiscard]] std::vector<std::string> faults_of(const Thresholds& thresholds,

@@ -7,18 +7,23 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <memory>
 #include <random>
 #include <set>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include "playerlike/host/kept_results.h"
 #include "playerlike/host/program.h"
 #include "playerlike/host/results.h"
 #include "playerlike/host/run_settings.h"
 #include "sim/core/error.h"
+#include "sim/core/file.h"
 #include "sim/core/number_text.h"
+#include "sim/core/replace_file.h"
 #include "sim/simulation/simulation.h"
 
 namespace playpen::grade {
@@ -51,9 +56,8 @@ std::string new_nonce() {
   return nonce;
 }
 
-playerlike::ProgramJob job_for(const GradeSettings& settings, const TaskWorld& world,
-                               const sim::WorldDescription& description, std::uint64_t seed,
-                               const fs::path& folder, playerlike::Grading& asked) {
+playerlike::RunSettings settings_of_run(const GradeSettings& settings, std::uint64_t seed,
+                                        const fs::path& folder) {
   playerlike::RunSettings run;
   run.seed = seed;
   run.realism = settings.realism;
@@ -61,9 +65,17 @@ playerlike::ProgramJob job_for(const GradeSettings& settings, const TaskWorld& w
   run.output_folder = folder.string();
   run.quiet_end = true;
   run.virtual_time = !settings.virtual_time.empty();
+  return run;
+}
+
+playerlike::ProgramJob job_for(const GradeSettings& settings, const TaskWorld& world,
+                               const sim::WorldDescription& description,
+                               const playerlike::TaskRules& rules, std::uint64_t seed,
+                               const fs::path& folder, playerlike::Grading& asked) {
+  playerlike::RunSettings run = settings_of_run(settings, seed, folder);
   sim::WorldDescription as_run = description;
   run.apply_to(as_run);
-  asked = playerlike::grading_of(new_nonce(), as_run);
+  asked = playerlike::grading_of(new_nonce(), rules, as_run);
   run.grading = asked;
   playerlike::ProgramJob job;
   job.command = settings.program;
@@ -115,6 +127,23 @@ class WorkFolder {
   fs::path path_;
 };
 
+/// Writes the results of a run whose program has died, from what its host has kept. Such a run
+/// fails, so signing its report for the program gives nothing away.
+/// @return whether there were results to write.
+bool complete(const playerlike::KeptRun& kept, sim::WorldDescription world,
+              const playerlike::RunSettings& settings, const playerlike::JobEnd& end,
+              const GradedRun& run) {
+  settings.apply_to(world);
+  if (!playerlike::complete_results(kept, world, settings, end.program)) return false;
+  const std::string file = (fs::path(settings.output_folder) / "report.json").string();
+  std::string text;
+  if (sim::read_whole_file(file, {}, text)) return true;
+  if (const int error = sim::replace_file(file, playerlike::signed_report(text, run.asked))) {
+    throw std::runtime_error("cannot write " + file + ": " + std::strerror(error));
+  }
+  return true;
+}
+
 /// Moves the results of a run to their folder.
 void take_results(const fs::path& from, const fs::path& to) {
   std::error_code error;
@@ -131,6 +160,88 @@ void take_results(const fs::path& from, const fs::path& to) {
   }
   fs::remove_all(from, error);
 }
+
+/// The runs of a grading: prepares them, and judges them when they have ended.
+class Runs {
+ public:
+  /// @param result  gets the runs; must outlive this object.
+  Runs(const GradeSettings& settings, Grade& result)
+      : settings_(settings),
+        result_(result),
+        out_(settings.output_folder),
+        kept_(settings.task.worlds.size() * settings.task.seeds.size()) {
+    for (const TaskWorld& world : settings.task.worlds) {
+      descriptions_.push_back(sim::load_world(world.file));
+      references_.push_back(make_reference(settings.task, world, descriptions_.back()));
+    }
+    work_.emplace(out_);
+    for (std::size_t world = 0; world < references_.size(); ++world) {
+      for (const std::uint64_t seed : settings.task.seeds) prepare(world, seed);
+    }
+  }
+
+  [[nodiscard]] const std::vector<playerlike::ProgramJob>& jobs() const noexcept { return jobs_; }
+
+  /// Judges a run whose processes have all ended. Those of other runs may still change files, so
+  /// this must be done before anything else.
+  void judge(std::size_t index, const playerlike::JobEnd& end) {
+    GradedRun& run = result_.runs[index];
+    const fs::path folder = work_->path() / run.folder;
+    bool completed = false;
+    std::string problem;
+    try {
+      completed = complete(*kept_[index], descriptions_[world_of_[index]],
+                           settings_of_run(settings_, run.seed, folder), end, run);
+    } catch (const std::exception& error) {
+      completed = true;
+      problem = std::string("results of the run are missing: ") + error.what();
+    }
+    kept_[index].reset();
+    take_results(folder, out_ / run.folder);
+    evaluate(settings_.task, references_[world_of_[index]], end, out_ / run.folder, completed, run);
+    if (!problem.empty()) run.faults.push_back(std::move(problem));
+  }
+
+  /// Judges a run that was not started.
+  void judge_unstarted(std::size_t index, const playerlike::JobEnd& end) {
+    GradedRun& run = result_.runs[index];
+    evaluate(settings_.task, references_[world_of_[index]], end, out_ / run.folder,
+             /*completed=*/false, run);
+  }
+
+ private:
+  void prepare(std::size_t world, std::uint64_t seed) {
+    GradedRun run;
+    run.world = references_[world].world;
+    run.robot = references_[world].robot;
+    run.goal = references_[world].goal;
+    run.seed = seed;
+    run.folder = run.world + "_seed" + std::to_string(seed);
+    run.faults = {"not run yet"};
+    prepare_folder(out_ / run.folder);
+    prepare_folder(work_->path() / run.folder);
+    jobs_.push_back(job_for(settings_, settings_.task.worlds[world], descriptions_[world],
+                            rules_of(settings_.task, references_[world]), seed,
+                            work_->path() / run.folder, run.asked));
+    std::unique_ptr<playerlike::KeptRun>& kept = kept_[world_of_.size()];
+    jobs_.back().at_start = [&kept] {
+      kept = std::make_unique<playerlike::KeptRun>();
+      return playerlike::EnvironmentChanges{{"PLAYPEN_STATE", kept->file()}};
+    };
+    world_of_.push_back(world);
+    result_.runs.push_back(std::move(run));
+  }
+
+  const GradeSettings& settings_;
+  Grade& result_;
+  const fs::path out_;
+  std::optional<WorkFolder> work_;  ///< made when the worlds are known to be usable
+  std::vector<sim::WorldDescription> descriptions_;
+  std::vector<Reference> references_;
+  std::vector<playerlike::ProgramJob> jobs_;
+  std::vector<std::size_t> world_of_;                       ///< by run
+  std::vector<std::unique_ptr<playerlike::KeptRun>> kept_;  ///< by run; null unless it runs
+};
 
 }  // namespace
 
@@ -158,61 +269,30 @@ void choose_worlds(Task& task, const std::vector<std::string>& files) {
 
 Grade grade(const GradeSettings& settings,
             const std::function<void(const Progress&, const Grade&)>& on_progress) {
-  const Task& task = settings.task;
-  Grade result{task, settings.program, {}};
-  std::vector<Reference> references;
-  std::vector<sim::WorldDescription> descriptions;
-  for (const TaskWorld& world : task.worlds) {
-    descriptions.push_back(sim::load_world(world.file));
-    references.push_back(make_reference(task, world, descriptions.back()));
-  }
-  std::vector<playerlike::ProgramJob> jobs;
-  std::vector<const Reference*> reference_of;
-  const fs::path out(settings.output_folder);
-  const WorkFolder work(out);
-  for (std::size_t i = 0; i < task.worlds.size(); ++i) {
-    for (const std::uint64_t seed : task.seeds) {
-      GradedRun run;
-      run.world = references[i].world;
-      run.seed = seed;
-      run.folder = run.world + "_seed" + std::to_string(seed);
-      run.faults = {"not run yet"};
-      prepare_folder(out / run.folder);
-      prepare_folder(work.path() / run.folder);
-      jobs.push_back(job_for(settings, task.worlds[i], descriptions[i], seed,
-                             work.path() / run.folder, run.asked));
-      reference_of.push_back(&references[i]);
-      result.runs.push_back(std::move(run));
-    }
-  }
-
+  Grade result{settings.task, settings.program, {}};
+  Runs runs(settings, result);
   playerlike::JobLimits limits;
   limits.at_once = settings.jobs;
-  limits.timeout_s = task.timeout_s;
-  Progress progress{jobs.size(), 0, 0};
+  limits.timeout_s = settings.task.timeout_s;
+  Progress progress{runs.jobs().size(), 0, 0};
   const auto tell = [&] {
     if (on_progress) on_progress(progress, result);
   };
   tell();
   const std::vector<playerlike::JobEnd> ends = playerlike::run_programs(
-      jobs, limits,
+      runs.jobs(), limits,
       [&](std::size_t /*index*/) {
         ++progress.running;
         tell();
       },
       [&](std::size_t index, const playerlike::JobEnd& end) {
-        // All processes of this run have ended, but those of other runs may still change files. So
-        // grade the run now.
-        GradedRun& run = result.runs[index];
-        take_results(work.path() / run.folder, out / run.folder);
-        evaluate(task, *reference_of[index], end, out / run.folder, run);
+        runs.judge(index, end);
         --progress.running;
         ++progress.ended;
         tell();
       });
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (ends[i].kind != playerlike::JobEnd::Kind::kNotStarted) continue;
-    evaluate(task, *reference_of[i], ends[i], out / result.runs[i].folder, result.runs[i]);
+    if (ends[i].kind == playerlike::JobEnd::Kind::kNotStarted) runs.judge_unstarted(i, ends[i]);
   }
   return result;
 }

@@ -97,22 +97,40 @@ std::vector<std::uint8_t> reachable_cells(const sim::OccupancyMap& truth, const 
   return reached;
 }
 
+bool SeenFloor::contains(const sim::Vec2& p_W) const {
+  const sim::Vec2 p = (p_W - origin) / cell_size_m;
+  if (!(p.x() >= 0.0 && p.x() < width && p.y() >= 0.0 && p.y() < height)) return false;
+  const std::size_t cell = static_cast<std::size_t>(p.y()) * static_cast<std::size_t>(width) +
+                           static_cast<std::size_t>(p.x());
+  return (bits[cell / 8] & (0x80U >> (cell % 8))) != 0;
+}
+
 MapScore score_map(const sim::OccupancyMap& map, const sim::OccupancyMap& truth,
-                   const sim::Vec2& start) {
-  return score_map_within(map, truth, reachable_cells(truth, start));
+                   const sim::Vec2& start, const SeenFloor* seen) {
+  return score_map_within(map, truth, reachable_cells(truth, start), seen);
 }
 
 MapScore score_map_within(const sim::OccupancyMap& map, const sim::OccupancyMap& truth,
-                          const std::vector<std::uint8_t>& reachable) {
+                          const std::vector<std::uint8_t>& reachable, const SeenFloor* seen) {
+  const auto was_seen = [seen](const sim::Vec2& p_W) {
+    return seen == nullptr || seen->contains(p_W);
+  };
   MapScore score;
   std::size_t covered = 0;
+  std::size_t drawn_cells = 0;
+  std::size_t seen_cells = 0;
   for (int row = 0; row < truth.height; ++row) {
     for (int column = 0; column < truth.width; ++column) {
       const Cell cell{column, row};
       if (reachable[index(truth, cell)] == 0 || state_at(truth, cell) != CellState::kFree) continue;
       ++score.reachable_cells;
-      const std::optional<Cell> drawn = cell_at(map, middle_of(truth, cell));
-      if (drawn && state_at(map, *drawn) == CellState::kFree) ++covered;
+      const sim::Vec2 middle = middle_of(truth, cell);
+      const std::optional<Cell> drawn = cell_at(map, middle);
+      const bool is_drawn = drawn && state_at(map, *drawn) == CellState::kFree;
+      const bool is_seen = was_seen(middle);
+      if (is_drawn) ++drawn_cells;
+      if (is_seen) ++seen_cells;
+      if (is_drawn && is_seen) ++covered;
     }
   }
   std::size_t right = 0;
@@ -120,15 +138,19 @@ MapScore score_map_within(const sim::OccupancyMap& map, const sim::OccupancyMap&
     for (int column = 0; column < map.width; ++column) {
       const CellState said = state_at(map, {column, row});
       if (said == CellState::kUnknown) continue;
-      const std::optional<Cell> cell = cell_at(truth, middle_of(map, {column, row}));
+      const sim::Vec2 middle = middle_of(map, {column, row});
+      const std::optional<Cell> cell = cell_at(truth, middle);
       if (!cell) continue;
       ++score.known_cells;
-      const bool is_right = said == CellState::kFree ? state_at(truth, *cell) == CellState::kFree
-                                                     : solid_within_a_cell(truth, *cell);
+      const bool is_right = said == CellState::kFree
+                                ? state_at(truth, *cell) == CellState::kFree && was_seen(middle)
+                                : solid_within_a_cell(truth, *cell);
       if (is_right) ++right;
     }
   }
   score.coverage = share(covered, score.reachable_cells);
+  score.drawn = share(drawn_cells, score.reachable_cells);
+  score.seen = share(seen_cells, score.reachable_cells);
   score.correctness = share(right, score.known_cells);
   return score;
 }

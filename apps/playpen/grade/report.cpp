@@ -6,6 +6,9 @@
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+#include <utility>
 
 #include "grade/text.h"
 #include "sim/core/number_text.h"
@@ -199,27 +202,92 @@ ordered_json to_json(const GradedRun& run) {
   ordered_json end = {{"kind", name_of(run.ending)}};
   if (run.ending == Ending::kBadStatus) end["status"] = run.status;
   if (run.signal) end["signal"] = *run.signal;
+  ordered_json goal;
+  if (run.goal) {
+    goal = {{"x", run.goal->position.x()},
+            {"y", run.goal->position.y()},
+            {"tolerance", run.goal->tolerance_m}};
+  }
+  ordered_json first_collision;
+  if (const auto& first = m.first_collision) {
+    first_collision = {{"time", first->time_s},
+                       {"with", first->partner},
+                       {"x", first->place.x()},
+                       {"y", first->place.y()}};
+  }
+  ordered_json refused = ordered_json::array();
+  for (const Refusal& refusal : m.refused) {
+    refused.push_back({{"time", refusal.time_s}, {"what", refusal.what}});
+  }
   return {{"world", run.world},
           {"seed", run.seed},
           {"folder", run.folder},
           {"passed", run.passed()},
           {"faults", run.faults},
           {"end", end},
+          {"robot", run.robot},
+          {"goal", goal},
           {"reached", or_null(m.reached)},
           {"goal_distance", or_null(m.goal_distance_m)},
           {"coverage", or_null(m.coverage)},
           {"correctness", or_null(m.correctness)},
+          {"drawn", or_null(m.drawn)},
+          {"seen", or_null(m.seen)},
           {"path_length", or_null(m.path_length_m)},
+          {"distance", or_null(m.distance_m)},
+          {"visited_area", or_null(m.visited_area_m2)},
           {"shortest_path", or_null(m.shortest_path_m)},
           {"path_ratio", or_null(m.path_ratio)},
           {"collisions", or_null(m.collisions)},
+          {"first_collision", first_collision},
           {"least_clearance", or_null(m.least_clearance_m)},
           {"stalled_time", or_null(m.stalled_time_s)},
           {"sim_time", or_null(m.sim_time_s)},
           {"score", or_null(m.score)},
           {"verdict", m.verdict ? ordered_json(*m.verdict ? "passed" : "failed") : ordered_json()},
           {"verdict_reason", m.verdict ? ordered_json(m.verdict_reason) : ordered_json()},
+          {"commanded", m.commanded},
+          {"refused", refused},
           {"wall_time", run.wall_time_s}};
+}
+
+/// "seed 3", "seeds 1 to 5", "seeds 1, 2 and 7".
+std::string seeds_text(const std::vector<std::uint64_t>& seeds) {
+  if (seeds.size() == 1) return "seed " + std::to_string(seeds.front());
+  bool is_range = seeds.size() > 2;
+  for (std::size_t i = 1; i < seeds.size(); ++i) is_range &= seeds[i] == seeds[i - 1] + 1;
+  if (is_range) {
+    return "seeds " + std::to_string(seeds.front()) + " to " + std::to_string(seeds.back());
+  }
+  std::string text = "seeds ";
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    if (i > 0) text += i + 1 < seeds.size() ? ", " : " and ";
+    text += std::to_string(seeds[i]);
+  }
+  return text;
+}
+
+/// The faults of the runs of one world, each once, and the advice.
+std::string reasons_text(std::span<const GradedRun> runs, const TableStyle& style) {
+  std::vector<std::pair<std::string, std::vector<std::uint64_t>>> faults;
+  std::vector<std::string> advice;
+  std::set<Ending> advised;
+  for (const GradedRun& run : runs) {
+    for (const std::string& fault : run.faults) {
+      auto known = std::find_if(faults.begin(), faults.end(),
+                                [&fault](const auto& entry) { return entry.first == fault; });
+      if (known == faults.end()) known = faults.insert(known, {fault, {}});
+      known->second.push_back(run.seed);
+    }
+    if (run.passed() || !style.advice || !advised.insert(run.ending).second) continue;
+    for (std::string& line : style.advice(run)) advice.push_back(std::move(line));
+  }
+  std::string text;
+  for (const auto& [fault, seeds] : faults) {
+    text += runs.front().world + ' ' + seeds_text(seeds) + ": " + fault + '\n';
+  }
+  for (const std::string& line : advice) text += "  " + line + '\n';
+  return text;
 }
 
 }  // namespace
@@ -231,10 +299,12 @@ std::size_t Grade::passed() const noexcept {
 
 std::string table(const Grade& grade, const TableStyle& style) {
   std::string text = Table(grade.runs, style).text();
-  for (const GradedRun& run : grade.runs) {
-    for (const std::string& fault : run.faults) {
-      text += run.world + " seed " + std::to_string(run.seed) + ": " + fault + '\n';
-    }
+  for (auto first = grade.runs.begin(); first != grade.runs.end();) {
+    const auto last = std::find_if(first, grade.runs.end(), [&first](const GradedRun& run) {
+      return run.world != first->world;
+    });
+    text += reasons_text({first, last}, style);
+    first = last;
   }
   text += grade.task.name + ": " + std::to_string(grade.passed()) + " of " +
           std::to_string(grade.runs.size()) + " runs passed\n";

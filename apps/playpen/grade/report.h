@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,17 +20,20 @@ struct Grade {
   [[nodiscard]] std::size_t passed() const noexcept;
 };
 
-/// Layout of a table.
+/// Layout and content of a table.
 struct TableStyle {
   std::size_t columns = 80;  ///< maximum width of a table line [characters]
   bool colour = false;       ///< whether verdicts are coloured, for terminals (ECMA-48)
+  /// Lines that help to find out why a run has failed; empty: none.
+  std::function<std::vector<std::string>(const GradedRun&)> advice = {};
 };
 
-/// The grade as text: one line per run, the faults of the failed runs, and a summary. "-" marks a
-/// measure without a value; a measure without any values has no column. If the table is too wide,
-/// it first loses blanks; then the worlds' names become headings; at last the rightmost columns are
-/// dropped (the JSON has them all). Sentences below the table are not wrapped: they may be longer
-/// than a line.
+/// The grade as text: one line per run, the faults of the failed runs, and a summary. A fault that
+/// several runs of a world have in common is one line. After the faults of a world follows the
+/// advice for the first run of each kind of end. "-" marks a measure without a value; a measure
+/// without any values has no column. If the table is too wide, it first loses blanks; then the
+/// worlds' names become headings; at last the rightmost columns are dropped (the JSON has them
+/// all). Sentences below the table are not wrapped: they may be longer than a line.
 [[nodiscard]] std::string table(const Grade& grade, const TableStyle& style = {});
 
 /// The grade as JSON (docs/grading.md), for programs. Equal grades give equal text, except for the

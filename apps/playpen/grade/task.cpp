@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "grade/task.h"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <map>
@@ -22,6 +23,7 @@ using sim::io::Reader;
 constexpr std::size_t kMaxItems = 10'000;  ///< seeds, worlds, arguments
 constexpr NumberRange kPosition{-1e6, 1e6, false, "m"};
 constexpr NumberRange kLength{0.0, 1e6, false, "m"};
+constexpr NumberRange kArea{0.0, 1e9, false, "m^2"};
 constexpr NumberRange kTime{0.0, 1e9, true, "s"};
 constexpr NumberRange kShare{0.0, 1.0, false, ""};
 constexpr NumberRange kPoints{-1e9, 1e9, false, ""};
@@ -56,6 +58,7 @@ class TaskReader {
     task_.goal = read_goal(root);
     task_.robot = root.name("robot", "");
     task_.map_layer = root.string("map", "");
+    read_may_use(root);
     read_thresholds(root);
     root.finish();
   }
@@ -162,6 +165,39 @@ class TaskReader {
     return arguments;
   }
 
+  /// A list of names.
+  static std::vector<std::string> read_names(Reader& parent, const char* key) {
+    std::vector<std::string> names;
+    for (Reader& element : parent.array(key, kMaxItems)) {
+      if (element.is_string()) {
+        names.push_back(element.scalar_text().value_or(""));
+      } else {
+        element.issue("world/wrong-type", "a name in double quotes",
+                      element.description_for_message());
+      }
+    }
+    return names;
+  }
+
+  void read_may_use(Reader& root) {
+    std::optional<Reader> reader = root.object("may_use");
+    if (!reader) return;
+    playerlike::MayUse& may_use = task_.may_use.emplace();
+    may_use.robots = read_names(*reader, "robots");
+    if (reader->has("devices")) may_use.devices = read_names(*reader, "devices");
+    for (Reader& element : reader->array("world", kMaxItems)) {
+      const std::string word = element.is_string() ? element.scalar_text().value_or("") : "";
+      if (std::find(playerlike::kWorldData.begin(), playerlike::kWorldData.end(), word) ==
+          playerlike::kWorldData.end()) {
+        element.issue("world/unknown-value", "\"map\", \"objects\" or \"arena\"",
+                      element.description_for_message());
+      } else {
+        may_use.world.push_back(word);
+      }
+    }
+    reader->finish();
+  }
+
   static std::optional<Goal> read_goal(Reader& parent) {
     std::optional<Reader> reader = parent.object("goal");
     if (!reader) return std::nullopt;
@@ -192,6 +228,8 @@ class TaskReader {
     t.min_clearance_m = optional_number(*reader, "min_clearance", kLength);
     t.min_path_length_m = optional_number(*reader, "min_path_length", kLength);
     t.max_path_length_m = optional_number(*reader, "max_path_length", kLength);
+    t.min_distance_m = optional_number(*reader, "min_distance", kLength);
+    t.min_visited_area_m2 = optional_number(*reader, "min_visited_area", kArea);
     t.max_path_ratio = optional_number(*reader, "max_path_ratio", {1.0, 1e6, false, ""});
     t.max_sim_time_s = optional_number(*reader, "max_sim_time", kTime);
     t.max_stalled_time_s = optional_number(*reader, "max_stalled_time", {0.0, 1e9, false, "s"});

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "playerlike/host/task_rules.h"
 #include "sim/core/pose.h"
 
 /// The implementation of `playpen grade`, without argument parsing.
@@ -22,14 +23,16 @@ struct Goal {
 
 /// Conditions for passing. Missing ones are not checked.
 struct Thresholds {
-  std::optional<double> min_coverage;       ///< of the reachable floor, 0..1
-  std::optional<double> min_correctness;    ///< of the map, 0..1
-  std::optional<int> max_collisions;        ///< >= 0
-  std::optional<double> min_clearance_m;    ///< of the robot's outline from anything solid [m]
-  std::optional<double> min_path_length_m;  ///< [m]
-  std::optional<double> max_path_length_m;  ///< [m]
-  std::optional<double> max_path_ratio;     ///< driven length to the shortest possible length, >= 1
-  std::optional<double> max_sim_time_s;     ///< [s]
+  std::optional<double> min_coverage;         ///< of the reachable floor, 0..1
+  std::optional<double> min_correctness;      ///< of the map, 0..1
+  std::optional<int> max_collisions;          ///< >= 0
+  std::optional<double> min_clearance_m;      ///< of the robot's outline from anything solid [m]
+  std::optional<double> min_path_length_m;    ///< [m]
+  std::optional<double> max_path_length_m;    ///< [m]
+  std::optional<double> min_distance_m;       ///< between places, without movements on the spot [m]
+  std::optional<double> min_visited_area_m2;  ///< of the floor that the robot has been on [m^2]
+  std::optional<double> max_path_ratio;  ///< driven length to the shortest possible length, >= 1
+  std::optional<double> max_sim_time_s;  ///< [s]
   std::optional<double> max_stalled_time_s;  ///< [s]
   bool must_reach = false;                   ///< the robot must reach the goal
   bool must_end = false;            ///< the program must end before the simulated time is over
@@ -58,6 +61,9 @@ struct Task {
   std::optional<Goal> goal;
   std::string robot;      ///< name of the robot that is graded; "": the world's first
   std::string map_layer;  ///< name of the layer that holds the program's map; "": none
+  /// What the program may use; none: everything. Its robots are those named by the file, or none:
+  /// the graded robot.
+  std::optional<playerlike::MayUse> may_use;
   Thresholds thresholds;
 };
 

@@ -107,14 +107,14 @@ std::shared_ptr<Host> host_of(Registry& registry, const std::string& file, bool 
     unsetenv("PLAYPEN_PLAYER_PORT");
     const sim::LogHook log = log_to_stderr();
     sim::WorldDescription world = sim::load_world(file);
-    // `playpen run` has printed the notes of its world.
-    if (settings.kept_run.empty()) {
+    // `playpen run` has printed the notes of its world, `playpen grade` has not.
+    if (settings.kept_run.empty() || !settings.grading.nonce.empty()) {
       for (const std::string& note : world.notes) log(sim::LogLevel::kInfo, note);
     }
     if (!settings.grading.nonce.empty()) {
       sim::WorldDescription as_run = world;
       settings.apply_to(as_run);
-      settings.grading = grading_of(settings.grading.nonce, as_run);
+      settings.grading = grading_of(settings.grading.nonce, settings.grading.rules, as_run);
     }
     host = Host::create(std::move(world), settings, log);
     if (settings.player_port) {

@@ -32,6 +32,7 @@ Charge Host::Core::take_charge(Client& client, const TakeChargeRequest& what) {
   const Lock lock = lock_with_priority();
   client.require_open();
   client.touch();
+  require_permission(permissions_.forbids_device(what.device));
   const int robot = what.device.robot;
   const bool has_changed = inputs_.commanders.take_charge(&client, what, WallClock::now());
   if (has_changed && !ended_) {
@@ -54,6 +55,9 @@ std::optional<std::string> Host::Core::command(Commanders::Who who, DeviceId dev
                                                const sim::Command& command) {
   const Lock lock = lock_with_priority();
   if (stands_still()) return kRunIsOver;
+  if (const auto what = permissions_.forbids_command(device, command)) {
+    return note_forbidden(*what);
+  }
   if (mirror_ && pace_.paused()) return "the run is paused: real robots stand still";
   return inputs_.execute_for(who, device, command);
 }

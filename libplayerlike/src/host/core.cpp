@@ -40,7 +40,8 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       simulation_((check_drivers(world), check_interfaces(world), settings_.apply_to(world),
                    std::move(world)),
                   log_),
-      robots_(describe_robots(simulation_)),
+      robots_(robots_for(settings_.grading.rules.may_use, describe_robots(simulation_))),
+      permissions_(settings_.grading.rules.may_use, robots_),
       step_ns_(simulation_.world().simulation.step_ns),
       turns_(settings_.virtual_time &&
              simulation_.world().simulation.time_mode == sim::TimeMode::kLockstep),
@@ -54,7 +55,8 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       inputs_(simulation_, robots_, warn_, mirror_.get()),
       stalled_time_warning_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
       results_(
-          settings_, simulation_, [this] { return time_locked(); }, warn_, mirror_.get()),
+          settings_, simulation_, [this] { return time_locked(); }, warn_, inputs_.commands,
+          mirror_.get()),
       clock_(std::make_unique<VirtualClock>(*this)),
       mode_chosen_(simulation_.world().simulation.time_mode_given) {}
 
@@ -151,28 +153,19 @@ void Host::Core::subscribe(Client& client, DeviceId device) {
   const Lock lock = lock_with_priority();
   client.require_open();
   require_readable(client, device.robot);
+  require_permission(permissions_.forbids_device(device));
   clients_.subscribe(client, device);
   inputs_.commanders.note_opened(client, device);
   if (client.is_programs() && stalled_time_warning_.note_needs_time()) set_busy_alarm();
 }
 
-void Host::Core::require_readable(const Client& client, int robot) const {
-  if (!own_sensors_only() || client.served) return;
-  const auto index = static_cast<std::size_t>(robot);
-  if (robot >= 0 && (robots_.size() == 1 || robots_[index].port == client.port)) return;
-  throw SessionError(
-      SessionError::Code::kNotAvailable,
-      robot >= 0
-          ? "this world lets a program read the sensors of its own robot only (\"privacy\" in "
-            "its \"simulation\"): robot " +
-                robots_[index].name + " belongs to another port than " + std::to_string(client.port)
-          : "this world keeps the poses and properties of its objects and its map private "
-            "(\"privacy\" in its \"simulation\"): programs know what their sensors tell");
-}
-
 void Host::Core::send(Client& client, DeviceId device, const sim::Command& command) {
   client.require_open();
   client.touch();
+  if (const auto what = permissions_.forbids_command(device, command)) {
+    const Lock lock = lock_with_priority();
+    require_permission(what);
+  }
   const bool is_programs = client.is_programs();
   if (is_programs && stalled_time_warning_.note_needs_time()) locked([this] { set_busy_alarm(); });
   bool must_check = false;

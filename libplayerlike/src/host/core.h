@@ -21,6 +21,7 @@
 #include "host/lockstep.h"
 #include "host/mirror.h"
 #include "host/pace.h"
+#include "host/permissions.h"
 #include "host/progress.h"
 #include "host/results.h"
 #include "host/saved_states.h"
@@ -162,6 +163,12 @@ class Host::Core {
   /// Throws SessionError kNotAvailable if the world hides something from this client.
   /// @param robot  whose sensors to read; -1: data of no robot, such as objects and the map.
   void require_readable(const Client& client, int robot) const;
+  /// Throws SessionError kNotAvailable, and notes it for the report, if the run's task forbids
+  /// something.
+  /// @param what  as returned by a function of Permissions. @pre The mutex is held.
+  void require_permission(const std::optional<std::string>& what);
+  /// Notes for the report that the run's task forbids something. @return the message.
+  std::string note_forbidden(const std::string& what);
   void count_data_reads(Client& client, int count, bool has_data);
   void check_stalled_time(Client& client);
   void set_busy_alarm();
@@ -235,6 +242,7 @@ class Host::Core {
   const Warn warn_;
   sim::Simulation simulation_;
   const std::vector<RobotInfo> robots_;
+  const Permissions permissions_;
   const sim::SimTime step_ns_;
   const bool turns_;  ///< virtual time: threads take turns in a fixed order
   mutable std::mutex own_mutex_;

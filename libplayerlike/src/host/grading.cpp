@@ -17,6 +17,7 @@ using nlohmann::ordered_json;
 constexpr const char* kEntry = "graded";
 constexpr const char* kSignature = "signature";
 constexpr const char* kCourse = "course";  // left out of the entry
+constexpr const char* kRules = "rules";    // left out if they are all defaults
 
 /// The signature of a report that has its entry "graded", but no signature yet.
 std::string signature_of(const ordered_json& report, const std::string& nonce) {
@@ -36,6 +37,7 @@ ordered_json entry_of(const Grading& grading) {
                         {"time", grading.time}};
   if (grading.duration_s) entry["duration"] = *grading.duration_s;
   if (grading.realism != kCourse) entry["realism"] = grading.realism;
+  if (const std::string rules = to_text(grading.rules); !rules.empty()) entry[kRules] = rules;
   return entry;
 }
 
@@ -45,9 +47,11 @@ std::string duration_text(const ordered_json& duration) {
 
 }  // namespace
 
-Grading grading_of(const std::string& nonce, const sim::WorldDescription& world) {
+Grading grading_of(const std::string& nonce, const TaskRules& rules,
+                   const sim::WorldDescription& world) {
   Grading grading;
   grading.nonce = nonce;
+  grading.rules = rules;
   grading.world_name = world.name;
   grading.world = sim::world_hash(world);
   const sim::SimulationDescription& simulation = world.simulation;
@@ -102,6 +106,10 @@ std::optional<std::string> fault_of_graded(const std::string& report, const Grad
   if (found("time") != wanted.at("time")) {
     return "the program ran with the time " + found("time").get<std::string>() + ", not with " +
            expected.time + ": it must leave PLAYPEN_TIME alone";
+  }
+  if (entry.value(kRules, "") != to_text(expected.rules)) {
+    return "the program ran with other rules than those of the task: it must leave PLAYPEN_TASK "
+           "alone";
   }
   const std::string signature = found(kSignature).get<std::string>();
   entry.erase(kSignature);

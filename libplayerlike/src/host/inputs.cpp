@@ -63,6 +63,7 @@ void Inputs::apply(Client& client) {
       continue;
     }
     if (hand) hand->note_command(device, command);
+    commands.note(device.robot, client.port, command, simulation_.now_ns());
     const auto refusal = execute(device, command);
     // The log has said that a real robot is lost.
     if (refusal && !(mirror_ != nullptr && mirror_->has_lost(device.robot))) warn_(*refusal);

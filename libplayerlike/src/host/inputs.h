@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/clients.h"
+#include "host/command_book.h"
 #include "host/commanders.h"
 #include "host/view_controls.h"
 #include "playerlike/session/layer_registry.h"
@@ -28,7 +29,8 @@ class Inputs {
   /// @param mirror  takes the commands for robots that mirror real ones; null: there are none.
   Inputs(sim::Simulation& simulation, const std::vector<RobotInfo>& robots, Warn warn,
          Mirror* mirror = nullptr)
-      : commanders(simulation, robots),
+      : commands(robots.size()),
+        commanders(simulation, robots),
         simulation_(simulation),
         mirror_(mirror),
         warn_(std::move(warn)) {}
@@ -58,6 +60,8 @@ class Inputs {
 
   /// The owners of the layers.
   LayerRegistry registry;
+  /// The clients' commands so far.
+  CommandBook commands;
   Commanders commanders;
   /// Steering by hand; only in a run with a window.
   std::optional<HandDrive> hand;

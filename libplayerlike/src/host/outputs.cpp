@@ -21,6 +21,7 @@
 #include "host/recorder.h"
 #include "playerlike/host/results.h"
 #include "sim/canvas/layers.h"
+#include "sim/core/base64.h"
 #include "sim/core/number_text.h"
 #include "sim/core/replace_file.h"
 #include "sim/io/map_file.h"
@@ -128,6 +129,40 @@ void write_layers(const fs::path& folder, const sim::LayerStack& stack) {
   }
 }
 
+// How far a robot has got, what it has seen, and who has commanded it.
+void add_achievements(const Recorder& recorder, std::size_t robot, nlohmann::ordered_json& entry) {
+  if (const TravelMeter* const travel = recorder.travel(robot)) {
+    entry["distance"] = travel->distance_m();
+    entry["visited_area"] = travel->visited_area_m2();
+  }
+  const SeenFloor* const seen = recorder.seen_floor();
+  if (seen != nullptr && static_cast<std::size_t>(seen->robot()) == robot) {
+    entry["seen"] = {{"area", seen->area_m2()},
+                     {"cell_size", seen->cell_size_m()},
+                     {"x", seen->origin().x()},
+                     {"y", seen->origin().y()},
+                     {"width", seen->width()},
+                     {"height", seen->height()},
+                     {"cells", sim::to_base64(seen->bits())}};
+  }
+  if (recorder.commands() == nullptr) return;
+  const CommandBook::Entry& commands = recorder.commands()->of(robot);
+  entry["commanded"] = nullptr;
+  if (!commands.first_ns) return;
+  entry["commanded"] = {{"first", sim::to_seconds(*commands.first_ns)},
+                        {"commands", commands.count},
+                        {"ports", commands.ports}};
+}
+
+// What the task of a graded run has refused to the program.
+void add_refusals(const RefusalBook& refusals, nlohmann::ordered_json& report) {
+  if (refusals.refusals().empty()) return;
+  nlohmann::ordered_json& refused = report["refused"] = nlohmann::ordered_json::array();
+  for (const RefusalBook::Refusal& r : refusals.refusals()) {
+    refused.push_back({{"time", sim::to_seconds(r.time_ns)}, {"what", r.what}});
+  }
+}
+
 // Collisions and goals of the robots, with their times.
 void add_events(const sim::Simulation& simulation, const std::vector<Goal>& goals,
                 nlohmann::ordered_json& report) {
@@ -199,6 +234,7 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder&
     if (const auto driven_s = recorder.driven_time_s(static_cast<std::size_t>(i))) {
       robots.back()["driven_time"] = *driven_s;
     }
+    add_achievements(recorder, static_cast<std::size_t>(i), robots.back());
   }
   nlohmann::ordered_json said = nlohmann::ordered_json::array();
   for (const sim::SpokenText& u : simulation.spoken_texts()) {
@@ -220,6 +256,7 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder&
       {"said", said}};
   add_events(simulation, recorder.goals().goals(), whole);
   add_arena(simulation, whole);
+  add_refusals(recorder.refusals(), whole);
   if (recorder.mirror() != nullptr) whole["mirror"] = recorder.mirror()->report();
   // `playpen plot` reads the scene from this file.
   std::error_code error;

@@ -224,6 +224,9 @@ class GroupedProgram {
     SupervisedStart start;
     start.command = job.command;
     start.environment = job.environment;
+    if (job.at_start) {
+      for (auto& [name, value] : job.at_start()) start.environment[name] = value;
+    }
     start.mask = mask;
     start.output_file = job.output_file;
     start.output_limit = job.output_limit;
@@ -294,6 +297,8 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
       settings.player_port ? std::optional(std::to_string(*settings.player_port)) : std::nullopt;
   changes["PLAYPEN_GRADE"] =
       settings.grading.nonce.empty() ? std::nullopt : std::optional(settings.grading.nonce);
+  const std::string rules = to_text(settings.grading.rules);
+  changes["PLAYPEN_TASK"] = rules.empty() ? std::nullopt : std::optional(rules);
   const RunSettings defaults;
   const auto number_unless = [](double value, double by_default) {
     return value != by_default ? std::optional(sim::shortest_text(value)) : std::nullopt;

@@ -24,8 +24,10 @@ constexpr sim::SimTime kRowPeriod_ns = sim::kNanosecondsPerSecond / 10;
 }  // namespace
 
 Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulation,
-                   const Mirror* mirror)
-    : mirror_(mirror), active_(!settings.output_folder.empty() || !settings.film.empty()) {
+                   const Mirror* mirror, const CommandBook* commands)
+    : mirror_(mirror),
+      commands_(commands),
+      active_(!settings.output_folder.empty() || !settings.film.empty()) {
   const fs::path folder(settings.output_folder);
   if (!settings.output_folder.empty()) {
     trajectory_file_ = (folder / "trajectory.csv").string();
@@ -52,6 +54,9 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
         std::make_unique<PictureThread>(std::move(film), settings.film_limit, settings.pictures);
   }
   trails_.resize(static_cast<std::size_t>(simulation.robot_count()));
+  if (const auto robot = simulation.find_robot(settings.grading.rules.seen_by)) {
+    seen_floor_.emplace(simulation, *robot);
+  }
   observe(simulation);
 }
 
@@ -77,6 +82,7 @@ void Recorder::observe(const sim::Simulation& simulation) {
   if (!active_) return;
   const sim::SimTime now_ns = simulation.now_ns();
   extend_trails(simulation);
+  if (seen_floor_) seen_floor_->observe(simulation);
   goals_.observe(simulation);
   if (trajectory_.is_open() && now_ns >= next_row_ns_) {
     next_row_ns_ += kRowPeriod_ns;
@@ -100,6 +106,7 @@ void Recorder::extend_trails(const sim::Simulation& simulation) {
     const sim::BodyState& body = simulation.body(static_cast<int>(i));
     if (body.commanded != sim::Twist{}) trail.driven_ns += step_ns;
     const sim::Vec2 p = body.X_WB.position();
+    trail.travel.observe(p, simulation.statistics(static_cast<int>(i)).path_length_m);
     if (!trail.points.empty() && (p - trail.points.back()).norm() < trail.spacing_m) continue;
     trail.points.push_back(p);
     if (trail.points.size() < kMostTrailPoints) continue;

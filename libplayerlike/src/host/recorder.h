@@ -9,9 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "host/command_book.h"
 #include "host/goal_book.h"
 #include "host/mirror.h"
 #include "host/picture_thread.h"
+#include "host/refusal_book.h"
+#include "host/seen_floor.h"
+#include "host/travel_meter.h"
 #include "playerlike/host/run_settings.h"
 #include "sim/simulation/simulation.h"
 
@@ -29,12 +33,14 @@ class Recorder {
  public:
   /// @throws std::runtime_error if a file or folder cannot be created.
   /// @param mirror  of the real robots; null: there are none.
+  /// @param commands  of the clients; null: they are not known.
   Recorder(const RunSettings& settings, const sim::Simulation& simulation,
-           const Mirror* mirror = nullptr);
+           const Mirror* mirror = nullptr, const CommandBook* commands = nullptr);
 
   void observe(const sim::Simulation& simulation);
 
   [[nodiscard]] const Mirror* mirror() const noexcept { return mirror_; }
+  [[nodiscard]] const CommandBook* commands() const noexcept { return commands_; }
   /// The path of a robot; see kMostTrailPoints.
   [[nodiscard]] const std::vector<sim::Vec2>& trail(std::size_t robot) const {
     return trails_[robot].points;
@@ -48,6 +54,17 @@ class Recorder {
     if (!active_ || robot >= trails_.size()) return std::nullopt;
     return sim::to_seconds(trails_[robot].driven_ns);
   }
+  /// How far a robot has got; null if the run records nothing.
+  [[nodiscard]] const TravelMeter* travel(std::size_t robot) const {
+    return active_ && robot < trails_.size() ? &trails_[robot].travel : nullptr;
+  }
+  /// The floor that the robot named by TaskRules::seen_by has seen; null: it is not recorded.
+  [[nodiscard]] const SeenFloor* seen_floor() const noexcept {
+    return seen_floor_ ? &*seen_floor_ : nullptr;
+  }
+  /// What was refused to the program so far.
+  [[nodiscard]] RefusalBook& refusals() noexcept { return refusals_; }
+  [[nodiscard]] const RefusalBook& refusals() const noexcept { return refusals_; }
   /// The current scene, with trails, goals and collisions.
   /// @param with_canvas  see sim::Simulation::snapshot().
   [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation,
@@ -65,6 +82,7 @@ class Recorder {
     std::vector<sim::Vec2> points;
     double spacing_m = 0.01;
     sim::SimTime driven_ns = 0;  // updated in each step, like the trail
+    TravelMeter travel;
   };
   void extend_trails(const sim::Simulation& simulation);
   [[nodiscard]] std::string rows(const sim::Simulation& simulation) const;
@@ -87,6 +105,7 @@ class Recorder {
   [[nodiscard]] std::string picture_file(sim::SimTime now_ns) const;
 
   const Mirror* mirror_;
+  const CommandBook* commands_;
   bool active_ = false;
   std::string trajectory_file_;
   std::ofstream trajectory_;
@@ -95,6 +114,8 @@ class Recorder {
   std::string snapshot_folder_;
   std::unique_ptr<PictureThread> pictures_;  // null without film and pictures
   std::vector<Trail> trails_;
+  std::optional<SeenFloor> seen_floor_;
+  RefusalBook refusals_;
   GoalBook goals_;
   sim::SimTime next_row_ns_ = 0;
   Clock film_clock_;

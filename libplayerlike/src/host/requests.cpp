@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,11 @@ WorldMap map_of(const sim::ArenaDescription& arena, const WorldMapRequest& what)
   return {std::move(map), grid.width, grid.height,
           sim::Pose{grid.origin.x(), grid.origin.y(), 0.0}};
 }
+
+// Words of kWorldData.
+constexpr std::string_view kMapData = "map";
+constexpr std::string_view kObjectData = "objects";
+constexpr std::string_view kArenaData = "arena";
 
 }  // namespace
 
@@ -189,6 +195,7 @@ struct Host::Core::RequestHandler {
     // A large map takes long, so it is made from a copy without the mutex.
     const sim::ArenaDescription arena = [&] {
       const Lock lock = core.lock_with_priority();
+      core.require_permission(core.permissions_.forbids_world(kMapData));
       return core.simulation_.world().arena;
     }();
     return map_of(arena, what);
@@ -197,21 +204,21 @@ struct Host::Core::RequestHandler {
   // --- Objects by name
 
   ObjectPose operator()(const ObjectPoseRequest& what) const {
-    const Lock lock = lock_readable();
+    const Lock lock = lock_readable(kObjectData);
     return {require_object(core.simulation_, what.name).pose, core.simulation_.now_ns()};
   }
   void operator()(const PlaceObjectRequest& what) const {
-    const Lock lock = lock_readable();
+    const Lock lock = lock_readable(kObjectData);
     static_cast<void>(require_object(core.simulation_, what.name));
     require_unlocked();
     place_object(core.simulation_, what.name, what.pose);
   }
   PropertyValue operator()(const ObjectPropertyRequest& what) const {
-    const Lock lock = lock_readable();
+    const Lock lock = lock_readable(kObjectData);
     return object_property(core.simulation_, what.name, what.property);
   }
   void operator()(const SetObjectPropertyRequest& what) const {
-    const Lock lock = lock_readable();
+    const Lock lock = lock_readable(kObjectData);
     static_cast<void>(object_property(core.simulation_, what.name, what.property));  // must exist
     require_unlocked();
     set_object_property(core.simulation_, what.name, what.property, what.value);
@@ -250,30 +257,30 @@ struct Host::Core::RequestHandler {
   // --- The arena and its controller
 
   ArenaStatus operator()(const ArenaRequest&) const {
-    const Lock lock = lock_readable();
+    const Lock lock = lock_readable(kArenaData);
     return arena_status(core.simulation_);
   }
   ArenaEventList operator()(const ArenaEventsRequest& what) const {
-    const Lock lock = lock_readable();
+    const Lock lock = lock_readable(kArenaData);
     return arena_events(core.simulation_, what.since);
   }
   void operator()(const SetConfigurationRequest& what) const {
-    const Lock lock = lock_readable();
+    const Lock lock = lock_readable(kArenaData);
     require_unlocked();
     set_configuration(core.simulation_, what.name);
   }
   void operator()(const SetBlockRequest& what) const {
-    const Lock lock = lock_readable();
+    const Lock lock = lock_readable(kArenaData);
     require_unlocked();
     set_block(core.simulation_, what.name, what.extended);
   }
   void operator()(const SetTimerRequest& what) const {
-    const Lock lock = lock_readable();
+    const Lock lock = lock_readable(kArenaData);
     require_unlocked();
     set_timer(core.simulation_, what.name, what.enabled);
   }
   void operator()(const SetTrapRequest& what) const {
-    const Lock lock = lock_readable();
+    const Lock lock = lock_readable(kArenaData);
     require_unlocked();
     set_trap(core.simulation_, what.name, what.enabled);
   }
@@ -298,6 +305,7 @@ struct Host::Core::RequestHandler {
     {
       const Lock lock = core.lock_with_priority();
       client.require_open();
+      core.require_permission(core.permissions_.forbids_device(what.device));
       const auto* amcl = dynamic_cast<const sim::Amcl*>(
           &core.simulation_.device(what.device.robot, what.device.device));
       if (amcl == nullptr) {
@@ -354,9 +362,16 @@ struct Host::Core::RequestHandler {
     core.require_readable(client, -1);
     return lock;
   }
+  /// As lock_readable(), for data that the run's task may forbid.
+  /// @param data  one of kWorldData.
+  [[nodiscard]] Lock lock_readable(std::string_view data) const {
+    Lock lock = lock_readable();
+    core.require_permission(core.permissions_.forbids_world(data));
+    return lock;
+  }
   /// As lock_readable(), for changes of the world: also applies the client's pending drawings.
   [[nodiscard]] Lock lock_changeable() const {
-    Lock lock = lock_readable();
+    Lock lock = lock_readable(kObjectData);
     require_unlocked();
     client.touch();
     core.inputs_.apply_drawings(client);

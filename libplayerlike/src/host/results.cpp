@@ -23,7 +23,8 @@ constexpr std::uint64_t kReportGrowth = 64 << 10;
 }  // namespace
 
 Results::Results(const RunSettings& settings, sim::Simulation& simulation,
-                 std::function<TimeStatistics()> time, Warn warn, const Mirror* mirror)
+                 std::function<TimeStatistics()> time, Warn warn, const CommandBook& commands,
+                 const Mirror* mirror)
     : settings_(settings),
       simulation_(simulation),
       time_(std::move(time)),
@@ -31,7 +32,7 @@ Results::Results(const RunSettings& settings, sim::Simulation& simulation,
       mirror_(mirror),
       report_room_(settings.output_folder) {
   if (!settings.output_folder.empty()) std::filesystem::create_directories(settings.output_folder);
-  recorder_ = std::make_unique<Recorder>(settings, simulation, mirror);
+  recorder_ = std::make_unique<Recorder>(settings, simulation, mirror, &commands);
   kept_ = KeptWriter::open(settings.kept_run);
   if (kept_ && mirror != nullptr) kept_->keep_motors(mirror->motors());
   if (kept_ && !settings.output_folder.empty()) {
@@ -61,6 +62,11 @@ void Results::keep(WallClock::time_point now) {
     }
   }
   keep_report(now);
+}
+
+void Results::note_refusal(const std::string& what) {
+  if (!recorder_->refusals().note(what, simulation_.now_ns())) return;
+  if (kept_ && !settings_.output_folder.empty()) kept_->keep_looks(report_now(), simulation_);
 }
 
 void Results::keep_report(WallClock::time_point now) {

@@ -24,10 +24,12 @@ class Results {
  public:
   /// @param settings, simulation  must outlive this object.
   /// @param time  returns the run's statistics.
+  /// @param commands  of the clients.
   /// @param mirror  of the real robots; null: there are none.
   /// @throws std::runtime_error if the output folder cannot be created.
   Results(const RunSettings& settings, sim::Simulation& simulation,
-          std::function<TimeStatistics()> time, Warn warn, const Mirror* mirror = nullptr);
+          std::function<TimeStatistics()> time, Warn warn, const CommandBook& commands,
+          const Mirror* mirror = nullptr);
 
   /// Must be called after each step.
   void observe();
@@ -48,6 +50,10 @@ class Results {
   void note_goal(int robot, const sim::Vec2& place, double tolerance_m) {
     recorder_->goals().note(robot, place, tolerance_m, simulation_.now_ns());
   }
+
+  /// Records that something was refused to the program now; see Permissions. This is kept at once,
+  /// because a program that does not expect it may die of it.
+  void note_refusal(const std::string& what);
 
   /// See KeptRun::note_conflict().
   [[nodiscard]] bool conflict_noted() const noexcept { return kept_ && kept_->conflict_noted(); }

@@ -129,6 +129,14 @@ class Variables {
   std::vector<sim::ConfigIssue> issues_;
 };
 
+void read_rules(Variables& variables, TaskRules& rules) {
+  variables.read("PLAYPEN_TASK", kTaskRulesExpected, [&rules](const std::string& text) {
+    const std::optional<TaskRules> read = parse_task_rules(text);
+    rules = read.value_or(TaskRules{});
+    return read.has_value();
+  });
+}
+
 // Reads choices that are separated by commas.
 template <typename Choice>
 void read_choices(Variables& variables, const char* name, const char* expected,
@@ -378,6 +386,7 @@ RunSettings RunSettings::from_environment() {
     return settings.realism.has_value();
   });
   settings.grading.nonce = environment("PLAYPEN_GRADE");
+  read_rules(variables, settings.grading.rules);
   variables.read("PLAYPEN_CLIENTS", kClientsExpected, into<int>(settings.clients, parse_clients));
   read_choices(variables, "PLAYPEN_INTERFACES", kInterfaceChoicesExpected, parse_interface_choice,
                settings.interfaces);

@@ -12,7 +12,7 @@
   KIND(attitude) KIND(barometer) KIND(battery) KIND(bumper) KIND(blinkenlight) \
   KIND(blobfinder) KIND(camera) KIND(clock) KIND(collision) KIND(compass) KIND(depth_camera) \
   KIND(destination) KIND(fiducial) KIND(gps) KIND(gripper) KIND(gyroscope) KIND(hand) KIND(imu) KIND(dio) KIND(infrared) KIND(laser) \
-  KIND(motion) KIND(odometry) KIND(opaque) KIND(orientation) KIND(pen) KIND(pose) \
+  KIND(motion) KIND(odometry) KIND(opaque) KIND(orientation) KIND(patrol) KIND(pen) KIND(pose) \
   KIND(posture) KIND(proximity) KIND(ptz) KIND(semantic_camera) KIND(sonar) KIND(speech) \
   KIND(teleport) KIND(thermometer) KIND(velocity) KIND(wander) \
   KIND(waypoint) KIND(wifi)

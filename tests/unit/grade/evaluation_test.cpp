@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "grade/map_score.h"
+#include "sim/core/base64.h"
 #include "sim/core/error.h"
 #include "sim/io/map_file.h"
 #include "sim/simulation/simulation.h"
@@ -144,14 +146,32 @@ TEST(MakeReference, PointsAndVerdictsNeedAController) {
   }
 }
 
+/// "seen" of a report's robot that has seen the cells of the room for which is_seen(centre) is
+/// true.
+json seen_floor(const std::function<bool(const sim::Vec2&)>& is_seen) {
+  constexpr int kCells = 100;  // of 2 cm, along each side
+  std::vector<std::uint8_t> bits((kCells * kCells + 7) / 8, 0);
+  for (int i = 0; i < kCells * kCells; ++i) {
+    const sim::Vec2 centre(0.02 * (i % kCells + 0.5), 0.02 * (i / kCells + 0.5));
+    if (!is_seen(centre)) continue;
+    bits[static_cast<std::size_t>(i / 8)] |= static_cast<std::uint8_t>(0x80 >> (i % 8));
+  }
+  return {{"cell_size", 0.02}, {"x", 0.0},         {"y", 0.0},
+          {"width", kCells},   {"height", kCells}, {"cells", sim::to_base64(bits)}};
+}
+
 /// Runs in a separate folder, on the room with a goal at (1.5, 1).
 class EvaluateTest : public testing::Test {
  protected:
   void write_report(const json& changes = json::object(), double sim_time_s = 20.0,
                     const json& of_controller = json::object()) const {
-    json robot = {{"name", "a"},         {"path_length", 1.25},
-                  {"collisions", 2},     {"least_clearance", 0.0},
-                  {"stalled_time", 0.5}, {"final_pose", {{"x", 1.45}, {"y", 1.0}, {"yaw", 3.0}}}};
+    json robot = {{"name", "a"},
+                  {"path_length", 1.25},
+                  {"collisions", 2},
+                  {"least_clearance", 0.0},
+                  {"stalled_time", 0.5},
+                  {"final_pose", {{"x", 1.45}, {"y", 1.0}, {"yaw", 3.0}}},
+                  {"seen", seen_floor([](const sim::Vec2&) { return true; })}};
     robot.update(changes);
     json other = robot;
     other["name"] = "b";
@@ -167,15 +187,16 @@ class EvaluateTest : public testing::Test {
     run.world = "room";
     run.seed = 3;
     run.asked = asked_;
-    evaluate(task_, make_reference(task_, {}, room()), end, folder_.path(), run);
+    evaluate(task_, make_reference(task_, {}, room()), end, folder_.path(), completed_, run);
     return run;
   }
 
   TemporaryFolder folder_;
   Task task_ = task_with_goal(1.5, 1.0);
-  playerlike::Grading asked_ = playerlike::grading_of("the run's nonce", room());
+  playerlike::Grading asked_ = playerlike::grading_of("the run's nonce", {}, room());
   playerlike::Grading signed_as_ = asked_;
   int steps_ = 2000;
+  bool completed_ = false;
 };
 
 TEST_F(EvaluateTest, AReportCountsOnlyForTheRunThatWasAskedFor) {
@@ -205,6 +226,11 @@ TEST_F(EvaluateTest, AReportCountsOnlyForTheRunThatWasAskedFor) {
   EXPECT_THAT(fault_with([this] { signed_as_.realism = "ideal"; }),
               HasSubstr("the realism ideal, not with course"));
   EXPECT_THAT(fault_with([this] { steps_ = 0; }), HasSubstr("never stepped"));
+  EXPECT_THAT(fault_with([this] {
+                steps_ = 2000;
+                signed_as_.rules.may_use = playerlike::MayUse{{"a", "b"}, {}, {"map"}};
+              }),
+              HasSubstr("other rules than those of the task"));
 }
 
 TEST_F(EvaluateTest, AReportThatWasEditedIsRefused) {
@@ -230,7 +256,7 @@ TEST_F(EvaluateTest, TakesPointsAndVerdictOfTheController) {
     GradedRun run;
     run.asked = asked_;
     evaluate(task_, make_reference(task_, {}, room_with_controller()),
-             {JobEnd::Kind::kEnded, {}, 1.5}, folder_.path(), run);
+             {JobEnd::Kind::kEnded, {}, 1.5}, folder_.path(), false, run);
     return run;
   };
   const json scores = {{"a", 4.0}, {"b", 99.0}};
@@ -438,7 +464,7 @@ TEST_F(EvaluateTest, ScoresTheMapByTheBlocksAtTheEnd) {
     GradedRun run;
     run.asked = asked_;
     evaluate(task_, make_reference(task_, {}, divided(at_start)), {JobEnd::Kind::kEnded, {}, 1.5},
-             folder_.path(), run);
+             folder_.path(), false, run);
     return run.measures;
   };
   const json sank = {{{"kind", "retracted"}, {"what", "d"}}};
@@ -467,8 +493,92 @@ TEST_F(EvaluateTest, ScoresTheMapByTheBlocksAtTheEnd) {
   GradedRun run;
   run.asked = asked_;
   evaluate(task_, make_reference(task_, {}, divided("extended")), {JobEnd::Kind::kEnded, {}, 1.5},
-           folder_.path(), run);
+           folder_.path(), false, run);
   EXPECT_THAT(run.faults, ElementsAre(HasSubstr("the report is not as expected")));
+}
+
+TEST_F(EvaluateTest, FloorThatTheRobotHasNotSeenDoesNotCount) {
+  task_.map_layer = "occupancy";
+  task_.thresholds.min_coverage = 0.98;
+  folder_.write("layers/occupancy.yaml", "");  // makes the folder
+  sim::io::write_map(make_truth(room().arena), folder_ / "layers/occupancy");
+  // The robot has seen the left half.
+  write_report({{"seen", seen_floor([](const sim::Vec2& p) { return p.x() < 1.0; })}});
+  const GradedRun half = evaluated();
+  EXPECT_NEAR(half.measures.coverage.value_or(0.0), 0.5, 1e-9);
+  EXPECT_NEAR(half.measures.seen.value_or(0.0), 0.5, 1e-9);
+  EXPECT_EQ(half.measures.drawn, 1.0);
+  // 100 x 100 cells of floor, half of them unseen, and a border of two cells around them.
+  EXPECT_NEAR(half.measures.correctness.value_or(0.0), 1.0 - 5000.0 / (104.0 * 104.0), 1e-9);
+  EXPECT_THAT(half.faults,
+              ElementsAre("coverage 0.500, at least 0.98 needed: the map shows 1.000 of the floor, "
+                          "but the robot's own sensors have seen only 0.500 of it"));
+  write_report({{"seen", nullptr}});
+  EXPECT_FALSE(evaluated().passed());
+}
+
+TEST_F(EvaluateTest, SaysWhenAndWhereTheFirstCollisionWas) {
+  task_.thresholds.max_collisions = 0;
+  const json of_b = {{"time", 1.0}, {"robot", "b"}, {"with", "a"}, {"x", 0.0}, {"y", 0.0}};
+  const json of_a = {
+      {"time", 10.61}, {"robot", "a"}, {"with", "border"}, {"x", 1.1619}, {"y", 3.72}};
+  json later = of_a;
+  later["time"] = 12.0;
+  write_report(json::object(), 20.0, {{"collisions", {of_b, of_a, later}}});
+  EXPECT_THAT(evaluated().faults,
+              ElementsAre("collisions 2, at most 0 allowed: the first after 10.61 s with border at "
+                          "(1.16, 3.72)"));
+  // A report lists the newest ones only.
+  write_report(json::object(), 20.0, {{"collisions", {later}}});
+  EXPECT_THAT(evaluated().faults, ElementsAre("collisions 2, at most 0 allowed"));
+}
+
+TEST_F(EvaluateTest, WhatWasRefusedExplainsAFailure) {
+  const json refused = {{"refused", {{{"time", 0.1}, {"what", "the map of the world"}}}}};
+  write_report({{"commanded", {{"first", 0.1}}}}, 20.0, refused);
+  const GradedRun passed = evaluated();
+  EXPECT_TRUE(passed.passed());
+  EXPECT_THAT(passed.measures.commanded, ElementsAre("b", "a"));
+  task_.thresholds.min_distance_m = 1.0;
+  EXPECT_THAT(evaluated().faults,
+              ElementsAre("distance driven, without movements on the spot, unknown, at least 1 m "
+                          "asked for",
+                          "the program asked for the map of the world, which the task does not let "
+                          "it use; the first time after 0.10 s"));
+}
+
+TEST_F(EvaluateTest, ACompletedRunFailsWithWhatIsKnownOfIt) {
+  completed_ = true;
+  task_.thresholds.min_path_length_m = 12.0;  // it might have come to that
+  write_report();
+  const GradedRun crashed = evaluated({JobEnd::Kind::kEnded, {.status = 0, .signal = SIGSEGV}, 1});
+  EXPECT_EQ(crashed.measures.path_length_m, 1.25);
+  EXPECT_THAT(crashed.faults, ElementsAre("the program was ended by signal 11 (Segmentation fault) "
+                                          "after 20.00 s of simulated time"));
+  EXPECT_THAT(evaluated({JobEnd::Kind::kTimedOut, {.status = 0, .signal = SIGKILL}, 1}).faults,
+              ElementsAre("timeout: still running after 120 s; it was ended after 20.00 s of "
+                          "simulated time"));
+  EXPECT_THAT(evaluated().faults, ElementsAre("the program left in the middle of the run (by "
+                                              "_exit?) after 20.00 s of simulated time"));
+  task_.thresholds.max_collisions = 1;
+  EXPECT_THAT(evaluated().faults, testing::Contains("collisions 2, at most 1 allowed"));
+}
+
+TEST(MakeReference, RefusesUnknownNamesInMayUse) {
+  const auto message_for = [](const playerlike::MayUse& may_use) {
+    Task task;
+    task.may_use = may_use;
+    try {
+      const Reference reference = make_reference(task, {"room.json", {}, {}}, room());
+      return testing::PrintToString(rules_of(task, reference).may_use->robots);
+    } catch (const sim::ConfigError& error) {
+      return error.issues().front().message();
+    }
+  };
+  EXPECT_EQ(message_for({{}, {{"laser", "motion"}}, {}}), "{ \"a\" }") << "the judged robot";
+  EXPECT_THAT(message_for({{"a", "c"}, {}, {}}), HasSubstr("c, which is not there"));
+  EXPECT_THAT(message_for({{}, {{"lasr"}}, {}}),
+              AllOf(HasSubstr("lasr, which is none of them"), HasSubstr("laser, motion")));
 }
 
 TEST_F(EvaluateTest, AMapThatNoThresholdAsksForMayBeMissing) {

@@ -28,6 +28,8 @@ GradedRun good_run() {
   run.world = "room";
   run.seed = 1;
   run.folder = "room_seed1";
+  run.robot = "r1";
+  run.goal = Goal{{1.0, 2.0}, std::nullopt};
   run.ending = Ending::kBySelf;
   run.wall_time_s = 0.25;
   run.measures.reached = true;
@@ -80,6 +82,58 @@ TEST(Table, HasALineARunThenFaultsThenASummary) {
             "  path [m]: 12.35 to 12.35, mean 12.35\n"
             "  least clearance [m]: 0.032 to 0.032, mean 0.032\n"
             "  simulated time [s]: 61.0 to 61.0, mean 61.0\n");
+}
+
+TEST(Table, SaysWhatSeveralRunsHaveInCommonOnce) {
+  const auto failed = [](std::uint64_t seed, std::vector<std::string> faults) {
+    GradedRun run = good_run();
+    run.seed = seed;
+    run.faults = std::move(faults);
+    return run;
+  };
+  GradedRun other_world = failed(1, {"late"});
+  other_world.world = "hall";
+  const std::string text =
+      table(grade_of({failed(1, {"hit", "late"}), failed(2, {"late"}), failed(3, {"late", "hit"}),
+                      failed(4, {}), failed(5, {"hit", "only here"}), other_world}),
+            {.columns = 200});
+  EXPECT_THAT(text, HasSubstr("\nroom seeds 1, 3 and 5: hit\n"
+                              "room seeds 1 to 3: late\n"
+                              "room seed 5: only here\n"
+                              "hall seed 1: late\n"
+                              "explore: 1 of 6 runs passed\n"));
+}
+
+TEST(Table, AdvisesOnceForEachKindOfEnd) {
+  GradedRun hit = good_run();
+  hit.faults = {"hit"};
+  GradedRun again = hit;
+  again.seed = 2;
+  GradedRun crashed = crashed_run();
+  crashed.world = "room";
+  TableStyle style{.columns = 200};
+  style.advice = [](const GradedRun& run) {
+    return std::vector<std::string>{"look at seed " + std::to_string(run.seed)};
+  };
+  const std::string text = table(grade_of({hit, again, crashed, good_run()}), style);
+  EXPECT_THAT(text, HasSubstr("room seeds 1 and 2: hit\n"
+                              "room seed 12: the program was ended by signal 11 (Segmentation "
+                              "fault)\n"
+                              "  look at seed 1\n"
+                              "  look at seed 12\n"
+                              "explore: "));
+}
+
+TEST(JsonText, HasTheFirstCollisionAndWhatWasRefused) {
+  GradedRun run = good_run();
+  run.measures.first_collision = Contact{10.5, "border", {1.25, 3.5}};
+  run.measures.commanded = {"a"};
+  run.measures.refused = {{0.5, "the map of the world"}};
+  const json whole = json::parse(json_text(grade_of({run}))).at("runs").at(0);
+  EXPECT_EQ(whole.at("first_collision"),
+            json({{"time", 10.5}, {"with", "border"}, {"x", 1.25}, {"y", 3.5}}));
+  EXPECT_EQ(whole.at("commanded"), json({"a"}));
+  EXPECT_EQ(whole.at("refused"), json({{{"time", 0.5}, {"what", "the map of the world"}}}));
 }
 
 TEST(Table, OfOneRunNeedsNoSummary) {
@@ -187,16 +241,35 @@ TEST(JsonText, HasEverythingMeasuredAndNullForTheRest) {
   EXPECT_EQ(whole.at("summary").at("failed"), 1);
   EXPECT_EQ(whole.at("summary").at("coverage"),
             json({{"min", 0.9876}, {"mean", 0.9876}, {"max", 0.9876}}));
-  const json expected = {{"world", "room"},           {"seed", 1},
-                         {"folder", "room_seed1"},    {"passed", true},
-                         {"faults", json::array()},   {"end", {{"kind", "by-itself"}}},
-                         {"reached", true},           {"goal_distance", 0.05},
-                         {"coverage", 0.9876},        {"correctness", 1.0},
-                         {"path_length", 12.345},     {"shortest_path", 10.0},
-                         {"path_ratio", 1.2345},      {"collisions", 0},
-                         {"least_clearance", 0.0321}, {"stalled_time", 0.0},
-                         {"sim_time", 61.04},         {"score", nullptr},
-                         {"verdict", nullptr},        {"verdict_reason", nullptr},
+  const json expected = {{"world", "room"},
+                         {"seed", 1},
+                         {"folder", "room_seed1"},
+                         {"passed", true},
+                         {"faults", json::array()},
+                         {"end", {{"kind", "by-itself"}}},
+                         {"robot", "r1"},
+                         {"goal", {{"x", 1.0}, {"y", 2.0}, {"tolerance", 0.1}}},
+                         {"reached", true},
+                         {"goal_distance", 0.05},
+                         {"coverage", 0.9876},
+                         {"correctness", 1.0},
+                         {"drawn", nullptr},
+                         {"seen", nullptr},
+                         {"path_length", 12.345},
+                         {"shortest_path", 10.0},
+                         {"distance", nullptr},
+                         {"visited_area", nullptr},
+                         {"path_ratio", 1.2345},
+                         {"collisions", 0},
+                         {"first_collision", nullptr},
+                         {"commanded", json::array()},
+                         {"refused", json::array()},
+                         {"least_clearance", 0.0321},
+                         {"stalled_time", 0.0},
+                         {"sim_time", 61.04},
+                         {"score", nullptr},
+                         {"verdict", nullptr},
+                         {"verdict_reason", nullptr},
                          {"wall_time", 0.25}};
   EXPECT_EQ(whole.at("runs").at(0), expected);
   const json& crashed = whole.at("runs").at(1);

@@ -90,8 +90,10 @@ TEST_F(TaskTest, ReadsEverySetting) {
       "min_coverage": 0.9, "min_correctness": 0.8, "max_collisions": 3, "min_clearance": 0.01,
       "min_path_length": 1, "max_path_length": 2, "max_path_ratio": 1.5, "max_sim_time": 20,
       "max_stalled_time": 0, "must_reach": true, "must_end": true,
+      "min_distance": 12, "min_visited_area": 1.5,
       "min_score": -2.5, "must_pass": true
-    }
+    },
+    "may_use": {"robots": ["r7", "r8"], "devices": ["laser"], "world": ["map", "arena"]}
   })");
   EXPECT_EQ(task.description, "what to do");
   ASSERT_THAT(task.worlds, SizeIs(2));
@@ -126,8 +128,14 @@ TEST_F(TaskTest, ReadsEverySetting) {
   EXPECT_EQ(t.max_stalled_time_s, 0.0);
   EXPECT_TRUE(t.must_reach);
   EXPECT_TRUE(t.must_end);
+  EXPECT_EQ(t.min_distance_m, 12.0);
+  EXPECT_EQ(t.min_visited_area_m2, 1.5);
   EXPECT_EQ(t.min_score, -2.5);
   EXPECT_TRUE(t.must_pass);
+  ASSERT_TRUE(task.may_use);
+  EXPECT_THAT(task.may_use->robots, ElementsAre("r7", "r8"));
+  EXPECT_EQ(task.may_use->devices, std::vector<std::string>{"laser"});
+  EXPECT_THAT(task.may_use->world, ElementsAre("map", "arena"));
 }
 
 TEST_F(TaskTest, SeedsMayBeANumberOfThem) {
@@ -302,7 +310,7 @@ std::map<std::string, std::set<std::string>> keys_of_reader() {
   return test_support::known_keys([] {
     static_cast<void>(read_task_text(
         R"({"zz": 0, "worlds": [{"zz": 0, "world": "x"}], "goal": {"zz": 0, "x": 0, "y": 0},
-            "thresholds": {"zz": 0}})",
+            "may_use": {"zz": 0}, "thresholds": {"zz": 0}})",
         "t.task.json"));
   });
 }
@@ -310,8 +318,11 @@ std::map<std::string, std::set<std::string>> keys_of_reader() {
 TEST(TaskSchema, HasTheKeysThatTheReaderKnowsAndExplainsEach) {
   std::ifstream stream(std::string(PLAYPEN_SOURCE_DIR) + "/worlds/schema/task.schema.json");
   const json root = json::parse(stream);
-  const std::map<std::string, std::string> definitions{
-      {"", ""}, {"/worlds/0", "world"}, {"/goal", "goal"}, {"/thresholds", "thresholds"}};
+  const std::map<std::string, std::string> definitions{{"", ""},
+                                                       {"/worlds/0", "world"},
+                                                       {"/goal", "goal"},
+                                                       {"/may_use", "may_use"},
+                                                       {"/thresholds", "thresholds"}};
   const auto known = keys_of_reader();
   ASSERT_EQ(known.size(), definitions.size());
   for (const auto& [pointer, keys] : known) {

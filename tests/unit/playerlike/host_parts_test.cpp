@@ -420,6 +420,7 @@ TEST_F(ResultsTest, TheReportFollowsTheRunAndSaysHowItEnded) {
   const test_support::TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = folder / "out";
+  const CommandBook commands(robots.size());
   Results results(
       settings, simulation,
       [this] {
@@ -427,7 +428,7 @@ TEST_F(ResultsTest, TheReportFollowsTheRunAndSaysHowItEnded) {
         time.sim_time_ns = simulation.now_ns();
         return time;
       },
-      warn);
+      warn, commands);
   const auto report = [&] {
     std::ifstream in(settings.output_folder + "/report.json");
     return std::string(std::istreambuf_iterator<char>(in), {});

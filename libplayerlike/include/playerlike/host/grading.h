@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "playerlike/host/task_rules.h"
 #include "sim/world/description.h"
 
 namespace playerlike {
@@ -23,11 +24,13 @@ struct Grading {
   std::optional<double> duration_s;  ///< simulated duration
   std::string time = "lockstep";     ///< "lockstep", or the real-time factor
   std::string realism = "course";    ///< level of realism
+  TaskRules rules;                   ///< what the program may use, and what is measured
 };
 
 /// Returns the grading data of a run of this world.
 /// @param world  world as simulated, i.e. after RunSettings::apply_to().
-[[nodiscard]] Grading grading_of(const std::string& nonce, const sim::WorldDescription& world);
+[[nodiscard]] Grading grading_of(const std::string& nonce, const TaskRules& rules,
+                                 const sim::WorldDescription& world);
 
 /// Adds the entry "graded" to a report. Returns the report unchanged if the run is not graded.
 /// @param report  JSON.
@@ -35,7 +38,7 @@ struct Grading {
 
 /// Checks that a report belongs to the run that a grader requested. Returns nullopt if it does,
 /// otherwise the reason as text for the verdict: the report is not signed, it has another run,
-/// world, level of realism, seed, duration or time mode, it was changed afterwards, or its
+/// world, level of realism, seed, duration, time mode or rules, it was changed afterwards, or its
 /// simulation never stepped.
 /// @throws nlohmann::json::exception if the report is not JSON or not in the host's format.
 [[nodiscard]] std::optional<std::string> fault_of_graded(const std::string& report,

@@ -113,6 +113,8 @@ struct ProgramJob {
   std::uint64_t folder_limit = 0;  ///< maximum size of all files in the folder [bytes]
   std::uint64_t output_limit = 10'000'000;  ///< of output_file [bytes]; further output is dropped,
                                             ///< and the file's last line says so
+  /// If set, called just before the start; returns further changes of the environment.
+  std::function<EnvironmentChanges()> at_start = {};
 };
 
 /// Result of a ProgramJob.

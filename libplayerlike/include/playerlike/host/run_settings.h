@@ -104,8 +104,8 @@ struct RunSettings {
   /// after which a program gets a warning that it lets no simulated time pass [s].
   double silence_limit_s = 5.0;
 
-  /// Data for the grader. PLAYPEN_GRADE sets the nonce; the code that loads the world sets the
-  /// rest.
+  /// Data for the grader. PLAYPEN_GRADE sets the nonce and PLAYPEN_TASK the rules; the code that
+  /// loads the world sets the rest.
   Grading grading;
 
   /// Reads the settings from the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME
@@ -114,8 +114,8 @@ struct RunSettings {
   /// PLAYPEN_HIDE, PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE
   /// (ground, mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
   /// descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
-  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_TAKE_OVER,
-  /// PLAYPEN_INTERFACES and PLAYPEN_REAL (choices, separated by commas).
+  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_TASK,
+  /// PLAYPEN_TAKE_OVER, PLAYPEN_INTERFACES and PLAYPEN_REAL (choices, separated by commas).
   /// @throws sim::ConfigError naming the variable, the expected value and the actual value.
   [[nodiscard]] static RunSettings from_environment();
 

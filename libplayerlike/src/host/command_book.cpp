@@ -1,0 +1,30 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "host/command_book.h"
+
+#include <variant>
+
+namespace playerlike {
+namespace {
+
+template <typename... Kinds>
+bool is_any_of(const sim::Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
+}
+
+bool moves_the_robot(const sim::Command& command) {
+  return is_any_of<sim::TwistCommand, sim::HeadingCommand, sim::PositionCommand, sim::CarCommand,
+                   sim::GotoCommand, sim::ResumeCommand, sim::PlaceCommand, sim::TranslateCommand,
+                   sim::RotateCommand, sim::OrientCommand>(command);
+}
+
+}  // namespace
+
+void CommandBook::note(int robot, int port, const sim::Command& command, sim::SimTime now_ns) {
+  if (!moves_the_robot(command)) return;
+  Entry& entry = entries_[static_cast<std::size_t>(robot)];
+  if (!entry.first_ns) entry.first_ns = now_ns;
+  ++entry.count;
+  entry.ports.insert(port);
+}
+
+}  // namespace playerlike
