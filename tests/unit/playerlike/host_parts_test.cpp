@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -441,7 +442,12 @@ TEST_F(ResultsTest, TheReportFollowsTheRunAndSaysHowItEnded) {
   results.keep(t0 + seconds(1));
   EXPECT_THAT(report(), HasSubstr("\"ended\": null"));
   results.program_status = 3;
-  results.write();
+  sim::LayerCopy copy;
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  while (simulation.layers().copy_some(copy, kAll) != sim::LayerStack::CopyState::kComplete) {
+    copy.allocate();
+  }
+  results.prepare(copy.take())();
   EXPECT_THAT(report(), HasSubstr("\"status\": 3"));
   EXPECT_TRUE(std::filesystem::exists(settings.output_folder + "/scene.png"));
   EXPECT_THAT(warnings, IsEmpty());
