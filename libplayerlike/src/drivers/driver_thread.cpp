@@ -20,7 +20,7 @@ void DriverThread::start(std::function<void()> round) {
   const virtual_time::Inside inside;  // this is not the program's own thread
   // The caller, and with it simulated time, must not continue before the thread has joined.
   std::unique_lock lock(mutex_);
-  note_own_threads();
+  const StartsOwnThreads starts;
   thread_ = std::thread([this] { run(); });
   started_changed_.wait(lock, [this] { return started_; });
 }

@@ -659,15 +659,10 @@ std::vector<std::string> Host::Core::unrepeatable() const {
     why.emplace_back("a client on a Player port commanded a robot or changed the world");
   }
   if (!paced() && (!turns_ || !Turns::instance().active())) {
-    const ProgramThreads threads = watches_program_ ? program_threads() : ProgramThreads::kNone;
-    if (lockstep_.several_owners() || threads == ProgramThreads::kSome) {
+    if (lockstep_.several_owners() || (watches_program_ && program_has_threads())) {
       why.emplace_back(
           "the program has several threads or there were several programs, and time was "
           "not virtual: what they do side by side is chance");
-    } else if (threads == ProgramThreads::kUnknown) {
-      why.emplace_back(
-          "time was not virtual, and it is unknown whether the program has threads of its own "
-          "beside those that Playpen started in it");
     }
   }
   return why;

@@ -29,7 +29,10 @@ PictureThread::PictureThread(std::unique_ptr<sim::render::FilmWriter> film,
       film_(std::move(film)),
       film_renderer_(options),
       picture_renderer_(scene_options(options)),
-      thread_((note_own_threads(), std::thread([this] { work(); }))) {}
+      thread_([this] {
+        const StartsOwnThreads starts;
+        return std::thread([this] { work(); });
+      }()) {}
 
 PictureThread::~PictureThread() { end_thread(); }
 

@@ -46,8 +46,10 @@ ViewerLink::ViewerLink(int socket, ViewedRun& run) : socket_(socket), run_(run) 
   sigset_t old;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, &old);
-  note_own_threads();
-  thread_ = std::thread([this] { serve(); });
+  {
+    const StartsOwnThreads starts;
+    thread_ = std::thread([this] { serve(); });
+  }
   pthread_sigmask(SIG_SETMASK, &old, nullptr);
 }
 

@@ -37,7 +37,7 @@ ServerSettings onlooker_settings(int player_port) {
 
 std::unique_ptr<Onlookers> open_onlookers(std::shared_ptr<Host> host, int player_port,
                                           sim::LogHook log) {
-  note_own_threads();
+  const StartsOwnThreads starts;
   return std::make_unique<ServedOnlookers>(std::move(host), player_port, log);
 }
 
