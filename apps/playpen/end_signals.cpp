@@ -18,7 +18,7 @@ constexpr long kLook_ns = 50'000'000;
 // A process that ends in good order is late when it has computed for so long, or has done next to
 // nothing for so long. The processor's time counts, so that a busy machine does not make it late.
 constexpr auto kPatience = milliseconds(1500);
-constexpr auto kNextToNothing = milliseconds(15);
+constexpr auto kNextToNothing = milliseconds(5);
 constexpr auto kLongestWait = std::chrono::seconds(60);
 
 Clock::duration processor_time() {

@@ -32,6 +32,9 @@ constexpr auto kLeavingTime = std::chrono::seconds(5);
 constexpr auto kLook = std::chrono::milliseconds(20);
 // How long a report that is being written may take after that.
 constexpr auto kReportTime = std::chrono::seconds(5);
+// The same of all pictures of a canvas with so few cells, which takes long on a busy machine only.
+constexpr auto kPictureTime = std::chrono::seconds(60);
+constexpr std::size_t kSmallCanvas = std::size_t{1} << 20U;
 // Memory of the results that remain if the simulation does not end. Little, since it is written
 // after each step: a canvas of more than 4 million cells has no room.
 constexpr std::size_t kKeptBytes = std::size_t{16} << 20U;
@@ -65,10 +68,9 @@ void wait_for_end(const playerlike::Host& host, const playerlike::Server& server
 }
 
 /// Ends this process, whose simulation does not end by itself: completes the results from the
-/// memory that was kept, unless the simulation is writing them.
-[[noreturn]] void end_without(playerlike::Host& host, const playerlike::KeptRun& kept,
-                              const sim::WorldDescription& world, const ServeRequest& request,
-                              int signal) {
+/// memory that was kept, unless the simulation is writing them. Returns if it has written them.
+void end_without(playerlike::Host& host, const playerlike::KeptRun& kept,
+                 const sim::WorldDescription& world, const ServeRequest& request, int signal) {
   try {
     if (host.take_over_results()) {
       playerlike::ProgramEnd end;
@@ -77,11 +79,17 @@ void wait_for_end(const playerlike::Host& host, const playerlike::Server& server
       std::cerr << "playpen: the simulation did not end, so the results are those of its last "
                    "complete step\n";
     } else {
-      // They are being written, the report first.
-      const auto end = Clock::now() + kReportTime;
-      while (!has_report(request.settings) && Clock::now() < end) {
+      // They are being written, the report first. Pictures of a large canvas take too long.
+      bool is_small = false;
+      host.with_simulation([&](sim::Simulation& simulation) {
+        is_small = simulation.layers().cell_count() <= kSmallCanvas;
+      });
+      const auto end = Clock::now() + (is_small ? kPictureTime : kReportTime);
+      while (!(has_report(request.settings) && (!is_small || has_pictures(request.settings))) &&
+             Clock::now() < end) {
         std::this_thread::sleep_for(kLook);
       }
+      if (is_small && has_pictures(request.settings)) return;  // it ends in good order
     }
   } catch (const std::exception& e) {
     std::cerr << "playpen: results of the run are missing: " << e.what() << '\n';
