@@ -341,6 +341,7 @@ struct Host::Core::RequestHandler {
       {
         const Lock lock = core.lock_with_priority();
         client.require_open();
+        if (what.running.value_or(false)) require_permission_to_log();
         RunLog& log = core.results_.logs
                           .try_emplace(client.port, core.settings_.output_folder, client.port,
                                        core.robots_, core.client_files_)
@@ -355,6 +356,15 @@ struct Host::Core::RequestHandler {
   }
 
  private:
+  /// Throws if the run's task forbids a sensor whose readings the port's log would contain.
+  void require_permission_to_log() const {
+    for (const RobotInfo& robot : core.robots_) {
+      if (client.port != kMorsePort && robot.port != client.port) continue;
+      for (const DeviceInfo& device : robot.devices) {
+        core.require_permission(core.permissions_.forbids_device(device.id));
+      }
+    }
+  }
   /// Locks the host's mutex, and throws if the world is private.
   [[nodiscard]] Lock lock_readable() const {
     Lock lock = core.lock_with_priority();

@@ -136,6 +136,19 @@ TEST_F(PermissionsTest, OtherRobotsAreRefusedOnEveryPort) {
   EXPECT_TRUE(report.at("robots").at(1).at("commanded").is_null());
 }
 
+// A log holds the readings of all sensors of its port.
+TEST_F(PermissionsTest, LogsOfForbiddenSensorsAreRefused) {
+  may_use({{"r1"}, {}, {}});
+  begin(Results::kReport);
+  LogRequest start;
+  start.running = true;
+  EXPECT_THAT(error_of([&] { static_cast<void>(host_->connect(6666)->request(start)); }),
+              HasSubstr("of robot r2"));
+  EXPECT_THAT(error_of([&] { static_cast<void>(host_->connect(kMorsePort)->request(start)); }),
+              HasSubstr("of robot r2"));
+  static_cast<void>(host_->connect(6665)->request(start));
+}
+
 TEST_F(PermissionsTest, DataOfTheWorldAreRefusedUnlessNamed) {
   struct Case {
     const char* word;
