@@ -98,7 +98,7 @@ TEST_F(ArenaTasks, TheTemplateLosesItsPointsInATrap) {
   const ProcessResult graded = grade("par_traps", {"--seeds", "2"}, TRAPS_TEMPLATE);
   EXPECT_EQ(graded.status, 1) << graded.out << graded.err;
   EXPECT_THAT(graded.out,
-              HasSubstr("par_traps seed 1: verdict: failed: the robot has no points left"));
+              HasSubstr("par_traps seeds 1 and 2: verdict: failed: the robot has no points left"));
   EXPECT_THAT(graded.out, HasSubstr("par_traps: 0 of 2 runs passed"));
   EXPECT_EQ(named("par_traps_seed1", "trap"), std::set<std::string>{"pit"});
 }
@@ -142,10 +142,8 @@ TEST_F(ArenaTasks, TheSolutionCatchesTheFox) {
 TEST_F(ArenaTasks, TheFoxGetsAwayFromTheTemplate) {
   const ProcessResult graded = grade("par_chase", with_seeds(), CHASE_TEMPLATE);
   EXPECT_EQ(graded.status, 1) << graded.out << graded.err;
-  for (int seed = 1; seed <= seeds(); ++seed) {
-    EXPECT_THAT(graded.out, HasSubstr("par_chase seed " + std::to_string(seed) +
-                                      ": verdict: failed: the fox got away"));
-  }
+  for (const json& run : runs()) EXPECT_EQ(run.at("verdict_reason"), "the fox got away");
+  EXPECT_THAT(graded.out, HasSubstr(": verdict: failed: the fox got away"));
 }
 
 TEST_F(ArenaTasks, TheParticleFilterFindsTheRobotAndTheGoal) {

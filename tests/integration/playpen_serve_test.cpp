@@ -349,10 +349,8 @@ TEST_F(PlaypenServe, BadOptionsAreRefusedByNameAndValue) {
     EXPECT_EQ(result.status, 2) << c.option;
     EXPECT_THAT(result.err, AllOf(HasSubstr(c.option), HasSubstr(c.value))) << c.option;
   }
-  for (const auto& options :
-       std::vector<std::vector<std::string>>{{"--bind", "203.0.113.7"},
-                                             {"--token-file", "none.json"},
-                                             {"--time", "lockstep", "--view"}}) {
+  for (const auto& options : std::vector<std::vector<std::string>>{{"--bind", "203.0.113.7"},
+                                                                   {"--token-file", "none.json"}}) {
     const ProcessResult result = playpen(arguments(options));
     EXPECT_EQ(result.status, 2) << options.front();
     EXPECT_FALSE(fs::exists(out_)) << options.front();

@@ -47,7 +47,8 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
           Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt), Pair("PLAYPEN_STATE", std::nullopt),
           Pair("PLAYPEN_REALISM", std::nullopt), Pair("PLAYPEN_REAL", std::nullopt),
           Pair("PLAYPEN_PLAYER_PORT", std::nullopt), Pair("PLAYPEN_TAKE_OVER", std::nullopt),
-          Pair("PLAYPEN_PORT", std::nullopt), Pair("PLAYPEN_DESK", std::nullopt)));
+          Pair("PLAYPEN_TASK", std::nullopt), Pair("PLAYPEN_PORT", std::nullopt),
+          Pair("PLAYPEN_DESK", std::nullopt)));
 }
 
 TEST(RunEnvironment, MakesPathsAbsolute) {

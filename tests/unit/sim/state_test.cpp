@@ -338,7 +338,7 @@ TEST(State, GoesOnInAnotherProcessToTheSameBits) {
   for (int robot = 0; robot < simulation.robot_count(); ++robot) {
     collisions += simulation.statistics(robot).collisions;
   }
-  EXPECT_GT(collisions, cases(10, 30));
+  EXPECT_GT(collisions, cases(5, 15));
   write_file(folder / "trace", trace.data(), trace.size() * sizeof(Trace::value_type));
   test_support::ProcessOptions options;
   options.environment[kFolderVariable] = folder.path().string();
