@@ -186,10 +186,10 @@ TEST_F(HostLock, IsNotHeldWhileFilesAreWritten) {
   expect_short_holds();
 }
 
-// The most that a controller may do: it colours 4096 x 4096 cells in a step.
+// The most that a controller may do: it colours 2048 x 2048 cells in a step.
 TEST_F(HostLock, IsNotHeldForLongByAController) {
   start(R"({"name": "colours", "arena": {"size": [5, 5]},
-            "canvas": {"size": [4096, 4096], "cell_size": 0.001},
+            "canvas": {"size": [2048, 2048], "cell_size": 0.002},
             "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}}],
             "controller": {"timers": [
               {"every": 0.1, "do": [{"canvas": {"colour": "#ff0000"}}]},

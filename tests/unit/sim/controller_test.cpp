@@ -643,15 +643,15 @@ TEST(ControllerWork, ATimerThatWouldDoTooMuchInAStepIsRefused) {
                                    R"(, "simulation": {"step": 0.1})" + canvas);
   EXPECT_EQ(one.id, "world/too-much-work");
   EXPECT_EQ(one.pointer, "/controller/timers/0");
-  // 8192^2 cells are 65 536 operations, and one more for each of the 90 actions and the conditions.
+  // 8192^2 cells are 262 144 operations, and one more for each of the 90 actions and the conditions.
   // A step of 0.1 s has 101 times of a timer that acts every millisecond.
-  EXPECT_THAT(one.found, HasSubstr("101 times 5898331 operations"));
+  EXPECT_THAT(one.found, HasSubstr("101 times 23593051 operations"));
   EXPECT_EQ(
       issue_of(R"("traps": [{"near": {"place": [1, 2]}, "do": [)" + fills + "]}]", canvas).pointer,
       "/controller/traps/0");
-  // To clear the canvas costs a sixteenth, and a small canvas little.
+  // To clear the canvas costs a 64th, and a small canvas little.
   static_cast<void>(room(R"("timers": [{"every": 0.1, "do": [{"canvas": {}}]}])", canvas));
-  static_cast<void>(room(R"("timers": [{"every": 0.01, "do": [)" + fills + "]}]"));
+  static_cast<void>(room(R"("timers": [{"every": 0.02, "do": [)" + fills + "]}]"));
 }
 
 TEST(ControllerWork, AConfigurationOfVeryManyBlocksIsRefused) {
@@ -682,7 +682,7 @@ TEST(ControllerWork, AConfigurationOfVeryManyBlocksIsRefused) {
 }
 
 TEST(ControllerWork, TimersThatDoTooMuchTogetherEndTheRun) {
-  // Each of 16 timers colours 2048 x 2048 cells, 4096 operations: the fifth is too much.
+  // Each of 16 timers colours 2048 x 2048 cells, 16 384 operations: the second is too much.
   std::string timers;
   for (int i = 0; i < 16; ++i) {
     timers += std::string(i == 0 ? "" : ",") + R"({"name": "t)" + std::to_string(i) +
@@ -695,12 +695,12 @@ TEST(ControllerWork, TimersThatDoTooMuchTogetherEndTheRun) {
   ASSERT_TRUE(simulation.verdict());
   EXPECT_FALSE(simulation.verdict()->passed);
   EXPECT_THAT(simulation.verdict()->reason,
-              AllOf(HasSubstr("more than 20000 operations in one step"), HasSubstr("\"t4\"")));
-  EXPECT_THAT(times_of(simulation, ArenaEventKind::kCanvas), SizeIs(4));
+              AllOf(HasSubstr("more than 20000 operations in one step"), HasSubstr("\"t1\"")));
+  EXPECT_THAT(times_of(simulation, ArenaEventKind::kCanvas), SizeIs(1));
   // The canvas may not become so large that one of them does too much.
-  EXPECT_EQ(simulation.canvas_refusal(4096, 4096), std::nullopt);
+  EXPECT_EQ(simulation.canvas_refusal(2200, 2200), std::nullopt);
   EXPECT_THAT(simulation.canvas_refusal(8192, 8192).value_or(""),
-              HasSubstr("\"t0\" would do 65538"));
+              HasSubstr("\"t0\" would do 262146"));
 }
 
 }  // namespace
