@@ -12,8 +12,8 @@ namespace {
 
 // What a processor does in an operation: it colours so many cells, clears so many, or compares so
 // many names in the search for one.
-constexpr std::int64_t kColouredCells = 256;  // which may be new pages of memory
-constexpr std::int64_t kClearedCells = 64 * kColouredCells;
+constexpr std::int64_t kColouredCells = 128;  // which may be new pages of memory
+constexpr std::int64_t kClearedCells = 128 * kColouredCells;
 constexpr std::int64_t kNames = 64;
 constexpr std::int64_t kPlaces = 8;  // of robots and obstacles, compared with a place
 

@@ -513,7 +513,7 @@ TEST(HostCanvasSize, AControllerThatFillsItBoundsItsSize) {
   const auto host = test::patient_host(two_robots(
       R"(}, "controller": {"timers": [{"every": 1, "do": [{"canvas": {"colour": "#ff0000"}}]}])"));
   const auto session = host->connect(6665);
-  session->request(ResizeCanvasRequest{2048, 2048});
+  session->request(ResizeCanvasRequest{1500, 1500});
   try {
     session->request(ResizeCanvasRequest{8192, 8192});
     ADD_FAILURE() << "accepted";

@@ -186,10 +186,10 @@ TEST_F(HostLock, IsNotHeldWhileFilesAreWritten) {
   expect_short_holds();
 }
 
-// The most that a controller may do: it colours 2048 x 2048 cells in a step.
+// The most that a controller may do: it colours 1500 x 1500 cells in a step.
 TEST_F(HostLock, IsNotHeldForLongByAController) {
   start(R"({"name": "colours", "arena": {"size": [5, 5]},
-            "canvas": {"size": [2048, 2048], "cell_size": 0.002},
+            "canvas": {"size": [1500, 1500], "cell_size": 0.003},
             "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}}],
             "controller": {"timers": [
               {"every": 0.1, "do": [{"canvas": {"colour": "#ff0000"}}]},

@@ -643,15 +643,16 @@ TEST(ControllerWork, ATimerThatWouldDoTooMuchInAStepIsRefused) {
                                    R"(, "simulation": {"step": 0.1})" + canvas);
   EXPECT_EQ(one.id, "world/too-much-work");
   EXPECT_EQ(one.pointer, "/controller/timers/0");
-  // 8192^2 cells are 262 144 operations, and one more for each of the 90 actions and the conditions.
-  // A step of 0.1 s has 101 times of a timer that acts every millisecond.
-  EXPECT_THAT(one.found, HasSubstr("101 times 23593051 operations"));
+  // 8192^2 cells are 524 288 operations, and one more for each of the 90 actions and the
+  // conditions. A step of 0.1 s has 101 times of a timer that acts every millisecond.
+  EXPECT_THAT(one.found, HasSubstr("101 times 47186011 operations"));
   EXPECT_EQ(
       issue_of(R"("traps": [{"near": {"place": [1, 2]}, "do": [)" + fills + "]}]", canvas).pointer,
       "/controller/traps/0");
-  // To clear the canvas costs a 64th, and a small canvas little.
+  // To clear the canvas costs a 128th, and a small canvas little.
   static_cast<void>(room(R"("timers": [{"every": 0.1, "do": [{"canvas": {}}]}])", canvas));
-  static_cast<void>(room(R"("timers": [{"every": 0.02, "do": [)" + fills + "]}]"));
+  static_cast<void>(room(R"("timers": [{"every": 0.02, "do": [)" + fills + "]}]",
+                         R"(, "canvas": {"size": [100, 100]})"));
 }
 
 TEST(ControllerWork, AConfigurationOfVeryManyBlocksIsRefused) {
@@ -682,14 +683,14 @@ TEST(ControllerWork, AConfigurationOfVeryManyBlocksIsRefused) {
 }
 
 TEST(ControllerWork, TimersThatDoTooMuchTogetherEndTheRun) {
-  // Each of 16 timers colours 2048 x 2048 cells, 16 384 operations: the second is too much.
+  // Each of 16 timers colours 1500 x 1500 cells, 17 579 operations: the second is too much.
   std::string timers;
   for (int i = 0; i < 16; ++i) {
     timers += std::string(i == 0 ? "" : ",") + R"({"name": "t)" + std::to_string(i) +
               R"(", "at": 0.05, "do": [{"canvas": {"colour": "#00ff00"}}]})";
   }
   Simulation simulation(room("\"timers\": [" + timers + "]",
-                             R"(, "canvas": {"size": [2048, 2048], "cell_size": 0.002})"));
+                             R"(, "canvas": {"size": [1500, 1500], "cell_size": 0.003})"));
   run(simulation, 0.1);
   EXPECT_TRUE(simulation.finished());
   ASSERT_TRUE(simulation.verdict());
@@ -698,9 +699,9 @@ TEST(ControllerWork, TimersThatDoTooMuchTogetherEndTheRun) {
               AllOf(HasSubstr("more than 20000 operations in one step"), HasSubstr("\"t1\"")));
   EXPECT_THAT(times_of(simulation, ArenaEventKind::kCanvas), SizeIs(1));
   // The canvas may not become so large that one of them does too much.
-  EXPECT_EQ(simulation.canvas_refusal(2200, 2200), std::nullopt);
+  EXPECT_EQ(simulation.canvas_refusal(1550, 1550), std::nullopt);
   EXPECT_THAT(simulation.canvas_refusal(8192, 8192).value_or(""),
-              HasSubstr("\"t0\" would do 262146"));
+              HasSubstr("\"t0\" would do 524290"));
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ const BadWorld kBadWorlds[] = {
     {"arena_end_without_verdict", "world/missing-key", "/controller/timers/0/do/0/end", 2,
      "\"verdict\"", "none"},
     {"arena_too_much_work", "world/too-much-work", "/controller/timers/0", 2,
-     "at most 20000 operations in a step", "262146 operations"},
+     "at most 20000 operations in a step", "524290 operations"},
     {"arena_message_too_long", "world/out-of-range", "/controller/timers/0/do/0/message", 2,
      "at most 200 bytes", "201 bytes"},
     {"arena_timer_at_and_within", "world/conflicting-keys", "/controller/timers/0/at", 2,
