@@ -151,8 +151,8 @@ void spin(const Call& /*call*/) {
 /// Circles of 15 cm.
 void circle(const Call& /*call*/) {
   drive([](int /*i*/, double& speed, double& turn_rate) {
-    speed = 0.3;
-    turn_rate = -2.0;
+    speed = 0.15;
+    turn_rate = 2.0;
   });
 }
 

@@ -19,6 +19,7 @@ inline constexpr std::size_t kKeptHeaderSize = 4096;
 /// Maximum length of a trail; at this length every second point is removed.
 inline constexpr std::size_t kMostTrailPoints = 8192;
 inline constexpr std::size_t kMostKeptBeams = 4096;
+inline constexpr std::size_t kMostKeptPorts = 8;
 
 /// The header of the memory.
 struct KeptHeader {
@@ -67,6 +68,11 @@ struct KeptRobot {
   double least_clearance_m = 0.0;
   double stalled_time_s = 0.0;
   double driven_time_s = 0.0;
+  double distance_m = 0.0;       ///< TravelMeter::distance_m()
+  double visited_area_m2 = 0.0;  ///< TravelMeter::visited_area_m2()
+  std::uint64_t commands = 0;    ///< CommandBook::Entry, as the next two
+  std::int64_t first_command_ns = 0;
+  std::array<std::int32_t, kMostKeptPorts> ports{};  ///< 0: no further one
   double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
   std::int32_t collisions = 0;
   std::uint32_t stalled = 0;

@@ -84,6 +84,17 @@ std::string completed_report(ordered_json report, const LastStep& last, const Pr
     robot["least_clearance"] = kept.least_clearance_m;
     robot["stalled_time"] = kept.stalled_time_s;
     robot["driven_time"] = kept.driven_time_s;
+    robot["distance"] = kept.distance_m;
+    robot["visited_area"] = kept.visited_area_m2;
+    if (kept.commands > 0) {
+      ordered_json ports = ordered_json::array();
+      for (const std::int32_t port : kept.ports) {
+        if (port != 0) ports.push_back(port);
+      }
+      robot["commanded"] = {{"first", sim::to_seconds(kept.first_command_ns)},
+                            {"commands", kept.commands},
+                            {"ports", ports}};
+    }
     robot["final_pose"] = {{"x", kept.x_m}, {"y", kept.y_m}, {"yaw", kept.yaw_rad}};
   }
   if (report.value("ended", ordered_json()).is_null()) report["ended"] = to_json(run_end(end));

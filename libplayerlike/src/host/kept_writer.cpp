@@ -142,6 +142,25 @@ void KeptWriter::begin(const sim::Simulation& simulation) {
   header_->robots = static_cast<std::uint32_t>(robots);
 }
 
+namespace {
+
+void keep_achievements(const Recorder& recorder, std::size_t robot, KeptRobot& kept) {
+  if (const TravelMeter* const travel = recorder.travel(robot)) {
+    kept.distance_m = travel->distance_m();
+    kept.visited_area_m2 = travel->visited_area_m2();
+  }
+  if (recorder.commands() == nullptr) return;
+  const CommandBook::Entry& entry = recorder.commands()->of(robot);
+  kept.commands = entry.count;
+  kept.first_command_ns = entry.first_ns.value_or(0);
+  std::size_t ports = 0;
+  for (const int port : entry.ports) {
+    if (ports < kept.ports.size()) kept.ports.at(ports++) = port;
+  }
+}
+
+}  // namespace
+
 void KeptWriter::keep_step(const TimeStatistics& time, const Recorder& recorder,
                            sim::Simulation& simulation) {
   if (!begun_) begin(simulation);
@@ -162,6 +181,7 @@ void KeptWriter::keep_step(const TimeStatistics& time, const Recorder& recorder,
     kept.least_clearance_m = statistics.least_clearance_m;
     kept.stalled_time_s = statistics.stalled_time_s;
     kept.driven_time_s = recorder.driven_time_s(i).value_or(0.0);
+    keep_achievements(recorder, i, kept);
     kept.collisions = statistics.collisions;
     kept.x_m = body.X_WB.x_m;
     kept.y_m = body.X_WB.y_m;
