@@ -130,6 +130,7 @@ class CellRaster {
 
   /// @name A copy that is made in pieces, while this raster is in use
   /// @{
+
   /// Begins a copy; an earlier one that is not complete is abandoned.
   void begin_copy() noexcept;
   /// Continues the copy with about `cells` cells: those that are not blank, and those that were

@@ -31,6 +31,7 @@ struct PatrolParams {
 
 /// The junctions of a patrol and the ways between them.
 struct PatrolMap {
+  /// A place where ways meet or end.
   struct Junction {
     Vec2 place_m = Vec2::Zero();    ///< in W [m]
     std::vector<std::size_t> next;  ///< the junctions to which ways lead, in the order of the ways
