@@ -130,7 +130,7 @@ std::vector<ControllerWork::Excess> ControllerWork::excesses() const {
 }
 
 std::string text_of(const ControllerWork::Excess& excess) {
-  const std::string each = std::to_string(excess.work) + " operations";
+  std::string each = std::to_string(excess.work) + " operations";
   if (excess.acts == 1) return each;
   return std::to_string(excess.work * excess.acts) + ": " + std::to_string(excess.acts) +
          " times " + each;
