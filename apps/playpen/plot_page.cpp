@@ -390,7 +390,8 @@ class SceneGrid {
   [[nodiscard]] double side() const noexcept { return side_; }
   [[nodiscard]] Vec2 corner(std::size_t scene) const {
     const auto column = static_cast<double>(scene % columns_);
-    const auto row = static_cast<double>(scene / columns_);
+    const std::size_t rows_above = scene / columns_;
+    const auto row = static_cast<double>(rows_above);
     const double width = static_cast<double>(columns_) * (side_ + kSceneGap) - kSceneGap;
     return {kSceneLeft + 0.5 * (kScenesWidth - width) + column * (side_ + kSceneGap),
             kTop + row * (side_ + kSceneFoot)};
