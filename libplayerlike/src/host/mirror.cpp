@@ -115,10 +115,11 @@ class Mirror::Robot {
 
   /// @throws SessionError if the real robot has no device that tells its pose.
   [[nodiscard]] Binding bind(const Session& session) const;
-  /// Connects and takes charge. @throws SessionError.
-  /// @param binding  of an earlier connection: the devices must be the same; null: none.
-  [[nodiscard]] std::unique_ptr<RealLink> connect(const Binding* earlier, double timeout_s,
-                                                  Binding& binding) const;
+  /// Opens a session again; the devices must be the same. @throws SessionError.
+  [[nodiscard]] std::unique_ptr<Session> reopen() const;
+  /// Subscribes to the bound devices and takes charge. @throws SessionError.
+  [[nodiscard]] std::unique_ptr<RealLink> link(std::unique_ptr<Session> session,
+                                               bool take_over) const;
   void warn_of_simulated() const;
   [[nodiscard]] std::optional<sim::Command> translated(const sim::Command& command) const;
   [[nodiscard]] static std::shared_ptr<const sim::PoseReading> pose_in(
@@ -182,8 +183,9 @@ Mirror::Robot::Robot(sim::Simulation& simulation, const std::vector<RobotInfo>& 
       robots_(robots),
       open_(open),
       warn_(warn) {
-  constexpr double kConnect_s = 10.0;
-  link_ = connect(nullptr, kConnect_s, binding_);
+  std::unique_ptr<Session> session = open_({real_.server, port()});
+  binding_ = bind(*session);
+  link_ = link(std::move(session), real_.take_over);
   for (const DeviceInfo& device : robots[static_cast<std::size_t>(index)].devices) {
     if (device.type == "laser" && !laser_ && replaces(device.id.device)) {
       laser_ = device.id.device;
@@ -200,28 +202,31 @@ Mirror::Robot::Robot(sim::Simulation& simulation, const std::vector<RobotInfo>& 
         " does not watch over its clients: if the network fails, the robot drives on");
 }
 
-std::unique_ptr<RealLink> Mirror::Robot::connect(const Binding* earlier, double timeout_s,
-                                                 Binding& binding) const {
-  std::unique_ptr<Session> session = open_({real_.server, port(), timeout_s});
-  binding = bind(*session);
-  if (earlier != nullptr && !(*earlier == binding)) {
+std::unique_ptr<Session> Mirror::Robot::reopen() const {
+  std::unique_ptr<Session> session = open_({real_.server, port(), Reconnection::kAttempt_s});
+  if (!(bind(*session) == binding_)) {
     throw SessionError(SessionError::Code::kNotAvailable, "the robot has other devices now");
   }
   // The end of the run waits for an attempt to connect again.
-  if (earlier != nullptr) session->request(AnswerTimeoutRequest{timeout_s});
+  session->request(AnswerTimeoutRequest{Reconnection::kAttempt_s});
+  return session;
+}
+
+std::unique_ptr<RealLink> Mirror::Robot::link(std::unique_ptr<Session> session,
+                                              bool take_over) const {
   std::set<std::pair<int, int>> subscribed;
   const auto subscribe = [&](DeviceId device) {
     if (subscribed.insert({device.robot, device.device}).second) {
       session->request(SubscribeRequest{device});
     }
   };
-  subscribe(binding.pose);
-  for (const auto& device : binding.feeds) {
+  subscribe(binding_.pose);
+  for (const auto& device : binding_.feeds) {
     if (device) subscribe(*device);
   }
-  TakeChargeRequest charge{binding.motors.value_or(binding.pose), real_.watchdog_s,
-                           real_.take_over && earlier == nullptr, name_of_mirror()};
-  return std::make_unique<RealLink>(std::move(session), binding.motors, std::move(charge));
+  TakeChargeRequest charge{binding_.motors.value_or(binding_.pose), real_.watchdog_s, take_over,
+                           name_of_mirror()};
+  return std::make_unique<RealLink>(std::move(session), binding_.motors, std::move(charge));
 }
 
 // Binds devices that have an address in common. The list of addresses is in alphabetical order of
@@ -506,10 +511,8 @@ std::optional<Mirror::Loss> Mirror::Robot::after_step() {
   if (ghost_) ghost_->stop();
   last_loss_ = loss_;
   if (real_.on_lost == OnLost::kReconnect) {
-    reconnection_ = std::make_unique<Reconnection>([this] {
-      Binding binding;
-      return connect(&binding_, Reconnection::kAttempt_s, binding);
-    });
+    reconnection_ =
+        std::make_unique<Reconnection>([this] { return link(reopen(), /*take_over=*/false); });
   }
   return Loss{index_, loss_, real_.on_lost == OnLost::kEnd, real_.on_lost == OnLost::kReconnect};
 }
