@@ -1,18 +1,11 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "host/command_book.h"
 
-#include <variant>
-
 namespace playerlike {
 namespace {
 
-template <typename... Kinds>
-bool is_any_of(const sim::Command& command) {
-  return (std::holds_alternative<Kinds>(command) || ...);
-}
-
 bool moves_the_robot(const sim::Command& command) {
-  return is_any_of<sim::TwistCommand, sim::HeadingCommand, sim::PositionCommand, sim::CarCommand,
+  return is_one_of<sim::TwistCommand, sim::HeadingCommand, sim::PositionCommand, sim::CarCommand,
                    sim::GotoCommand, sim::ResumeCommand, sim::PlaceCommand, sim::TranslateCommand,
                    sim::RotateCommand, sim::OrientCommand>(command);
 }

@@ -5,12 +5,19 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <variant>
 #include <vector>
 
 #include "sim/core/time.h"
 #include "sim/devices/device.h"
 
 namespace playerlike {
+
+/// Whether a command is of one of these kinds.
+template <typename... Kinds>
+[[nodiscard]] bool is_one_of(const sim::Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
+}
 
 /// Notes who commands which robot to move, for the run's report. Guarded by the host's mutex.
 class CommandBook {

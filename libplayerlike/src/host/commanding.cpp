@@ -4,11 +4,6 @@
 #include "session/checks.h"
 
 namespace playerlike {
-namespace {
-
-constexpr const char* kRunIsOver = "session/finished: the run is over";
-
-}  // namespace
 
 void Host::Core::unsubscribe(Client& client, DeviceId device) {
   const Lock lock = lock_with_priority();

@@ -14,11 +14,6 @@ namespace {
 // that never reads does not use up memory.
 constexpr std::size_t kCommandLimit = 1 << 12;
 
-template <typename... Kinds>
-bool is_one_of(const sim::Command& command) {
-  return (std::holds_alternative<Kinds>(command) || ...);
-}
-
 // Whether a command replaces an earlier one of its kind that has not been applied yet. Relative
 // movements and counted commands do not.
 bool replaces_earlier_ones(const sim::Command& command) {

@@ -1,10 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "host/real_link.h"
 
-#include <csignal>
 #include <exception>
 
 #include "host/inputs.h"
+#include "process/system_threads.h"
 #include "virtual_time/virtual_time.h"
 
 namespace playerlike {
@@ -14,13 +14,6 @@ namespace {
 constexpr std::size_t kArrivalLimit = 1000;
 constexpr std::size_t kQueuedCommandLimit = 1000;
 constexpr std::chrono::seconds kStoppingTime(1);
-
-// Signals are left to the program's own threads.
-void block_signals() {
-  sigset_t all;
-  sigfillset(&all);
-  pthread_sigmask(SIG_BLOCK, &all, nullptr);
-}
 
 }  // namespace
 
@@ -86,7 +79,7 @@ void RealLink::on_reading(DeviceId device, const sim::SharedReading& reading) {
 }
 
 void RealLink::receive() noexcept {
-  block_signals();
+  leave_signals_to_program();
   const virtual_time::Inside inside;
   try {
     for (;;) {
@@ -99,7 +92,7 @@ void RealLink::receive() noexcept {
 }
 
 void RealLink::transmit() noexcept {
-  block_signals();
+  leave_signals_to_program();
   const virtual_time::Inside inside;
   std::unique_lock lock(mutex_);
   try {
@@ -121,7 +114,7 @@ void RealLink::transmit() noexcept {
 }
 
 void RealLink::keep_charge() noexcept {
-  block_signals();
+  leave_signals_to_program();
   const virtual_time::Inside inside;
   // Three of four messages may be late.
   const auto period = wall(charge_.watchdog_s / 4.0);

@@ -1,10 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "host/reconnection.h"
 
-#include <csignal>
 #include <exception>
 #include <utility>
 
+#include "process/system_threads.h"
 #include "virtual_time/virtual_time.h"
 
 namespace playerlike {
@@ -28,10 +28,7 @@ std::unique_ptr<RealLink> Reconnection::take() {
 }
 
 void Reconnection::attempt() noexcept {
-  // Signals are left to the program's own threads.
-  sigset_t all;
-  sigfillset(&all);
-  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  leave_signals_to_program();
   const virtual_time::Inside inside;
   std::unique_lock lock(mutex_);
   while (!stopping_ && !link_) {

@@ -13,4 +13,8 @@ namespace playerlike {
 /// Number of voluntary context switches of a thread of this process; nullopt unless it sleeps now.
 [[nodiscard]] std::optional<std::uint64_t> sleeps_since(pid_t thread);
 
+/// Blocks all signals in the calling thread, one of this library's own: they are left to the
+/// program's threads.
+void leave_signals_to_program() noexcept;
+
 }  // namespace playerlike

@@ -10,8 +10,6 @@
 namespace playerlike::server {
 namespace {
 
-constexpr const char* kRunIsOver = "session/finished: the run is over";
-
 const sim::Waypoint& waypoint_of(const sim::Simulation& simulation, DeviceId device) {
   return dynamic_cast<const sim::Waypoint&>(simulation.device(device.robot, device.device));
 }

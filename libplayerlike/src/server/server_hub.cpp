@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
-#include <pthread.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -14,7 +13,6 @@
 #include <asio/post.hpp>
 #include <asio/steady_timer.hpp>
 #include <atomic>
-#include <csignal>
 #include <exception>
 #include <list>
 #include <map>
@@ -24,6 +22,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "process/system_threads.h"
 #include "server/connection.h"
 #include "server/player_connection.h"
 #include "sim/core/error.h"
@@ -499,10 +498,7 @@ void ServerHub::Body::tick() {
 
 void ServerHub::Body::serve() {
   const virtual_time::Inside inside;  // in a program whose time is virtual, this thread's is real
-  // Signals are left to the program's own threads.
-  sigset_t all;
-  sigfillset(&all);
-  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  leave_signals_to_program();
   own_thread_ = std::this_thread::get_id();
   for (;;) {
     try {

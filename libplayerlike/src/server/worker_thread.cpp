@@ -1,10 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "server/worker_thread.h"
 
-#include <pthread.h>
-
-#include <csignal>
 #include <utility>
+
+#include "process/system_threads.h"
 
 namespace playerlike::server {
 
@@ -47,10 +46,7 @@ void WorkerThread::close() noexcept {
 }
 
 void WorkerThread::work() {
-  // Signals are left to the program's own threads.
-  sigset_t all;
-  sigfillset(&all);
-  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  leave_signals_to_program();
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return closed_ || !jobs_.empty(); });

@@ -91,6 +91,9 @@ class EventClient final {
   std::unique_ptr<Session> session_;
 };
 
+/// Why nothing is executed any more, with the id of the error in protocols.
+inline constexpr const char* kRunIsOver = "session/finished: the run is over";
+
 /// Commands robots for somebody without a session, such as a client in MORSE's protocol. Any thread
 /// may call the members.
 class Commander final {
