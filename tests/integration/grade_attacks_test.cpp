@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <initializer_list>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
@@ -88,8 +90,10 @@ TEST_P(GradeAttacks, Fails) {
   }
 }
 
-TEST_P(GradeAttacks, WouldPassWithoutTheRules) {
-  if (!GetParam().passes_without_rules) GTEST_SKIP() << "other rules of the world stop it";
+/// The other attacks are stopped by rules of the worlds, too.
+class AttacksWithoutRules : public GradeAttacks {};
+
+TEST_P(AttacksWithoutRules, Pass) {
   const json runs = grade(task_without_rules());
   for (const json& run : runs) EXPECT_EQ(run.at("passed"), true) << run << said_;
 }
@@ -100,30 +104,40 @@ constexpr const char* kNoMap = "does not let a program use the map of the world"
 constexpr const char* kNoObjects = "does not let a program use poses and properties of objects";
 constexpr const char* kNoFox = "does not let a program use the device ";
 
-INSTANTIATE_TEST_SUITE_P(
-    , GradeAttacks,
-    testing::Values(Attack{"par_exploration", "draw_map_of_the_server", kNoMap, false},
-                    Attack{"par_exploration", "know_the_map", kSeen, false},
-                    Attack{"par_exploration_changing", "wait_and_draw_map_of_the_server", kNoMap,
-                           false},
-                    Attack{"par_exploration_changing", "wait_and_know_the_map", kSeen, false},
-                    Attack{"par_intro", "wiggle", kOnTheSpot, true},
-                    Attack{"par_intro", "wiggle_by_another_client", kOnTheSpot, true},
-                    Attack{"par_intro", "spin", kOnTheSpot, true},
-                    Attack{"par_intro", "circle", "visited floor", true},
-                    Attack{"par_intro", "shuttle", "visited floor", true},
-                    Attack{"par_planning", "teleport", "does not let a program use", false},
-                    Attack{"par_planning", "ask_the_planner", "planner", false},
-                    Attack{"par_traps", "teleport", "does not let a program use", false},
-                    Attack{"par_traps", "ask_the_planner", "planner", false},
-                    Attack{"par_localization", "ask_for_the_pose", kNoObjects, true},
-                    Attack{"par_localization", "teleport", "does not let a program use", false},
-                    Attack{"par_chase", "drive_the_fox_by_its_port", kNoFox, true},
-                    Attack{"par_chase", "drive_the_fox_by_the_port_of_all", kNoFox, true},
-                    Attack{"par_chase", "read_the_sensors_of_the_fox", kNoFox, true},
-                    Attack{"par_chase", "ask_where_the_fox_is", kNoObjects, true}),
-    [](const testing::TestParamInfo<Attack>& attack) {
-      return std::string(attack.param.program) + "_on_" + attack.param.task;
-    });
+const Attack kAttacks[] = {
+    Attack{"par_exploration", "draw_map_of_the_server", kNoMap, false},
+    Attack{"par_exploration", "know_the_map", kSeen, false},
+    Attack{"par_exploration_changing", "wait_and_draw_map_of_the_server", kNoMap, false},
+    Attack{"par_exploration_changing", "wait_and_know_the_map", kSeen, false},
+    Attack{"par_intro", "wiggle", kOnTheSpot, true},
+    Attack{"par_intro", "wiggle_by_another_client", kOnTheSpot, true},
+    Attack{"par_intro", "spin", kOnTheSpot, true},
+    Attack{"par_intro", "circle", "visited floor", true},
+    Attack{"par_intro", "shuttle", "visited floor", true},
+    Attack{"par_planning", "teleport", "does not let a program use", false},
+    Attack{"par_planning", "ask_the_planner", "planner", false},
+    Attack{"par_traps", "teleport", "does not let a program use", false},
+    Attack{"par_traps", "ask_the_planner", "planner", false},
+    Attack{"par_localization", "ask_for_the_pose", kNoObjects, true},
+    Attack{"par_localization", "teleport", "does not let a program use", false},
+    Attack{"par_chase", "drive_the_fox_by_its_port", kNoFox, true},
+    Attack{"par_chase", "drive_the_fox_by_the_port_of_all", kNoFox, true},
+    Attack{"par_chase", "read_the_sensors_of_the_fox", kNoFox, true},
+    Attack{"par_chase", "ask_where_the_fox_is", kNoObjects, true}};
+
+std::vector<Attack> attacks_that_would_pass() {
+  std::vector<Attack> all;
+  std::copy_if(std::begin(kAttacks), std::end(kAttacks), std::back_inserter(all),
+               [](const Attack& attack) { return attack.passes_without_rules; });
+  return all;
+}
+
+std::string attack_name(const testing::TestParamInfo<Attack>& attack) {
+  return std::string(attack.param.program) + "_on_" + attack.param.task;
+}
+
+INSTANTIATE_TEST_SUITE_P(, GradeAttacks, testing::ValuesIn(kAttacks), attack_name);
+INSTANTIATE_TEST_SUITE_P(, AttacksWithoutRules, testing::ValuesIn(attacks_that_would_pass()),
+                         attack_name);
 
 }  // namespace

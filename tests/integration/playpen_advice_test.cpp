@@ -31,11 +31,7 @@ class PlaypenAdvice : public testing::Test {
  protected:
   [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& options,
                                                  const std::vector<std::string>& program) const {
-    std::vector<std::string> call = {PLAYPEN_COMMAND, "run", world_};
-    call.insert(call.end(), options.begin(), options.end());
-    call.insert(call.end(), {"--out", out_, "--", ENDS_PROGRAM});
-    call.insert(call.end(), program.begin(), program.end());
-    return call;
+    return test_support::run_call(world_, options, out_, ENDS_PROGRAM, program);
   }
   /// The rest of the line that begins with a text.
   static std::string after(const std::string& text, const std::string& begin) {

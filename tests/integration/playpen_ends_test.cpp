@@ -49,11 +49,7 @@ class PlaypenEnds : public testing::Test {
   /// `playpen run room.json OPTIONS --out out -- ends_program PROGRAM`.
   [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& options,
                                                  const std::vector<std::string>& program) const {
-    std::vector<std::string> call = {PLAYPEN_COMMAND, "run", world_};
-    call.insert(call.end(), options.begin(), options.end());
-    call.insert(call.end(), {"--out", out_, "--", ENDS_PROGRAM});
-    call.insert(call.end(), program.begin(), program.end());
-    return call;
+    return test_support::run_call(world_, options, out_, ENDS_PROGRAM, program);
   }
   [[nodiscard]] fs::path result(const std::string& name) const { return fs::path(out_) / name; }
   [[nodiscard]] json report() const { return read_report(out_); }

@@ -26,6 +26,19 @@ namespace test_support {
   return world.dump();
 }
 
+/// `playpen run WORLD OPTIONS --out OUT -- PROGRAM ARGUMENTS`.
+[[nodiscard]] inline std::vector<std::string> run_call(const std::string& world,
+                                                       const std::vector<std::string>& options,
+                                                       const std::string& out,
+                                                       const std::string& program,
+                                                       const std::vector<std::string>& arguments) {
+  std::vector<std::string> call = {PLAYPEN_COMMAND, "run", world};
+  call.insert(call.end(), options.begin(), options.end());
+  call.insert(call.end(), {"--out", out, "--", program});
+  call.insert(call.end(), arguments.begin(), arguments.end());
+  return call;
+}
+
 /// Runs playpen with these arguments in a folder.
 [[nodiscard]] inline ProcessResult playpen(std::vector<std::string> arguments,
                                            const ProcessOptions& options = {}) {
