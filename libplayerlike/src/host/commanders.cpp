@@ -21,6 +21,11 @@ bool moves_robot(const std::string& type) {
 Commanders::Commanders(const sim::Simulation& simulation, const std::vector<RobotInfo>& robots)
     : simulation_(simulation), robots_(robots.size()) {
   for (std::size_t i = 0; i < robots.size(); ++i) {
+    for (const DeviceInfo& device : robots[i].devices) {
+      robots_[i].roles.push_back(drives_robot(device.type)  ? Role::kDrives
+                                 : moves_robot(device.type) ? Role::kPlaces
+                                                            : Role::kNone);
+    }
     robots_[i].mirrors = simulation.world().robots[i].real.has_value();
     for (const InterfaceAddress& address : list_interfaces(robots, robots[i].port)) {
       if (address.interface != "position2d") continue;
@@ -32,8 +37,9 @@ Commanders::Commanders(const sim::Simulation& simulation, const std::vector<Robo
 }
 
 std::optional<std::string> Commanders::note(Who who, DeviceId device, Kind kind) {
-  if (!moves_robot(simulation_.device(device.robot, device.device).type())) return std::nullopt;
   Robot& robot = at(device.robot);
+  const Role role = robot.roles[static_cast<std::size_t>(device.device)];
+  if (role == Role::kNone) return std::nullopt;
   if (robot.overruled.contains(who)) {
     return "robot " + simulation_.world().robots[static_cast<std::size_t>(device.robot)].name +
            " obeys another client, which has taken it over";
@@ -41,9 +47,7 @@ std::optional<std::string> Commanders::note(Who who, DeviceId device, Kind kind)
   robot.holders.insert(who);
   robot.last = who;
   robot.last_kind = kind;
-  if (drives_robot(simulation_.device(device.robot, device.device).type())) {
-    robot.commanded.insert(device.device);
-  }
+  if (role == Role::kDrives) robot.commanded.insert(device.device);
   return std::nullopt;
 }
 

@@ -75,7 +75,9 @@ class Commanders {
     WallClock::time_point heard;
     bool stopped = false;  ///< by the watchdog, and nobody was told
   };
+  enum class Role : char { kNone, kPlaces, kDrives };
   struct Robot {
+    std::vector<Role> roles;  ///< by device: how it moves the robot
     std::set<int> poses;      ///< devices of position2d
     std::set<Who> holders;    ///< have commanded it or opened position2d
     std::set<Who> overruled;  ///< somebody has taken over from them
