@@ -32,7 +32,7 @@ std::size_t find_invalid_utf8(std::string_view text) noexcept {
 }
 
 std::string escape_invalid_utf8(std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
+  constexpr std::string_view kHexDigits = "0123456789abcdef";
   std::string escaped;
   for (;;) {
     const std::size_t invalid = find_invalid_utf8(text);
@@ -40,8 +40,8 @@ std::string escape_invalid_utf8(std::string_view text) {
     if (invalid == std::string_view::npos) return escaped;
     const auto byte = static_cast<unsigned char>(text[invalid]);
     escaped += "\\x";
-    escaped += kDigits[byte / 16];
-    escaped += kDigits[byte % 16];
+    escaped += kHexDigits[byte / 16];
+    escaped += kHexDigits[byte % 16];
     text.remove_prefix(invalid + 1);
   }
 }
