@@ -90,7 +90,8 @@ function(playpen_group_sources target)
       endif()
       list(REMOVE_ITEM left ${source})
       if(PLAYPEN_UNITY)
-        string(APPEND includes "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${source}\"\n")
+        string(APPEND includes "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${source}\""
+          "  // NOLINT(bugprone-suspicious-include)\n")
         set_source_files_properties(${source} PROPERTIES HEADER_FILE_ONLY ON)
       else()
         set_source_files_properties(${source} PROPERTIES

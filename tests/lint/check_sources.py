@@ -291,6 +291,15 @@ def numbers(tree):
                          f"{match[0].split('(')[0]}() follows the locale: use sim/core/number_text.h")
 
 
+def unused_using(tree):
+    """A using-declaration of a source is used there. (clang-tidy sees this in single sources only.)"""
+    for path, text in tree.sources("libsim", "libplayerlike", "apps/playpen"):
+        code = code_of(text)
+        for match in re.finditer(r"^\s*using (?:\w+::)+(\w+);", code, re.MULTILINE):
+            if path.endswith(".cpp") and len(re.findall(rf"\b{match[1]}\b", code)) == 1:
+                yield at(path, code, match.start(1), f"'using {match[1]}' is not used: delete it")
+
+
 # --- size: files and functions that can be read in one sitting
 
 FILE_LINES = 700
@@ -510,8 +519,8 @@ def least(tree):
             yield f"{paths}:1: has {count} matches of {pattern}, not {number} or more"
 
 
-RULES = [layering, seam, numbers, size, words, links, index, glossary, which_world, promises,
-         add_a_device, least]
+RULES = [layering, seam, numbers, unused_using, size, words, links, index, glossary, which_world,
+         promises, add_a_device, least]
 
 
 # --- Tests of the rules themselves: each planted fault is found, and its neighbour is not.
@@ -615,6 +624,9 @@ def self_test():
     rule(size, {"apps/playpen/x.cpp": "\n"}, "is not there")
     rule(size, {"apps/playpen/completion.cpp":
                 "std::string bash_script(const CommandLine& line) {\n}\n"}, "is short")
+
+    rule(unused_using, {"libsim/src/a.cpp": "using sim::Pose;\nusing std::min;\nPose p; // min\n",
+                        "libsim/src/a.h": "using sim::Pose;\n"}, "a.cpp:2: 'using min'")
 
     def banned(text, *expected):
         found = banned_in(text, {"qu+ux": "x"}, {"fr+ob": "y", "foo+ bar": "z"})

@@ -6,8 +6,6 @@
 
 namespace CCMorse {
 
-using playerlike::DeviceId;
-
 MorseLight::MorseLight(const MorseRobot& aRobot, const std::string& aName)
     : MorseActuator(aRobot, aName, "blinkenlight", "MorseLight") {}
 MorseLight::~MorseLight() = default;

@@ -14,7 +14,7 @@ constexpr double kPi = std::numbers::pi;
 // Sectors are one degree wide: sector s is centred on (s - 180) degrees.
 constexpr int kSectors = 360;
 constexpr double kSector_rad = 2.0 * kPi / kSectors;
-constexpr double kUnseen = -1.0;
+constexpr double kNothingSeen = -1.0;
 constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
 constexpr double kMemory_s = LocalObstacles::kMemory_s;
 constexpr double kMargin_m = LocalObstacles::kMargin_m;
@@ -99,7 +99,7 @@ void SmoothNearnessDiagram::measure_depths(double time_s, const sim::Pose& X_WB)
   for (int s = 0; s < kSectors; ++s) {
     const auto in_world = static_cast<std::size_t>(sector_of(bearing_of(s) + X_WB.yaw_rad));
     if (time_s - last_seen_s_[in_world] > kMemory_s)
-      free_depths_m_[static_cast<std::size_t>(s)] = kUnseen;
+      free_depths_m_[static_cast<std::size_t>(s)] = kNothingSeen;
   }
 }
 
@@ -116,7 +116,7 @@ std::vector<SmoothNearnessDiagram::Gap> SmoothNearnessDiagram::find_gaps(
     return free_depths_m_[static_cast<std::size_t>(wrapped(sector))];
   };
   const auto is_gap = [&](int sector) {
-    return depth(sector) != kUnseen && depth(sector + 1) != kUnseen &&
+    return depth(sector) != kNothingSeen && depth(sector + 1) != kNothingSeen &&
            std::abs(depth(sector + 1) - depth(sector)) > jump_m;
   };
   const bool goal_is_seen = sees(X_WB.inverse() * goal_position_);

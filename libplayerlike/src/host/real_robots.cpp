@@ -51,14 +51,14 @@ void stop(const RealMotors& motors, const OpenRealRobot& open) {
 void stop_real_robots(const KeptRun& kept, const OpenRealRobot& open,
                       const std::function<void(const std::string&)>& tell) {
   if (kept.phase() != KeptRun::Phase::kRunning) return;
-  std::mutex mutex;  // guards tell
+  std::mutex tell_mutex;  // guards tell
   std::vector<std::thread> threads;
   for (const RealMotors& motors : kept_motors(kept)) {
-    threads.emplace_back([&mutex, &open, &tell, motors] {
+    threads.emplace_back([&tell_mutex, &open, &tell, motors] {
       try {
         stop(motors, open);
       } catch (const std::exception& e) {
-        const std::lock_guard lock(mutex);
+        const std::lock_guard lock(tell_mutex);
         tell("the real robot of " + motors.robot + " at " + motors.server +
              " could not be stopped: " + e.what());
       }
