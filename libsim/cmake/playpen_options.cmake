@@ -75,13 +75,15 @@ endfunction()
 # whose path begins with one of the patterns are compiled together, because most of a source's time is
 # spent on the headers of others and on the same templates. In Release builds they are optimised at
 # LEVEL (-O1, -O2, -O3). A source belongs to the first group that matches. Groups start in their order:
-# long ones come first. Sources with definitions or options of their own are compiled alone.
+# long ones come first. Sources with definitions or options of their own are compiled alone. If the
+# folders of all of a group's sources have a .clang-tidy, the group has the first one.
 function(playpen_group_sources target)
   get_target_property(left ${target} SOURCES)
   set(groups "")
   while(ARGN)
     list(POP_FRONT ARGN name level patterns)
     set(includes "")
+    set(tidy_files "")
     foreach(source IN LISTS left)
       get_source_file_property(own ${source} COMPILE_DEFINITIONS)
       get_source_file_property(own_options ${source} COMPILE_OPTIONS)
@@ -92,6 +94,8 @@ function(playpen_group_sources target)
       if(PLAYPEN_UNITY)
         string(APPEND includes "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${source}\""
           "  // NOLINT(bugprone-suspicious-include)\n")
+        cmake_path(GET source PARENT_PATH folder)
+        list(APPEND tidy_files "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/.clang-tidy")
         set_source_files_properties(${source} PROPERTIES HEADER_FILE_ONLY ON)
       else()
         set_source_files_properties(${source} PROPERTIES
@@ -99,7 +103,18 @@ function(playpen_group_sources target)
       endif()
     endforeach()
     if(PLAYPEN_UNITY)
-      set(group "${CMAKE_CURRENT_BINARY_DIR}/groups/${target}_${name}.cpp")
+      set(folder "${CMAKE_CURRENT_BINARY_DIR}/groups/${name}")
+      set(group "${folder}/${target}_${name}.cpp")
+      set(all_have_one TRUE)
+      foreach(file IN LISTS tidy_files)
+        if(NOT EXISTS "${file}")
+          set(all_have_one FALSE)
+        endif()
+      endforeach()
+      if(all_have_one)
+        list(GET tidy_files 0 file)
+        configure_file("${file}" "${folder}/.clang-tidy" COPYONLY)
+      endif()
       file(CONFIGURE OUTPUT "${group}" CONTENT "${includes}" @ONLY)
       set_source_files_properties(${group} PROPERTIES
         COMPILE_OPTIONS $<$<CONFIG:Release>:${level}>)

@@ -128,6 +128,7 @@ void store_result(T* where, Value value) {
   if (where != nullptr) *where = static_cast<T>(value);
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): arguments are types and parts of names
 /// The four functions that all devices have.
 #define PLAYERLIKE_CLIB_FRAME(name, Type, code)                                                    \
   playerc_##name##_t* playerc_##name##_create(playerc_client_t* client, int index) {               \
@@ -147,5 +148,6 @@ void store_result(T* where, Value value) {
     return playerlike::clib::with_device<Type>(__func__, device,                                   \
                                                [](Type& self) { self.unsubscribe(); });            \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace playerlike::clib
