@@ -10,7 +10,8 @@ Usage: tests/build_cost.sh [--check] [--all] [COMMIT]
 
 Clones this checkout's COMMIT (default: HEAD) into a temporary folder, runs apps/demo.sh and
 tests/run.sh there without a compiler cache, and prints one line a phase: processor time (user and
-system, of all processes), elapsed time, budget. Do nothing else on the machine meanwhile.
+system, of all processes), elapsed time, budget. Budgets are scaled by the speed of this machine
+(tests/machine.sh). Do nothing else on the machine meanwhile.
 
   --check   exit with status 1 if a phase takes a fifth more processor time than its budget
   --all     also run .ci/run, from another clean clone
@@ -36,6 +37,10 @@ commit=$(git -C "$root" rev-parse --verify "${1:-HEAD}^{commit}")
 export PLAYPEN_CACHE=off
 unset PLAYPEN_NIGHTLY
 "$root/apps/install_dependencies.sh" build test lint doc package
+# shellcheck source=SCRIPTDIR/machine.sh
+source "$root/tests/machine.sh"
+measure_machine
+echo "This machine needs $machine_percent % of the processor time of the budgets' machine."
 
 folder=$(mktemp -d)
 trap 'rm -rf -- "$folder"' EXIT
@@ -53,8 +58,9 @@ over=()
 phase() {
   printf '%-34s %6d s %6d s' "$1" "$2" "$3"
   if [[ -n ${4:-} ]]; then
-    printf ' %6d s' "$4"
-    if (($2 * 5 > $4 * 6)); then over+=("$1") && printf '  over'; fi
+    local budget=$(($4 * machine_percent / 100))
+    printf ' %6d s' "$budget"
+    if (($2 * 5 > budget * 6)); then over+=("$1") && printf '  over'; fi
   fi
   printf '\n'
 }
