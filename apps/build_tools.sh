@@ -16,11 +16,10 @@ count_processor_seconds() {
 }
 
 # launcher: options for CMake that make a compiler cache work, if one is installed and
-# PLAYPEN_CACHE is not "off". Without precompiled headers and joined tests, because ccache cannot
-# store what used a precompiled header, and gets more hits if each test is compiled separately.
+# PLAYPEN_CACHE is not "off". Without precompiled headers, because ccache cannot store what used one.
 launcher=()
 if [[ ${PLAYPEN_CACHE:-} != off ]] && command -v ccache >/dev/null 2>&1; then
-  launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DPLAYPEN_PCH= -DPLAYPEN_JOIN=)
+  launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DPLAYPEN_PCH=)
 fi
 
 # jobs: compilations at a time: one a processor, but each needs up to 2.2 GB of memory.
