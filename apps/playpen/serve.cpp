@@ -84,8 +84,14 @@ void end_without(playerlike::Host& host, const playerlike::KeptRun& kept,
       host.with_simulation([&](sim::Simulation& simulation) {
         is_small = simulation.layers().cell_count() <= kSmallCanvas;
       });
+      // The report of the last second exists, but it does not say the end.
+      const auto is_reported = [&kept] {
+        const playerlike::KeptRun::Phase phase = kept.phase();
+        return phase == playerlike::KeptRun::Phase::kReported ||
+               phase == playerlike::KeptRun::Phase::kDone;
+      };
       const auto end = Clock::now() + (is_small ? kPictureTime : kReportTime);
-      while (!(has_report(request.settings) && (!is_small || has_pictures(request.settings))) &&
+      while (!(is_reported() && (!is_small || has_pictures(request.settings))) &&
              Clock::now() < end) {
         std::this_thread::sleep_for(kLook);
       }
