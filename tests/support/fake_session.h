@@ -43,11 +43,12 @@ struct FakeWorld {
   std::vector<std::string> real_time_reasons;
   bool watches = true;  ///< as the server of a real robot; see playerlike::Charge
   bool stopped = false;
-  std::string in_charge;  ///< who has taken charge last
-  int charges = 0;        ///< times that somebody has taken charge
-  bool closed = false;
-  std::size_t drawn = 0;  ///< drawings executed
-  int cell_calls = 0;     ///< of draw_cells()
+  std::string in_charge;    ///< who has taken charge last
+  int charges = 0;          ///< times that somebody has taken charge
+  bool closed = false;      ///< the server is gone
+  bool has_closed = false;  ///< a session has been closed
+  std::size_t drawn = 0;    ///< drawings executed
+  int cell_calls = 0;       ///< of draw_cells()
   int flushes = 0;
   sim::LayerStack layers{sim::CanvasDescription{}};
   playerlike::LayerRegistry registry;
@@ -153,14 +154,13 @@ class FakeSession final : public playerlike::Session {
   int port() const noexcept override { return world_->port; }
   bool connected() const noexcept override {
     const std::lock_guard lock(world_->mutex);
-    return !world_->closed;
+    return !is_closed();
   }
 
   void wait() override {
     std::unique_lock lock(world_->mutex);
-    world_->changed.wait(lock, [this] {
-      return world_->closed || !world_->rounds.empty() || world_->over_when_empty;
-    });
+    world_->changed.wait(
+        lock, [this] { return is_closed() || !world_->rounds.empty() || world_->over_when_empty; });
     require_open();
     if (world_->rounds.empty()) {
       throw playerlike::SessionError(playerlike::SessionError::Code::kFinished,
@@ -186,7 +186,7 @@ class FakeSession final : public playerlike::Session {
   bool peek(std::chrono::milliseconds timeout) override {
     std::unique_lock lock(world_->mutex);
     const auto ready = [this] {
-      return world_->closed || !world_->rounds.empty() || world_->over_when_empty;
+      return is_closed() || !world_->rounds.empty() || world_->over_when_empty;
     };
     world_->changed.wait_for(lock, timeout, ready);
     require_open();
@@ -211,7 +211,8 @@ class FakeSession final : public playerlike::Session {
 
   void close() noexcept override {
     const std::lock_guard lock(world_->mutex);
-    world_->closed = true;
+    closed_ = true;
+    world_->has_closed = true;
     execute_drawings();
     queue_.close();
     world_->registry.leave(number_);
@@ -371,8 +372,10 @@ class FakeSession final : public playerlike::Session {
     require_open();
     return lock;
   }
+  // The caller holds the world's mutex.
+  [[nodiscard]] bool is_closed() const { return closed_ || world_->closed; }
   void require_open() const {
-    if (world_->closed) {
+    if (is_closed()) {
       throw playerlike::SessionError(playerlike::SessionError::Code::kDisconnected,
                                      "the connection is closed");
     }
@@ -396,6 +399,7 @@ class FakeSession final : public playerlike::Session {
 
   std::shared_ptr<FakeWorld> world_;
   int number_;
+  bool closed_ = false;
   playerlike::DrawQueue queue_;
 };
 

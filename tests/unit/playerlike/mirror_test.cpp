@@ -297,7 +297,6 @@ TEST_F(MirrorTest, ARobotOfAnotherMirrorIsAnErrorUnlessItIsTakenOver) {
   EXPECT_THAT([&] { open(world_text()); },
               ThrowsMessage<sim::ConfigError>(
                   AllOf(HasSubstr("/robots/0/real"), HasSubstr("lab7, process 12 is in charge"))));
-  real_->closed = false;  // by the attempt
   open(world_text(R"(, "take_over": true)"));
   const std::lock_guard lock(real_->mutex);
   EXPECT_THAT(real_->in_charge, Not(HasSubstr("lab7")));

@@ -389,7 +389,7 @@ TEST(ProxyLifetimes, ProxiesSurviveTheirClient) {
   world->add_round({{kPose, pose_reading(0.1, {1.0, 2.0, 0.5})}});
   client->Read();
   client.reset();
-  EXPECT_TRUE(world->closed);
+  EXPECT_TRUE(world->has_closed);
   EXPECT_FALSE(position.IsValid());
   EXPECT_EQ(position.GetPlayerClient(), nullptr);
   EXPECT_EQ(position.GetIndex(), 0U);
