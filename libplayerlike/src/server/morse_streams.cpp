@@ -124,9 +124,9 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
       client_ = state_.host().connect_events(kMorsePort, {});
       client_->session().request(ReplaceRequest{std::nullopt, false});
       client_->session().request(SubscribeRequest{device});
-      sequence_ = state_.with([&](sim::Simulation& simulation) {
+      state_.host().with_simulation([&](const sim::Simulation& simulation) {
         format_ = stream_format(simulation, device);
-        return sensor(simulation, device).reading().sequence;
+        sequence_ = newest_of(simulation, device);
       });
     }
     set_alarm();
@@ -143,7 +143,7 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
     if (component_.device) {
       alarm.condition = [device = *component_.device,
                          sequence = sequence_](const sim::Simulation& simulation) {
-        return sensor(simulation, device).reading().sequence > sequence;
+        return newest_of(simulation, device) > sequence;
       };
     } else {
       alarm.until_ns = state_.host().time().sim_time_ns + kPropertiesPeriod_ns;
@@ -186,8 +186,9 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
     return line_of(morse_properties_record(robot, state_.host().time().sim_time_ns));
   }
 
-  static const sim::Sensor& sensor(const sim::Simulation& simulation, DeviceId device) {
-    return *simulation.device(device.robot, device.device).sensor();
+  /// The number of a sensor's newest measurement.
+  static std::uint64_t newest_of(const sim::Simulation& simulation, DeviceId device) {
+    return simulation.device(device.robot, device.device).sensor()->reading().sequence;
   }
 
   MorseState& state_;
@@ -249,9 +250,10 @@ class MorseStreams::Writer final : public StreamConnection {
     }
     try {
       const json object = protocol::decode_json_value(line);
-      const sim::Command command = state().with([&](const sim::Simulation& simulation) {
-        return morse_command(component_, object, simulation);
-      });
+      const sim::Command command =
+          state().host().with_simulation([&](const sim::Simulation& simulation) {
+            return morse_command(component_, object, simulation);
+          });
       MorseState::command(commander_, *component_.device, command);
     } catch (const std::runtime_error& e) {
       complain(component_.name, e.what());

@@ -594,8 +594,8 @@ TEST(MirroredRun, AProgramDrivesTheRealRobotAndReadsItsDevices) {
   Readings sink;
   session->take(sink);
   EXPECT_THAT(sink.readings, ElementsAre(reading)) << "and no simulated one";
-  host->with_simulation(
-      [](sim::Simulation& simulation) { EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.5, 1e-12); });
+  EXPECT_NEAR(host->with_simulation([](const auto& all) { return all.body(0).X_WB.x_m; }), 2.5,
+              1e-12);
   EXPECT_THAT(host->set_time_factor(2.0), testing::Optional(HasSubstr("mirrors a real one")));
   host->finish();
   EXPECT_EQ(std::get<sim::TwistCommand>(real->sent.back().second).twist, sim::Twist{});
@@ -680,7 +680,7 @@ TEST(MirroredRun, TrajectoriesHaveTheGhostAndTheDifferences) {
   real->add_round({{test::kPose, test::pose_reading(1.0, {2.0, 3.0, 0.0})}});
   sim::SimTime followed_ns = 0;
   EXPECT_TRUE(eventually([&] {
-    host->with_simulation([&](sim::Simulation& simulation) {
+    host->with_simulation([&](const sim::Simulation& simulation) {
       if (simulation.body(0).X_WB.x_m == 2.0) followed_ns = simulation.now_ns();
     });
     return followed_ns > 0;
