@@ -160,10 +160,14 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   void ring() {
     alarm_.reset();
     if (component_.device) {
+      // Before the readings are taken, so that none is missed. Those of a real robot have numbers
+      // of their own.
+      sequence_ = state_.host().with_simulation([&](const sim::Simulation& simulation) {
+        return newest_of(simulation, *component_.device);
+      });
       ReadingKeeper kept;
       static_cast<void>(client_->session().take(kept));
       for (const auto& reading : kept.readings) {
-        sequence_ = reading->sequence;
         if (is_silent(*reading)) continue;
         write(std::make_shared<const std::string>(line_of(morse_record(*reading, format_))));
       }
@@ -186,7 +190,7 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
     return line_of(morse_properties_record(robot, state_.host().time().sim_time_ns));
   }
 
-  /// The number of a sensor's newest measurement.
+  /// The number of a sensor's newest measurement in the simulation.
   static std::uint64_t newest_of(const sim::Simulation& simulation, DeviceId device) {
     return simulation.device(device.robot, device.device).sensor()->reading().sequence;
   }
@@ -196,7 +200,7 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   std::vector<StreamConnection*> readers_;
   std::unique_ptr<EventClient> client_;
   StreamFormat format_;
-  std::uint64_t sequence_ = 0;  ///< of the newest reading sent
+  std::uint64_t sequence_ = 0;  ///< number of the measurement after which the alarm is due
   std::optional<AlarmId> alarm_;
   std::uint64_t generation_ = 0;  ///< number of starts; tells a stale alarm from a current one
 };
