@@ -83,7 +83,9 @@ void Position2dProxy::SetSpeed(double aXSpeed, double aYSpeed, double aYawSpeed)
   require_finite(fun, {{"the forward speed", aXSpeed},
                        {"the sideways speed", aYSpeed},
                        {"the turn rate", aYawSpeed}});
-  Control::drive(*this, sim::TwistCommand{{aXSpeed, aYawSpeed, aYSpeed}}, fun);
+  Control::drive(
+      *this,
+      sim::TwistCommand{{.v_mps = aXSpeed, .omega_radps = aYawSpeed, .lateral_mps = aYSpeed}}, fun);
 }
 
 void Position2dProxy::SetSpeed(double aXSpeed, double aYawSpeed) {
