@@ -46,6 +46,13 @@ ClientProxy::scoped_lock_t ClientProxy::Link::lock(const char* fun, int looks) c
   return lock;
 }
 
+ClientProxy::scoped_lock_t ClientProxy::Link::lock_for_command(const char* fun) const {
+  playerlike::virtual_time::count_data_reads();  // counts commands, too
+  scoped_lock_t lock(core->mutex());
+  translated(fun, [&] { core->require_usable(); });
+  return lock;
+}
+
 void ClientProxy::Link::refresh(double time_s) {
   // Before the first data there are none, so the elapsed time is zero.
   device.lasttime = newest.valid ? device.datatime : time_s;

@@ -43,6 +43,8 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   [[nodiscard]] scoped_lock_t lock(const char* fun, int looks = 1) const;
   /// As lock(), without the check that the client is usable.
   [[nodiscard]] scoped_lock_t lock_anyway(int looks = 1) const;
+  /// Locks for a command, which is no access to data. @throws PlayerError as LockData().
+  [[nodiscard]] scoped_lock_t lock_for_command(const char* fun) const;
   /// Locks for an access that Elements::Find() could not answer without the mutex.
   [[nodiscard]] scoped_lock_t lock_element(const char* fun) const {
     return lock(fun, proxy.mElements.Looks());
