@@ -63,14 +63,4 @@ void Host::Core::commander_gone(Commanders::Who who) noexcept {
   if (!ended_) inputs_.stop(left);
 }
 
-std::optional<std::string> Host::Core::set_active(DeviceId device, bool active) {
-  const Lock lock = lock_with_priority();
-  if (stands_still()) return kRunIsOver;
-  simulation_.set_active(device, active);
-  if (mirror_ && !active && moves_robot(simulation_.device(device.robot, device.device).type())) {
-    mirror_->halt(device.robot);
-  }
-  return std::nullopt;
-}
-
 }  // namespace playerlike

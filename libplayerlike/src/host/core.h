@@ -65,11 +65,10 @@ class Host::Core {
   Answer answer(Client& client, const Request& request);
   void send(Client& client, DeviceId device, const sim::Command& command);
 
-  // See Commander and Host::set_active().
+  // See Commander.
   std::optional<std::string> command(Commanders::Who who, DeviceId device,
                                      const sim::Command& command);
   void commander_gone(Commanders::Who who) noexcept;
-  std::optional<std::string> set_active(DeviceId device, bool active);
 
   void wait(Client& client);
   int take(Client& client, ReadingSink& sink);

@@ -223,6 +223,29 @@ struct Host::Core::RequestHandler {
     require_unlocked();
     set_object_property(core.simulation_, what.name, what.property, what.value);
   }
+  void operator()(const SetActiveRequest& what) const {
+    const DeviceInfo& info = require_device(core.robots_, what.device);
+    const Lock lock = core.lock_with_priority();
+    client.require_open();
+    if (core.stands_still()) {
+      throw SessionError(SessionError::Code::kFinished, "the run is over");
+    }
+    core.simulation_.set_active(what.device, what.active);
+    if (core.mirror_ && !what.active && moves_robot(info.type)) {
+      core.mirror_->halt(what.device.robot);
+    }
+  }
+  void operator()(const SetDynamicsRequest& what) const {
+    const Lock lock = core.lock_with_priority();
+    client.require_open();
+    require_done(what.object ? core.simulation_.set_object_dynamics(*what.object, what.on)
+                             : core.simulation_.set_dynamics(what.on));
+  }
+  void operator()(const ResetRequest&) const {
+    const Lock lock = core.lock_with_priority();
+    client.require_open();
+    require_done(core.simulation_.reset());
+  }
   // A state is that of one moment: the copy of the layers is complete when the rest is copied.
   void operator()(const SaveStateRequest& what) const {
     sim::LayerCopy copy;

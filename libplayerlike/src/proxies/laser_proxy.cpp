@@ -68,7 +68,8 @@ void LaserProxy::HandleReading() {
 
 // Exposes the measured scan or a part of it.
 void LaserProxy::View() {
-  if (mStride == 1 && mShown == mCount && mRangeRes == 0.0) return mLink->show(mLink->measured);
+  mLink->newest.reading = mLink->measured;
+  if (mStride == 1 && mShown == mCount && mRangeRes == 0.0) return;
   const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
   auto shown = detail::part_of(scan, {mFirst, mStride, mShown});
   if (mRangeRes > 0.0) {
@@ -76,7 +77,7 @@ void LaserProxy::View() {
       range = playerlike::limited_range_m(range, mRangeRes, 0.0, scan.range_max_m);
     }
   }
-  mLink->show(shown);
+  mLink->newest.reading = shown;
 }
 
 // The caller holds the client's mutex.
@@ -186,6 +187,7 @@ void LaserProxy::Configure(double aMinAngle, double aMaxAngle, uint32_t aScanRes
   mShown = window.shown;
   mRangeRes = aRangeRes * 0.001;
   View();
+  mLink->show();
 }
 
 void LaserProxy::RequestConfigure() {

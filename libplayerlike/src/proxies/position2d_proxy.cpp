@@ -44,7 +44,7 @@ struct Position2dProxy::Control {
 
   // Sends a command that moves the robot; cancels the driver's goal.
   static void drive(Position2dProxy& proxy, const sim::Command& command, const char* fun) {
-    const scoped_lock_t lock(proxy.LockData(fun));
+    const scoped_lock_t lock(proxy.mLink->lock_for_command(fun));
     if (proxy.mControl->driver != nullptr) proxy.mControl->driver->cancel();
     send(proxy, command, fun);
   }
@@ -83,7 +83,9 @@ void Position2dProxy::SetSpeed(double aXSpeed, double aYSpeed, double aYawSpeed)
   require_finite(fun, {{"the forward speed", aXSpeed},
                        {"the sideways speed", aYSpeed},
                        {"the turn rate", aYawSpeed}});
-  Control::drive(*this, sim::TwistCommand{{aXSpeed, aYawSpeed, aYSpeed}}, fun);
+  Control::drive(
+      *this,
+      sim::TwistCommand{{.v_mps = aXSpeed, .omega_radps = aYawSpeed, .lateral_mps = aYSpeed}}, fun);
 }
 
 void Position2dProxy::SetSpeed(double aXSpeed, double aYawSpeed) {
@@ -167,7 +169,7 @@ player_bbox3d_t Position2dProxy::GetSize() {
 
 void Position2dProxy::SetMotorEnable(bool enable) {
   const char* fun = "Position2dProxy::SetMotorEnable";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   if (!enable && mControl->driver != nullptr) {
     mControl->driver->cancel();
     // Otherwise the driver's last speeds would apply again if the motors are re-enabled before the
@@ -182,7 +184,7 @@ void Position2dProxy::ResetOdometry() { SetOdometry(0.0, 0.0, 0.0); }
 void Position2dProxy::SetOdometry(double aX, double aY, double aYaw) {
   const char* fun = "Position2dProxy::SetOdometry";
   require_finite(fun, {{"x", aX}, {"y", aY}, {"the heading", aYaw}});
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   mLink->send(fun, sim::SetPoseCommand{{aX, aY, sim::normalize_angle(aYaw)}});
 }
 

@@ -93,11 +93,7 @@ NativeHandler::~NativeHandler() {
 
 json NativeHandler::tell_canvas() {
   if (!wait_) {
-    sim::CanvasDescription canvas;
-    hub_.host().with_simulation(
-        [&](sim::Simulation& simulation) { canvas = simulation.layers().description(); });
-    return protocol::encode_canvas(
-        {canvas.width, canvas.height, canvas.cell_size_m, canvas.origin.x(), canvas.origin.y()});
+    return protocol::encode_canvas(state_->watching.session().request(CanvasInfoRequest{}));
   }
   // Read the generation first: a change in between is then reported twice, but never missed.
   canvas_generation_ = session().canvas_generation();

@@ -166,10 +166,8 @@ TEST_F(CommandersTest, OnlyOneIsInChargeUntilAnotherTakesOver) {
 class HostCommanders : public testing::Test {
  protected:
   [[nodiscard]] double speed() const {
-    double speed = 0.0;
-    host_->with_simulation(
-        [&](const sim::Simulation& simulation) { speed = simulation.body(0).twist.v_mps; });
-    return speed;
+    return host_->with_simulation(
+        [](const sim::Simulation& simulation) { return simulation.body(0).twist.v_mps; });
   }
   /// Lets some steps pass by a client of the other robot.
   void step() {

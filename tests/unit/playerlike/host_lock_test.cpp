@@ -55,7 +55,7 @@ class HostLock : public testing::Test {
     settings.time_mode = sim::TimeMode::kPaced;
     settings.start_at_once = true;
     host_ = Host::create(sim::load_world_text(world), settings);
-    host_->with_simulation([](sim::Simulation&) { test_support::watch_last_mutex(); });
+    host_->with_simulation([](const sim::Simulation&) { test_support::watch_last_mutex(); });
     client_ = host_->connect_events(
         kMorsePort, [] {}, EventRole::kParticipant);
   }

@@ -5,12 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
+#include <stop_token>
+#include <string>
 #include <thread>
 
 #include "fake_session.h"
@@ -593,8 +596,8 @@ TEST(MirroredRun, AProgramDrivesTheRealRobotAndReadsItsDevices) {
   Readings sink;
   session->take(sink);
   EXPECT_THAT(sink.readings, ElementsAre(reading)) << "and no simulated one";
-  host->with_simulation(
-      [](sim::Simulation& simulation) { EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.5, 1e-12); });
+  EXPECT_NEAR(host->with_simulation([](const auto& all) { return all.body(0).X_WB.x_m; }), 2.5,
+              1e-12);
   EXPECT_THAT(host->set_time_factor(2.0), testing::Optional(HasSubstr("mirrors a real one")));
   host->finish();
   EXPECT_EQ(std::get<sim::TwistCommand>(real->sent.back().second).twist, sim::Twist{});
@@ -679,7 +682,7 @@ TEST(MirroredRun, TrajectoriesHaveTheGhostAndTheDifferences) {
   real->add_round({{test::kPose, test::pose_reading(1.0, {2.0, 3.0, 0.0})}});
   sim::SimTime followed_ns = 0;
   EXPECT_TRUE(eventually([&] {
-    host->with_simulation([&](sim::Simulation& simulation) {
+    host->with_simulation([&](const sim::Simulation& simulation) {
       if (simulation.body(0).X_WB.x_m == 2.0) followed_ns = simulation.now_ns();
     });
     return followed_ns > 0;
@@ -818,6 +821,29 @@ TEST_F(MirroredMorse, TheRealRobotStopsWhenItsCommanderIsGone) {
     EXPECT_TRUE(real_gets(0.3));
   }
   EXPECT_TRUE(real_gets(0.0));
+}
+
+TEST_F(MirroredMorse, StreamOfSensor_CarriesAllReadingsOfTheRealRobot) {
+  auto client = connect();
+  const std::string answer = ask(client, R"(simulation get_stream_port ["r1.pose"])");
+  test_support::RawClient stream("127.0.0.1", std::stoi(answer.substr(answer.rfind(' '))));
+  // The robot has run for long, so its readings have far greater numbers than the simulated ones.
+  std::atomic<double> x_m{2.25};
+  const std::jthread feeder([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      const auto reading = test::pose_reading(42.0, {x_m, 2.0, 0.0});
+      reading->sequence = 1'000'000;
+      real_->add_round({{test::kPose, reading}});
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  EXPECT_THAT(stream.line(), HasSubstr("\"x\": 2.25"));
+  x_m = 2.5;
+  std::string line;
+  do {
+    line = stream.line();  // throws if the stream stands still
+  } while (line.find("\"x\": 2.25") != std::string::npos);
+  EXPECT_THAT(line, HasSubstr("\"x\": 2.5,"));
 }
 
 TEST_F(MirroredMorse, AStreamOfCommandsStopsTheRealRobotAtItsEnd) {

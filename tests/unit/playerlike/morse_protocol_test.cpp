@@ -344,13 +344,9 @@ TEST_F(MorseProtocol, SceneObjectsAndTheirVisibility) {
                       ", false]");
   };
   const auto gate_is_up = [&] {
-    bool up = false;
-    host->with_simulation([&](const sim::Simulation& simulation) {
-      for (const auto& object : simulation.scene_objects()) {
-        if (object.name == "gate") up = object.extended;
-      }
+    return host->with_simulation([](const sim::Simulation& simulation) {
+      return simulation.find_object("gate").value().extended;
     });
-    return up;
   };
   EXPECT_FALSE(gate_is_up());
   EXPECT_EQ(visibility("gate", "true"), true);

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "playerlike/host/host.h"
 #include "server/morse_components.h"
 #include "server/python_json.h"
 #include "sim/core/base64.h"
@@ -42,7 +41,7 @@ TEST(PythonJson, IsWrittenAsPythonDoes) {
 class MorseSpace : public testing::Test {
  protected:
   explicit MorseSpace()
-      : host_(Host::create(sim::load_world_text(R"({
+      : simulation_(sim::load_world_text(R"({
           "arena": {"size": [20, 20], "origin": [-10, -10]},
           "robots": [{"name": "r1", "model": "omni", "pose": {"x": 0, "y": 0}, "devices": {
             "laser": null,
@@ -56,13 +55,10 @@ class MorseSpace : public testing::Test {
                       "height": 1},
             "go": {"type": "destination", "speed": 2}, "arm": {"type": "actarray"},
             "hand": {"on": "arm"}
-          }}]})"))) {}
+          }}]})")) {}
 
   std::vector<MorseComponent> components() {
-    std::vector<MorseComponent> all;
-    host_->with_simulation(
-        [&](sim::Simulation& simulation) { all = morse_components(host_->robots(), simulation); });
-    return all;
+    return morse_components(describe_robots(simulation_), simulation_);
   }
   MorseComponent component(const std::string& name) {
     for (const MorseComponent& one : components()) {
@@ -72,24 +68,16 @@ class MorseSpace : public testing::Test {
     return {};
   }
   sim::Command command(const std::string& name, const json& object) {
-    std::optional<sim::Command> made;
-    const MorseComponent target = component(name);
-    host_->with_simulation(
-        [&](sim::Simulation& simulation) { made = morse_command(target, object, simulation); });
-    return *made;
+    return morse_command(component(name), object, simulation_);
   }
   json record(const std::string& name, int steps) {
-    json made;
     const DeviceId id = component(name).device.value();
-    host_->with_simulation([&](sim::Simulation& simulation) {
-      for (int i = 0; i < steps; ++i) simulation.step();
-      made = morse_record(simulation.device(id.robot, id.device).sensor()->reading(),
-                          stream_format(simulation, id));
-    });
-    return made;
+    for (int i = 0; i < steps; ++i) simulation_.step();
+    return morse_record(simulation_.device(id.robot, id.device).sensor()->reading(),
+                        stream_format(simulation_, id));
   }
 
-  std::shared_ptr<Host> host_;
+  sim::Simulation simulation_;
 };
 
 TEST_F(MorseSpace, CarriedSensorsHaveTheirCarrierInTheirName) {

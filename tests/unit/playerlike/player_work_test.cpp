@@ -205,7 +205,7 @@ TEST_F(PlayerWork, APolygonOfManyCornersIsDrawnInPieces) {
   // 1024 rows with 10 000 corners are about 10 million comparisons, 2^20 in a piece.
   EXPECT_GE(pieces, 10);
   EXPECT_FALSE(client_.peer.busy);
-  host_->with_simulation([](sim::Simulation& simulation) {
+  host_->with_simulation([](const sim::Simulation& simulation) {
     const auto layers = simulation.layers().layers();
     ASSERT_EQ(layers.size(), 2U);
     // The edges alone, five a cell, cover everything.

@@ -558,6 +558,16 @@ TEST_F(Proxies, AllSpeedsOverloadsDriveTheMotors) {
   EXPECT_EQ(last_twist(), (sim::Twist{0.3, -0.4, 0.0}));
 }
 
+TEST_F(Proxies, Commands_AreNoAccessesToReadings) {
+  Position2dProxy position(&client, 0);
+  // The library reports 1024 accesses at once.
+  constexpr int kMany = 2000;
+  for (int i = 0; i < kMany; ++i) position.SetSpeed(0.1, 0.2);
+  EXPECT_EQ(world->looks, 0);
+  for (int i = 0; i < kMany; ++i) static_cast<void>(position.GetXPos());
+  EXPECT_EQ(world->looks, 1024);
+}
+
 TEST_F(Proxies, CommandsRefuseWhatIsNoNumber) {
   Position2dProxy position(&client, 0);
   const auto refused = [&](auto action) {

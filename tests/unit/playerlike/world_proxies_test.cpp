@@ -450,7 +450,7 @@ TEST_P(WorldProxies, SayThings) {
   speech.Say(std::string(254, 'x') + "\xc5\x99");  // there is no room for the last character
   robot->Read();
   std::vector<std::string> said;
-  host_->host().with_simulation([&](sim::Simulation& simulation) {
+  host_->host().with_simulation([&](const sim::Simulation& simulation) {
     for (const sim::SpokenText& u : simulation.spoken_texts()) said.push_back(u.text);
   });
   EXPECT_THAT(said, testing::ElementsAre("here \xc5\x99 ?!", std::string(254, 'x')));

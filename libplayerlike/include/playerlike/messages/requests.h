@@ -394,6 +394,31 @@ struct SetObjectPropertyRequest {
                                       field("value", &SetObjectPropertyRequest::value)};
 };
 
+/// Switches a device on or off; see sim::Simulation::set_active(). A real robot whose motors are
+/// switched off stops.
+/// @throws SessionError kNoSuchDevice; kFinished if the run is over.
+struct SetActiveRequest {
+  using Result = void;
+  DeviceId device{-1, -1};
+  bool active = true;
+};
+
+/// Suspends or resumes the dynamics of a robot or an obstacle, or of all; see
+/// sim::Simulation::set_dynamics().
+/// @throws SessionError kBadArgument for an object that cannot move by itself, and for robots that
+///         mirror real ones.
+struct SetDynamicsRequest {
+  using Result = void;
+  std::optional<std::string> object = std::nullopt;  ///< none: all
+  bool on = true;
+};
+
+/// Puts the world back to its start; see sim::Simulation::reset().
+/// @throws SessionError kBadArgument if a robot mirrors a real one.
+struct ResetRequest {
+  using Result = void;
+};
+
 /// Saves the state of the whole simulation under a name: robots, obstacles, devices with their
 /// noise and commands, and the canvas. It replaces an earlier state of this name. All clients share
 /// the saved states, which exist until the end of the simulation. This client's queued commands for
@@ -580,7 +605,7 @@ using Request = std::variant<
     ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest, RestoreStateRequest,
     NoteGoalRequest, ParticlesRequest, LogRequest, SetBlackboardRequest, BlackboardRequest,
     ArenaRequest, ArenaEventsRequest, SetConfigurationRequest, SetBlockRequest, SetTimerRequest,
-    SetTrapRequest, TakeChargeRequest>;
+    SetTrapRequest, TakeChargeRequest, SetActiveRequest, SetDynamicsRequest, ResetRequest>;
 
 /// The result of any request; std::monostate for requests without a result.
 using Answer =
