@@ -173,6 +173,8 @@ constexpr auto kMapOf = kForm<Map, encode_members<Map>, require_members<Map>>;
 namespace sim {
 namespace {
 
+namespace form = playerlike::protocol::form;
+
 constexpr double kMost = 1 << 30;
 
 constexpr const char* kColourText = "a colour like \"#34aaff\" or \"#34aaff80\"";
@@ -195,7 +197,6 @@ std::optional<FieldError> check_canvas(const void* object) {
   template <>                                              \
   const FieldTable& fields_of<Struct>() {                  \
     using T = Struct;                                      \
-    namespace form = playerlike::protocol::form;           \
     static constexpr Field kFields[] = {__VA_ARGS__};      \
     static constexpr FieldTable kTable = {kFields, check}; \
     return kTable;                                         \

@@ -21,7 +21,7 @@
 ///
 /// A request of Playpen's protocol also has
 /// - `kName`: its name in the protocol. A request without it never leaves the process;
-/// - a table of its fields, and its answer, in src/protocol/request_fields.cpp;
+/// - a table of its fields and one of its answer's, in src/protocol/request_fields.cpp;
 /// - `kTellsTruth`: a private world (sim::SimulationDescription::own_sensors_only) answers it only
 ///   for clients that may command all robots.
 ///
