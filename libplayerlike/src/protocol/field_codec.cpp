@@ -23,7 +23,10 @@ const T& as(const void* value) {
   return *static_cast<const T*>(value);
 }
 
-bool is_in_place(const Field& field) { return *field.name == '\0'; }
+bool is_in_place(const Field& field) {
+  const std::string_view name = field.name;
+  return name.empty() || name.ends_with('_');
+}
 
 json list_of(const Field& field, const void* list, Encoding encoding) {
   json out = json::array();
@@ -89,6 +92,8 @@ json written(const Field& field, const void* value, Encoding encoding) {
       write_fields(field.table(), value, out, encoding);
       return out;
     }
+    case FieldType::kForm:
+      return field.form->encode(value, encoding);
     case FieldType::kInclude:
     case FieldType::kCustom:
       break;  // only in world files
@@ -100,17 +105,19 @@ json written(const Field& field, const void* value, Encoding encoding) {
 /// Writes the components of a vector or a pose as members of the message itself.
 void write_in_place(const Field& field, const void* value, json& out) {
   if (field.type == FieldType::kVec2) {
-    out["x"] = as<sim::Vec2>(value).x();
-    out["y"] = as<sim::Vec2>(value).y();
+    out[std::string(field.name) + 'x'] = as<sim::Vec2>(value).x();
+    out[std::string(field.name) + 'y'] = as<sim::Vec2>(value).y();
     return;
   }
-  SIM_ASSERT(field.type == FieldType::kPose);
+  SIM_ASSERT(field.type == FieldType::kPose && *field.name == '\0');
   out["x"] = as<sim::Pose>(value).x_m;
   out["y"] = as<sim::Pose>(value).y_m;
   out["yaw"] = as<sim::Pose>(value).yaw_rad;
 }
 
-sim::Vec2 read_vec2(const json& in) { return {require_number(in, "x"), require_number(in, "y")}; }
+sim::Vec2 read_vec2(const json& in, const std::string& prefix) {
+  return {require_number(in, (prefix + 'x').c_str()), require_number(in, (prefix + 'y').c_str())};
+}
 
 std::array<double, 3> require_vec3(const json& in, const char* key) {
   const json& vector = require(in, key);
@@ -118,9 +125,13 @@ std::array<double, 3> require_vec3(const json& in, const char* key) {
   return {require_number(vector, "x"), require_number(vector, "y"), require_number(vector, "z")};
 }
 
-sim::Colour require_colour(const json& in, const char* key) {
-  const std::optional<sim::Colour> colour = sim::parse_colour(require_text(in, key));
-  if (!colour) refuse_value(key, "#rgb, #rrggbb or #rrggbbaa", in.at(key));
+sim::Colour require_colour(const Field& field, const json& in, const char* key) {
+  const json& value = require(in, key);
+  const auto* text = value.get_ptr<const std::string*>();
+  const char* expected = field.issue_expected;
+  if (expected == nullptr) expected = text == nullptr ? "a text" : "#rgb, #rrggbb or #rrggbbaa";
+  const auto colour = text == nullptr ? std::nullopt : sim::parse_colour(*text);
+  if (!colour) refuse_value(key, expected, value);
   return *colour;
 }
 
@@ -145,13 +156,9 @@ std::vector<std::uint8_t> require_octets(const json& in, const char* key, Encodi
   return octets;
 }
 
-std::vector<std::string> require_names(const json& in, const char* key) {
-  std::vector<std::string> texts;
-  for (const json& text : require_list(require(in, key), key)) {
-    if (!text.is_string()) refuse_value(key, "a list of names", text);
-    texts.push_back(text.get<std::string>());
-  }
-  return texts;
+/// Describes the list of a field in errors.
+const char* list_in(const Field& field) {
+  return field.issue_expected != nullptr ? field.issue_expected : "a list";
 }
 
 void read_value(const Field& field, const json& in, const char* key, Encoding encoding,
@@ -174,10 +181,11 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
     case FieldType::kChoice:
       return read_choice(field, in, key, value);
     case FieldType::kColour:
-      *static_cast<sim::Colour*>(value) = require_colour(in, key);
+      *static_cast<sim::Colour*>(value) = require_colour(field, in, key);
       return;
     case FieldType::kVec2:
-      *static_cast<sim::Vec2*>(value) = read_vec2(is_in_place(field) ? in : require(in, key));
+      *static_cast<sim::Vec2*>(value) =
+          is_in_place(field) ? read_vec2(in, key) : read_vec2(require(in, key), "");
       return;
     case FieldType::kPose:
       *static_cast<sim::Pose*>(value) = decode_pose(is_in_place(field) ? in : require(in, key));
@@ -195,7 +203,7 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
       *static_cast<std::vector<double>*>(value) = require_doubles(in, key, encoding);
       return;
     case FieldType::kTexts:
-      *static_cast<std::vector<std::string>*>(value) = require_names(in, key);
+      *static_cast<std::vector<std::string>*>(value) = require_texts(in, key, field.issue_expected);
       return;
     case FieldType::kPoses:
       static_cast<std::vector<sim::Pose>*>(value)->clear();
@@ -205,12 +213,14 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
       return;
     case FieldType::kList:
       field.list->clear(value);
-      for (const json& element : require_list(require(in, key), key)) {
+      for (const json& element : require_list(require(in, key), key, list_in(field))) {
         read_fields(field.table(), element, encoding, field.list->append(value));
       }
       return;
     case FieldType::kStruct:
       return read_fields(field.table(), require(in, key), encoding, value);
+    case FieldType::kForm:
+      return field.form->decode(in, key, encoding, value);
     case FieldType::kInclude:
     case FieldType::kCustom:
       SIM_ASSERT(false);  // only in world files
@@ -243,7 +253,10 @@ const sim::DeviceKind& kind_with_readings(std::string_view type) {
 void write_fields(const sim::FieldTable& table, const void* object, json& out, Encoding encoding) {
   sim::for_each_field(table, object, [&](const Field& field, const void* owner) {
     const void* value = field.get(owner);
-    if (value == nullptr) return;
+    if (value == nullptr) {
+      if (field.null_if_empty) out[field.name] = nullptr;
+      return;
+    }
     if (is_in_place(field)) return write_in_place(field, value, out);
     if (const char* dot = dot_in(field)) {
       out[std::string(field.name, dot)][dot + 1] = written(field, value, encoding);
@@ -256,10 +269,12 @@ void write_fields(const sim::FieldTable& table, const void* object, json& out, E
 void read_fields(const sim::FieldTable& table, const json& in, Encoding encoding, void* object) {
   sim::for_each_field(table, object, [&](const Field& field, void* owner) {
     const bool is_optional = field.drop != nullptr;
-    if ((field.may_be_left_out || is_optional) && !in.contains(field.name)) {
+    const bool may_be_missing = field.may_be_left_out || (is_optional && !field.null_if_empty);
+    if (may_be_missing && !in.contains(field.name)) {
       if (is_optional) field.drop(owner);
       return;
     }
+    if (field.null_if_empty && require(in, field.name).is_null()) return field.drop(owner);
     const char* dot = dot_in(field);
     const json& from = dot == nullptr ? in : require_owner(field, dot, in);
     read_value(field, from, dot == nullptr ? field.name : dot + 1, encoding, field.set(owner));
@@ -270,15 +285,36 @@ void read_fields(const sim::FieldTable& table, const json& in, Encoding encoding
   }
 }
 
-std::vector<std::string_view> keys_of(const sim::FieldTable& table) {
-  std::vector<std::string_view> keys;
+std::vector<std::string> keys_of(const sim::FieldTable& table) {
+  std::vector<std::string> keys;
   sim::for_each_field(table, static_cast<const void*>(nullptr),
                       [&](const Field& field, const void*) {
-                        if (!is_in_place(field)) return keys.push_back(field.name);
-                        keys.insert(keys.end(), {"x", "y"});
-                        if (field.type == FieldType::kPose) keys.emplace_back("yaw");
+                        const std::string name = field.name;
+                        if (!is_in_place(field)) return keys.push_back(name);
+                        keys.insert(keys.end(), {name + 'x', name + 'y'});
+                        if (field.type == FieldType::kPose) keys.push_back(name + "yaw");
                       });
   return keys;
+}
+
+void refuse_unknown_keys(const json& object, std::initializer_list<std::string_view> more,
+                         const sim::FieldTable& table, std::string_view what) {
+  const std::vector<std::string> keys = keys_of(table);
+  std::vector<std::string_view> known(more);
+  known.insert(known.end(), keys.begin(), keys.end());
+  refuse_unknown_keys(object, known, what);
+}
+
+std::vector<std::string> require_texts(const json& in, const char* key, const char* expected) {
+  std::vector<std::string> texts;
+  for (const json& text :
+       require_list(require(in, key), key, expected != nullptr ? expected : "a list")) {
+    if (!text.is_string()) {
+      refuse_value(key, expected != nullptr ? expected : "a list of names", text);
+    }
+    texts.push_back(text.get<std::string>());
+  }
+  return texts;
 }
 
 json encode_reading(DeviceId device, std::string_view type, const sim::Reading& reading,

@@ -85,7 +85,8 @@ void StateArchive::value(const Field& field, void* value) {
     case FieldType::kInclude:
       return table(field.table(), value);
     case FieldType::kCustom:
-      SIM_ASSERT(false);  // occurs in settings only, never in states
+    case FieldType::kForm:
+      SIM_ASSERT(false);  // occurs in settings or messages only, never in states
   }
 }
 

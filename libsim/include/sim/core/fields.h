@@ -65,6 +65,7 @@ enum class FieldType : std::uint8_t {
   kStruct,   ///< a struct that has a table
   kInclude,  ///< base class that has a table; its fields appear among those of the derived class
   kCustom,   ///< see Field::custom
+  kForm,     ///< a value that occurs only in messages; see Field::form
 };
 
 /// An error in the combination of a struct's fields.
@@ -77,6 +78,8 @@ struct FieldError {
 };
 
 struct Field;
+/// How messages write and read the values of a type. The protocol defines it.
+struct MessageForm;
 
 /// The fields of a struct, in the order in which they are read, written and shown.
 struct FieldTable {
@@ -146,15 +149,18 @@ struct Field {
   bool lists_elements = false;       ///< clients see each element's fields, not only the number of
                                      ///< elements
   bool may_be_left_out = false;      ///< may be missing in messages, and then keeps its default
+  bool null_if_empty = false;        ///< messages say null for an empty std::optional
   bool is_angle = false;             ///< in degrees in world files, in radians elsewhere
   const char* needed_for = nullptr;  ///< the field must name something; what it is needed for
   const char* issue_id = nullptr;    ///< issue id for a list with wrong, too few or too many
                                      ///< elements
-  const char* issue_expected = nullptr;    ///< the text after "expected" in that issue
+  const char* issue_expected = nullptr;    ///< the text after "expected" in that issue, and in
+                                           ///< errors of messages about words, colours and lists
   const FieldTable& (*table)() = nullptr;  ///< table of a struct, or of a list's elements
   const ListAccess* list = nullptr;
   const ElementType* element = nullptr;
   const CustomField* custom = nullptr;
+  const MessageForm* form = nullptr;
   std::optional<RealismFigures> realism = {};  ///< of a number that the level of realism changes
   std::optional<double> unlisted_at = {};  ///< clients see no such property while a number has this
                                            ///< value
@@ -204,6 +210,12 @@ struct Field {
   [[nodiscard]] constexpr Field with_issue(const char* id, const char* expected) const {
     return with<&Field::issue_id>(id).with<&Field::issue_expected>(expected);
   }
+  /// What errors of messages say that they expected.
+  [[nodiscard]] constexpr Field expecting(const char* what) const {
+    return with<&Field::issue_expected>(what);
+  }
+  /// An empty std::optional is null in messages, instead of missing.
+  [[nodiscard]] constexpr Field nullable() const { return with<&Field::null_if_empty>(true); }
   [[nodiscard]] constexpr Field property_name(const char* key) const {
     return with<&Field::property>(key);
   }
@@ -332,6 +344,25 @@ void* address(void* object) {
   return &(*static_cast<Owner*>(object).*....*kMembers);
 }
 
+// Adds the access to a member of a member ... of Owner; without members, to the object itself.
+template <typename Owner, auto... kMembers>
+[[nodiscard]] constexpr Field with_access(Field made) {
+  using Member = std::remove_reference_t<decltype((std::declval<Owner&>().*....*kMembers))>;
+  made.set = &address<Owner, kMembers...>;
+  if constexpr (kIsOptional<Member>) {
+    made.find = [](const void* object) -> const void* {
+      const auto& member = (*static_cast<const Owner*>(object).*....*kMembers);
+      return member.has_value() ? &*member : nullptr;
+    };
+    made.set = [](void* object) -> void* {
+      auto& member = (*static_cast<Owner*>(object).*....*kMembers);
+      return member.has_value() ? &*member : &member.emplace();
+    };
+    made.drop = [](void* object) { (*static_cast<Owner*>(object).*....*kMembers).reset(); };
+  }
+  return made;
+}
+
 }  // namespace field_detail
 /// @endcond
 
@@ -345,21 +376,30 @@ template <auto kFirst, auto... kRest>
   using Owner = typename field_detail::Parts<decltype(kFirst)>::Owner;
   using Member = std::remove_reference_t<decltype(((std::declval<Owner&>().*kFirst).*....*kRest))>;
   using Value = typename field_detail::ValueOf<Member>::Type;
-  Field made = field_detail::describe<Value>(name, unit, meaning);
-  if constexpr (field_detail::kIsOptional<Member>) {
-    made.find = [](const void* object) -> const void* {
-      const auto& member = ((static_cast<const Owner*>(object)->*kFirst).*....*kRest);
-      return member.has_value() ? &*member : nullptr;
-    };
-    made.set = [](void* object) -> void* {
-      auto& member = ((static_cast<Owner*>(object)->*kFirst).*....*kRest);
-      return member.has_value() ? &*member : &member.emplace();
-    };
-    made.drop = [](void* object) { ((static_cast<Owner*>(object)->*kFirst).*....*kRest).reset(); };
-  } else {
-    made.set = &field_detail::address<Owner, kFirst, kRest...>;
-  }
-  return made;
+  return field_detail::with_access<Owner, kFirst, kRest...>(
+      field_detail::describe<Value>(name, unit, meaning));
+}
+
+/// A member that occurs only in messages.
+template <auto kMember>
+[[nodiscard]] constexpr Field field(const char* name, const MessageForm& form) {
+  Field made{name, FieldType::kForm};
+  made.form = &form;
+  return field_detail::with_access<typename field_detail::Parts<decltype(kMember)>::Owner, kMember>(
+      made);
+}
+
+/// A message whose only field is the object itself.
+template <typename Object>
+[[nodiscard]] constexpr Field whole(const char* name) {
+  return field_detail::with_access<Object>(
+      field_detail::describe<typename field_detail::ValueOf<Object>::Type>(name, "", ""));
+}
+template <typename Object>
+[[nodiscard]] constexpr Field whole(const char* name, const MessageForm& form) {  ///< in a form
+  Field made{name, FieldType::kForm};
+  made.form = &form;
+  return field_detail::with_access<Object>(made);
 }
 
 /// The fields of a base class, listed among those of the derived class.
