@@ -144,7 +144,7 @@ json set_object_visibility(MorseCall& call) {
     if (std::any_of(objects.begin(), objects.end(), is_block)) {
       if (simulation.world().simulation.objects_locked) {
         throw MorseRefusal(
-            "this world keeps its obstacles as they are (\"lock_objects\" in its "
+            "this world locks its obstacles (\"lock_objects\" in its "
             "\"simulation\")");
       }
       const auto state = visible ? sim::ObstacleState::kExtended : sim::ObstacleState::kRetracted;
