@@ -241,7 +241,7 @@ class LiveWindow : public testing::Test {
     const ProcessResult result = run->finish();
     EXPECT_FALSE(result.timed_out);
     EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_THAT(result.err, Not(HasSubstr("goes on without")));
+    EXPECT_THAT(result.err, Not(HasSubstr("continues without")));
     // The process has ended, but the X server may not have noticed yet.
     wait_until("the window has gone", [&] { return !display.find("Playpen: window"); });
     return read_report(folder / "out");

@@ -288,7 +288,7 @@ TEST_F(Mirror, ACutLinkIsNoticedAndMadeAgainIfTheWorldSaysSo) {
   Process run({PLAYPEN_COMMAND, "run", world, "--out", out(), "--quiet", "--", PROGRAM, "forever"});
   ASSERT_TRUE(run.read_until("drove from")) << run.finish().err;
   relay.freeze();
-  ASSERT_TRUE(run.read_error_until("it is made again as soon as possible"));
+  ASSERT_TRUE(run.read_error_until("the mirror reconnects as soon as possible"));
   relay.freeze(false);
   ASSERT_TRUE(run.read_error_until("is there again")) << run.errors();
   run.send_signal(SIGTERM);

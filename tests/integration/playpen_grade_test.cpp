@@ -108,7 +108,7 @@ TEST_F(PlaypenGrade, TheTemplateFailsWithoutCrashing) {
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(
       run.out,
-      HasSubstr("par_intro seed 1: distance driven, without movements on the spot, 0.00 m, at "
+      HasSubstr("par_intro seed 1: distance driven (movements on the spot excluded) 0.00 m, at "
                 "least 12 m needed"));
   EXPECT_EQ(result().at("runs").at(0).at("end"), json({{"kind", "time-over"}}));
 }

@@ -468,7 +468,7 @@ def promises(tree):
     tests = "\n".join(f"{suite}.{name}" for _, source in tree.texts(r"tests/.*\.cpp$")
                       for suite, name in TEST.findall(source))
     for row in re.finditer(r"^\|.*$", text, re.MULTILINE):
-        for name in re.findall(r"`([A-Z][A-Za-z0-9]*\.[A-Za-z0-9*]+)`", row[0]):
+        for name in re.findall(r"`([A-Z][A-Za-z0-9]*\.[A-Za-z0-9_*]+)`", row[0]):
             pattern = "^" + re.escape(name).replace(r"\*", ".*") + "$"
             if not re.search(pattern, tests, re.MULTILINE):
                 yield at(page, text, row.start(), f"there is no test {name}")
@@ -652,8 +652,9 @@ def self_test():
                        "| [a](../worlds/b/a.json) | `playpen run a -- x` |\n"
                        "| [c](../worlds/c.json) | `playpen run d -- x` |\n"
                        "| [e](../worlds/f.json) | `playpen run e -- x` |\n"}, ":2: 'c'", ":3: 'e'")
-    rule(promises, {"tests/x_test.cpp": "TEST(A, BcD) {}\nTEST_F(E,\n       F) {}\n",
-                    "docs/trust.md": "| `A.B*D`, `E.F` |\n| `A.Bc` |\n`A.X`\n"}, ":2: there is no test A.Bc")
+    rule(promises, {"tests/x_test.cpp": "TEST(A, BcD) {}\nTEST_F(E,\n       F_Is) {}\n",
+                    "docs/trust.md": "| `A.B*D`, `E.F_*` |\n| `A.Bc` |\n| `E.F_I` |\n`A.X`\n"},
+         ":2: there is no test A.Bc", ":3: there is no test E.F_I")
 
     page = "".join(f"<!-- from: {name}.h -->\n```cpp\ncompass {name}\n```\n" for name in "abcdefg")
     device = {"docs/add_a_device.md": "| `a.h` |\n| `tests/t.h` |\n" + page, "tests/t.h": "Compass"}

@@ -237,7 +237,7 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
 std::optional<std::string> read_drawn_map(const fs::path& folder, const Task& task,
                                           const Reference& reference, const Floor& floor,
                                           Measures& measures) {
-  if (!floor.seen) return "no map: the report does not tell which floor the robot has seen";
+  if (!floor.seen) return "no map: the report lacks the floor that the robot has seen";
   const std::string name = "layers/" + task.map_layer + ".yaml";
   std::error_code error;
   if (!fs::is_regular_file(folder / name, error)) return "no map: there is no " + name;
@@ -306,7 +306,7 @@ std::optional<std::string> fault_of(Ending ending, const playerlike::JobEnd& end
     case Ending::kTimeOver:
     case Ending::kVerdict:
       if (!completed) return std::nullopt;
-      return "the program left in the middle of the run (by _exit?)" + when;
+      return "the program exited during the run (by _exit?)" + when;
     case Ending::kBadStatus:
     case Ending::kSignal:
       return "the program " + end.program.text() + when;
@@ -380,8 +380,8 @@ class Judge {
     if (!limit) return;
     const std::string bound = least ? "at least " : "at most ";
     if (!value) {
-      add(std::string(what) + " unknown, " + bound + sim::shortest_text(*limit) + unit +
-          " asked for");
+      add(std::string(what) + " not measured, " + bound + sim::shortest_text(*limit) + unit +
+          " needed");
     } else if (least ? *value < *limit : *value > *limit) {
       add(std::string(what) + ' ' + telling_number(*value, *limit, decimals) + unit + ", " + bound +
           sim::shortest_text(*limit) + unit + (least ? " needed" : " allowed") + more);
@@ -534,10 +534,10 @@ std::vector<std::string> faults_of(const Thresholds& t, const Measures& m, Endin
   judge.at_least("least clearance", m.least_clearance_m, t.min_clearance_m, 3, " m");
   judge.at_least("path", m.path_length_m, t.min_path_length_m, 2, " m");
   judge.at_most("path", m.path_length_m, t.max_path_length_m, 2, " m");
-  judge.at_least("distance driven, without movements on the spot,", m.distance_m, t.min_distance_m,
+  judge.at_least("distance driven (movements on the spot excluded)", m.distance_m, t.min_distance_m,
                  2, " m");
   judge.at_least("visited floor", m.visited_area_m2, t.min_visited_area_m2, 2, " m^2");
-  judge.at_most("path to shortest path", m.path_ratio, t.max_path_ratio, 2);
+  judge.at_most("path ratio", m.path_ratio, t.max_path_ratio, 2);
   judge.at_most("simulated time", m.sim_time_s, t.max_sim_time_s, 1, " s");
   judge.at_most("stalled time", m.stalled_time_s, t.max_stalled_time_s, 2, " s");
   return judge.take();

@@ -48,8 +48,8 @@ class Clients {
   void distribute(const std::map<int, RunLog>& logs);
   /// Notes the loss of a real robot for each client that has subscribed to its readings.
   void note_loss(const Mirror::Loss& loss);
-  /// Why a client would wait in vain: all readings that it has subscribed to come from real robots
-  /// whose connections are lost. Empty: it would not.
+  /// Why a client would wait without end: all readings that it has subscribed to come from real
+  /// robots whose connections are lost. Empty: it would not.
   [[nodiscard]] std::string reason_not_to_wait(const Client& client) const;
   /// Takes a client's unread readings, in order of device.
   std::vector<std::pair<DeviceId, sim::SharedReading>> take(Client& client);

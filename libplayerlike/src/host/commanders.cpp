@@ -52,7 +52,7 @@ std::optional<std::string> Commanders::note(Who who, DeviceId device, Kind kind)
 }
 
 void Commanders::note_opened(const Client& client, DeviceId device) {
-  if (client.onlooker) return;  // who only looks on changes nothing
+  if (client.onlooker) return;  // a watcher commands nothing
   Robot& robot = at(device.robot);
   if (robot.poses.contains(device.device)) robot.holders.insert(&client);
 }

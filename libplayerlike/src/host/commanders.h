@@ -59,7 +59,7 @@ class Commanders {
   [[nodiscard]] bool take_charge(Who who, const TakeChargeRequest& what, WallClock::time_point now);
   /// Whether the watchdog has stopped a robot since the last call.
   [[nodiscard]] bool take_stopped(int robot);
-  /// The robots to stop because nothing has arrived from who is in charge of them.
+  /// The robots to stop because the client in charge of them has sent nothing for too long.
   [[nodiscard]] std::vector<int> overdue(WallClock::time_point now);
   /// Whether a watchdog has ever stopped a robot.
   [[nodiscard]] bool has_stopped() const noexcept { return has_stopped_; }
@@ -73,7 +73,7 @@ class Commanders {
     std::string name;
     WallClock::duration watchdog{};
     WallClock::time_point heard;
-    bool stopped = false;  ///< by the watchdog, and nobody was told
+    bool stopped = false;  ///< by the watchdog, and not reported yet
   };
   enum class Role : char { kNone, kPlaces, kDrives };
   struct Robot {
@@ -81,7 +81,7 @@ class Commanders {
     std::set<int> poses;      ///< devices of position2d
     std::set<Who> holders;    ///< have commanded it or opened position2d
     std::set<Who> overruled;  ///< somebody has taken over from them
-    Who last = nullptr;       ///< who commanded last; null: nobody, or one who is gone
+    Who last = nullptr;       ///< the last commander; null: none, or it has left
     Kind last_kind = Kind::kClient;
     std::set<int> commanded;  ///< devices that were commanded since the last stop
     std::optional<Charge> charge;
@@ -91,7 +91,7 @@ class Commanders {
   [[nodiscard]] Robot& at(int robot) { return robots_[static_cast<std::size_t>(robot)]; }
   /// Somebody holds a robot no more. @return whether it is to be stopped.
   [[nodiscard]] static bool let_go(Robot& robot, Who who);
-  /// Whether the robot drives because of who is in charge.
+  /// Whether the client in charge has made the robot drive.
   [[nodiscard]] static bool drives_for_charge(const Robot& robot);
 
   const sim::Simulation& simulation_;

@@ -22,7 +22,7 @@ Charge Host::Core::take_charge(Client& client, const TakeChargeRequest& what) {
   }
   constexpr std::size_t kMostName = 200;
   if (what.name.size() > kMostName || !is_printable(what.name)) {
-    refuse_argument("the name of who takes charge is at most 200 printable bytes");
+    refuse_argument("the name of a client in charge has at most 200 printable bytes");
   }
   const Lock lock = lock_with_priority();
   client.require_open();
@@ -41,7 +41,7 @@ Charge Host::Core::take_charge(Client& client, const TakeChargeRequest& what) {
 void Host::Core::stop_unwatched(WallClock::time_point now) {
   for (const int robot : inputs_.commanders.overdue(now)) {
     warn_("robot " + robots_[static_cast<std::size_t>(robot)].name +
-          " is stopped: nothing has arrived from who is in charge of it");
+          " is stopped: the client in charge of it has sent nothing");
     inputs_.stop({robot});
   }
 }

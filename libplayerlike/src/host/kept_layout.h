@@ -14,7 +14,7 @@ namespace playerlike {
 
 inline constexpr std::uint64_t kKeptMagic = 0x706c617970656e31;  // "playpen1"
 /// Why a run with KeptHeader::conflict may not be repeatable.
-inline constexpr const char* kConflictWhy = "another program asked for the world in vain";
+inline constexpr const char* kConflictWhy = "another program requested the world and was refused";
 inline constexpr std::size_t kKeptHeaderSize = 4096;
 /// Maximum length of a trail; at this length every second point is removed.
 inline constexpr std::size_t kMostTrailPoints = 8192;

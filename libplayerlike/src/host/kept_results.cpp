@@ -300,7 +300,7 @@ bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
   const auto* const header = memory.at<KeptHeader>(0);
   const std::optional<LastStep> last =
       header == nullptr ? std::nullopt : last_step(memory, *header);
-  if (!last) throw std::runtime_error("the program has left nothing of its run");
+  if (!last) throw std::runtime_error("the program has left no results of its run");
   const ordered_json report = memory.text<ordered_json>(header->report);
   std::string problem;
   const auto attempt = [&problem](const char* what, const auto& action) {

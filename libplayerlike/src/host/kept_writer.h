@@ -30,7 +30,7 @@ class KeptWriter {
   ~KeptWriter();
 
   void set_phase(KeptRun::Phase phase) noexcept;
-  /// Whether another program of the run has asked for the world in vain.
+  /// Whether another program of the run has requested the world and was refused.
   [[nodiscard]] bool conflict_noted() const noexcept { return header_->conflict != 0; }
   /// Where the signal handler stores the signal's number. Valid until the process ends.
   [[nodiscard]] std::atomic<std::uint32_t>& noted() const noexcept { return header_->noted; }

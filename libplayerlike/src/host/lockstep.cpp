@@ -109,7 +109,7 @@ void Lockstep::note_silent_thread(ThreadId thread_id) const {
 
 void Lockstep::warn_of_silence(const std::string& who) const {
   warn_(who + " for " + sim::rounded_text(silence_limit_s_, 6) +
-        " s of wall time; simulated time goes on without it until it does");
+        " s of wall time; simulated time advances without it until it does");
 }
 
 WallClock::duration Lockstep::silence_limit() const {

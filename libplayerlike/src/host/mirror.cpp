@@ -199,7 +199,7 @@ Mirror::Robot::Robot(sim::Simulation& simulation, const std::vector<RobotInfo>& 
   warn_of_simulated();
   if (link_->watched()) return;
   warn_("the server of the real robot of " + description_.name + " at " + real_.server +
-        " does not watch over its clients: if the network fails, the robot drives on");
+        " has no watchdog: if the network fails, the robot drives on");
 }
 
 std::unique_ptr<Session> Mirror::Robot::reopen() const {

@@ -15,7 +15,8 @@ void Host::Core::require_readable(const Client& client, int robot) const {
             "its \"simulation\"): robot " +
                 robots_[index].name + " belongs to another port than " + std::to_string(client.port)
           : "this world keeps the poses and properties of its objects and its map private "
-            "(\"privacy\" in its \"simulation\"): programs know what their sensors tell");
+            "(\"privacy\" in its \"simulation\"): programs may use only the readings of their "
+            "sensors");
 }
 
 void Host::Core::require_permission(const std::optional<std::string>& what) {

@@ -70,7 +70,7 @@ class RealLink final : private ReadingSink {
   std::optional<std::string> lost_;
   bool stopping_ = false;
   bool all_sent_ = false;  // the sending thread has ended
-  bool stopped_ = false;   // by the server, and nobody was told
+  bool stopped_ = false;   // by the server, and not reported yet
   std::thread receiver_;
   std::thread sender_;
   std::thread keeper_;

@@ -181,7 +181,7 @@ void Recorder::close_film() {
   const std::unique_ptr<PictureThread> pictures = std::move(pictures_);
   if (pictures) pictures->finish();
   if (!pictures || !film_begin_s_) return;
-  throw std::runtime_error("there is no film, since the run has ended before the film's begin at " +
+  throw std::runtime_error("no film was recorded: the run ended before the film's start at " +
                            sim::shortest_text(*film_begin_s_) + " s (--record-from)");
 }
 

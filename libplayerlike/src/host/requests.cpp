@@ -413,8 +413,8 @@ struct Host::Core::RequestHandler {
   void require_unlocked() const {
     if (!core.simulation_.world().simulation.objects_locked) return;
     throw SessionError(SessionError::Code::kNotAvailable,
-                       "this world keeps its robots and obstacles where and as they are "
-                       "(\"lock_objects\" in its \"simulation\"): they can only be looked at");
+                       "this world locks its robots and obstacles "
+                       "(\"lock_objects\" in its \"simulation\"): clients can only read them");
   }
 };
 

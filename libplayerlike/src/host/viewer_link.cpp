@@ -35,7 +35,7 @@ bool is_stream_socket(int descriptor) {
 ViewerLink::ViewerLink(int socket, ViewedRun& run) : socket_(socket), run_(run) {
   if (!is_stream_socket(socket)) {
     throw std::runtime_error("descriptor " + std::to_string(socket) +
-                             ", meant to lead to the window, is no stream socket");
+                             ", which should lead to the window, is not a stream socket");
   }
   fcntl(socket_, F_SETFD, fcntl(socket_, F_GETFD) | FD_CLOEXEC);
   fcntl(socket_, F_SETFL, fcntl(socket_, F_GETFL) | O_NONBLOCK);
@@ -112,7 +112,7 @@ bool ViewerLink::receive() {
   while (const auto message = view::take_message(received_, garbage)) {
     if (!handle(*message)) return false;
   }
-  if (garbage) run_.on_lost("the window's process sent what is no message of a viewer");
+  if (garbage) run_.on_lost("the window's process sent an invalid message");
   if (ended && !garbage) run_.on_lost("the window's process has ended");
   return !ended && !garbage;
 }

@@ -147,7 +147,7 @@ void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThreadId thread_id, b
     if (settings.progress && core_.log_) {
       core_.log_(sim::LogLevel::kInfo,
                  std::string("the run is over: the program was ended ") +
-                     (asleep ? "in its sleep" : "while it went on without calling Read()"));
+                     (asleep ? "while it slept" : "while it ran without calling Read()"));
     }
     lock.unlock();
     end_program_quietly();

@@ -66,7 +66,7 @@ std::string Host::Core::Window::on_key(std::uint32_t keysym, bool pressed, bool 
   if (*action <= ViewAction::kRight) {
     hand_.hold(*action, pressed);
     core_.driven_by_hand_ = true;
-    if (pressed && core_.pace_.paused()) tell("paused: the robot moves when time does (Space)");
+    if (pressed && core_.pace_.paused()) tell("paused: Space continues, and then the robot moves");
     return "";
   }
   if (!pressed) return "";
@@ -107,7 +107,7 @@ void Host::Core::Window::change_view_mode(int by) {
 }
 
 void Host::Core::Window::change_speed(bool faster) {
-  if (core_.mirror_) return tell("a real robot sets the speed of time");
+  if (core_.mirror_) return tell("speed fixed: a robot mirrors a real one");
   const double factor = next_time_factor(core_.pace_.factor(), faster);
   if (factor == core_.pace_.factor()) {
     return tell(std::string("no ") + (faster ? "faster" : "slower") + " than " +
@@ -167,7 +167,7 @@ void Host::Core::Window::on_lost(const std::string& reason) {
   if (core_.pace_.paused()) change_pause();
   core_.pace_.stop_watching();
   if (!core_.over())
-    core_.warn_("there is no window any more (" + reason + "); the run goes on without it");
+    core_.warn_("the window is lost (" + reason + "); the run continues without it");
 }
 
 void Host::Core::Window::tell(const std::string& text) {

@@ -157,7 +157,7 @@ json get_local_data(MorseCall& call) {
     const sim::Reading& reading = device.sensor()->reading();
     if (reading.sequence == 0) {
       throw MorseRefusal(call.component->name +
-                         " has no reading yet: simulated time has not come so far");
+                         " has no reading yet: its first measurement is later");
     }
     return morse_record(reading, stream_format(all, id_of(call)));
   });
@@ -207,7 +207,7 @@ json set_property(MorseCall& call) {
   if (value.is_number() && value.get<double>() == it->second) return nullptr;
   throw MorseRefusal("Property " + name + " of " + call.component->name + " is " +
                      json(it->second).dump() +
-                     ", as the world gives it, and stays so while it runs");
+                     ": a setting of the world, which does not change during a run");
 }
 
 constexpr MorseService kComponent[] = {
@@ -353,7 +353,8 @@ std::optional<json> call_service(MorseState& state, MorseConnection& from, const
                                  std::string_view component, std::string_view service,
                                  const json& list) {
   if (!from.rights().connect) {
-    throw MorseRefusal("access/denied: this server wants a token first: playpen token [\"...\"]");
+    throw MorseRefusal(
+        "access/denied: this server requires a token first: playpen token [\"...\"]");
   }
   const MorseComponent* found = state.find(component);
   std::vector<const MorseService*> services;

@@ -149,7 +149,7 @@ json set_object_visibility(MorseCall& call) {
         [](const sim::Simulation& all) { return all.world().simulation.objects_locked; });
     if (locked) {
       throw MorseRefusal(
-          "this world keeps its obstacles as they are (\"lock_objects\" in its "
+          "this world locks its obstacles (\"lock_objects\" in its "
           "\"simulation\")");
     }
     execute(call, SetBlockRequest{name, visible});

@@ -457,9 +457,9 @@ json NativeHandler::watch(const json& request) {
     throw ProtocolError(
         "access/denied",
         terms_.rights.truth
-            ? "who watches must present a token in hello"
-            : "this world is private (\"privacy\" in its \"simulation\"): who watches "
-              "sees all robots, and must present the tokens of them all in hello");
+            ? "watchers must present a token in hello"
+            : "this world is private (\"privacy\" in its \"simulation\"): watchers see "
+              "all robots, and must present the tokens of all robots in hello");
   }
   state_->watching.forget(peer_);
   if (rate_hz > 0.0) state_->watching.watch(peer_, terms_.encoding, rate_hz, canvas);

@@ -415,8 +415,8 @@ TEST_F(EvaluateTest, AMissingOrBrokenReportIsAFault) {
     EXPECT_THAT(evaluated().faults, ElementsAre(HasSubstr("not signed"))) << text;
   }
   write_report({{"name", "c"}});
-  EXPECT_THAT(evaluated().faults,
-              ElementsAre("the report has no robot a", "collisions unknown, at most 0 asked for"));
+  EXPECT_THAT(evaluated().faults, ElementsAre("the report has no robot a",
+                                              "collisions not measured, at most 0 allowed"));
   write_report({{"least_clearance", nullptr}});  // nothing solid anywhere
   EXPECT_FALSE(evaluated().measures.least_clearance_m);
   // A program that crashed gets no additional message about the report.
@@ -431,7 +431,7 @@ TEST_F(EvaluateTest, ScoresTheMapOfTheNamedLayer) {
   task_.thresholds.min_coverage = 0.98;
   EXPECT_THAT(evaluated().faults,
               UnorderedElementsAre("no map: there is no layers/occupancy.yaml",
-                                   "coverage unknown, at least 0.98 asked for"));
+                                   "coverage not measured, at least 0.98 needed"));
   folder_.write("layers/occupancy.yaml", "nonsense");
   EXPECT_THAT(evaluated().faults, testing::Contains(HasSubstr("the map can't be read")));
 
@@ -541,8 +541,8 @@ TEST_F(EvaluateTest, WhatWasRefusedExplainsAFailure) {
   EXPECT_THAT(passed.measures.commanded, ElementsAre("b", "a"));
   task_.thresholds.min_distance_m = 1.0;
   EXPECT_THAT(evaluated().faults,
-              ElementsAre("distance driven, without movements on the spot, unknown, at least 1 m "
-                          "asked for",
+              ElementsAre("distance driven (movements on the spot excluded) not measured, at "
+                          "least 1 m needed",
                           "the program asked for the map of the world, which the task does not let "
                           "it use; the first time after 0.10 s"));
 }
@@ -558,8 +558,9 @@ TEST_F(EvaluateTest, ACompletedRunFailsWithWhatIsKnownOfIt) {
   EXPECT_THAT(evaluated({JobEnd::Kind::kTimedOut, {.status = 0, .signal = SIGKILL}, 1}).faults,
               ElementsAre("timeout: still running after 120 s; it was ended after 20.00 s of "
                           "simulated time"));
-  EXPECT_THAT(evaluated().faults, ElementsAre("the program left in the middle of the run (by "
-                                              "_exit?) after 20.00 s of simulated time"));
+  EXPECT_THAT(
+      evaluated().faults,
+      ElementsAre("the program exited during the run (by _exit?) after 20.00 s of simulated time"));
   task_.thresholds.max_collisions = 1;
   EXPECT_THAT(evaluated().faults, testing::Contains("collisions 2, at most 1 allowed"));
 }
@@ -647,7 +648,7 @@ TEST(FaultsOf, EachThresholdHoldsAtItsLimitAndTellsBeyond) {
   t = {};
   t.max_path_ratio = 1.2;
   EXPECT_THAT(faults_of(t, m, Ending::kBySelf),
-              ElementsAre("path to shortest path 1.50, at most 1.2 allowed"));
+              ElementsAre("path ratio 1.50, at most 1.2 allowed"));
   t = {};
   t.max_sim_time_s = 99.0;
   EXPECT_THAT(faults_of(t, m, Ending::kBySelf),

@@ -78,7 +78,7 @@ TEST(Table, HasALineARunThenFaultsThenASummary) {
             "explore: 1 of 2 runs passed\n"
             "  coverage: 0.988 to 0.988, mean 0.988\n"
             "  map correctness: 1.000 to 1.000, mean 1.000\n"
-            "  path to shortest path: 1.23 to 1.23, mean 1.23\n"
+            "  path ratio: 1.23 to 1.23, mean 1.23\n"
             "  path [m]: 12.35 to 12.35, mean 12.35\n"
             "  least clearance [m]: 0.032 to 0.032, mean 0.032\n"
             "  simulated time [s]: 61.0 to 61.0, mean 61.0\n");

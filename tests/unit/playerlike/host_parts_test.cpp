@@ -197,7 +197,7 @@ TEST_F(LockstepTest, TimeGoesOnWithoutThoseWhoAreSilent) {
   EXPECT_TRUE(lockstep.all_wait());
   EXPECT_THAT(warnings,
               ElementsAre("client 2 (port 6665) has not called Read() for 5 s of wall time; "
-                          "simulated time goes on without it until it does"));
+                          "simulated time advances without it until it does"));
   lockstep.adopt(*thinks, 2);
   EXPECT_FALSE(lockstep.all_wait());
 }
