@@ -378,13 +378,12 @@ class Judge {
                const std::optional<double>& limit, int decimals, const char* unit, bool least,
                const std::string& more) {
     if (!limit) return;
-    const std::string bound = least ? "at least " : "at most ";
+    const std::string bound = (least ? ", at least " : ", at most ") + sim::shortest_text(*limit) +
+                              unit + (least ? " needed" : " allowed");
     if (!value) {
-      add(std::string(what) + " not measured, " + bound + sim::shortest_text(*limit) + unit +
-          " needed");
+      add(std::string(what) + " not measured" + bound);
     } else if (least ? *value < *limit : *value > *limit) {
-      add(std::string(what) + ' ' + telling_number(*value, *limit, decimals) + unit + ", " + bound +
-          sim::shortest_text(*limit) + unit + (least ? " needed" : " allowed") + more);
+      add(std::string(what) + ' ' + telling_number(*value, *limit, decimals) + unit + bound + more);
     }
   }
 

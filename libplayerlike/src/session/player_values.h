@@ -257,7 +257,8 @@ inline constexpr std::int8_t kMapDataRange = 1;
 /// unknown, kMapDataRange: occupied.
 [[nodiscard]] std::vector<std::int8_t> map_cells(const sim::OccupancyMap& map);
 
-/// Removes the characters of a text that cannot be said (control characters, invalid UTF-8).
+/// A text without characters that cannot be said: white space becomes ' ', other control characters
+/// and invalid UTF-8 become '?'.
 /// @return at most sim::kMaxSpeech bytes.
 [[nodiscard]] std::string sayable(std::string_view text);
 
