@@ -89,6 +89,9 @@ json written(const Field& field, const void* value, Encoding encoding) {
       write_fields(field.table(), value, out, encoding);
       return out;
     }
+    case FieldType::kPoints:
+    case FieldType::kMap:
+    case FieldType::kVariant:
     case FieldType::kInclude:
     case FieldType::kCustom:
       break;  // only in world files
@@ -211,6 +214,9 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
       return;
     case FieldType::kStruct:
       return read_fields(field.table(), require(in, key), encoding, value);
+    case FieldType::kPoints:
+    case FieldType::kMap:
+    case FieldType::kVariant:
     case FieldType::kInclude:
     case FieldType::kCustom:
       SIM_ASSERT(false);  // only in world files

@@ -84,8 +84,11 @@ void StateArchive::value(const Field& field, void* value) {
     case FieldType::kStruct:
     case FieldType::kInclude:
       return table(field.table(), value);
+    case FieldType::kPoints:
+    case FieldType::kMap:
+    case FieldType::kVariant:
     case FieldType::kCustom:
-      SIM_ASSERT(false);  // occurs in settings only, never in states
+      SIM_ASSERT(false);  // occurs in world files only, never in states
   }
 }
 
