@@ -12,7 +12,9 @@
 #include "sim/core/degrees.h"
 #include "sim/core/fields.h"
 #include "sim/core/number_text.h"
+#include "sim/core/time.h"
 #include "sim/devices/builtin.h"
+#include "sim/io/field_reader.h"
 
 /// Documents generated from the tables of fields: tables of settings in Markdown for users, and
 /// JSON schemas for editors.
@@ -34,6 +36,40 @@ using Json = nlohmann::ordered_json;
   return out;
 }
 
+[[nodiscard]] inline Json vec2_json(const Vec2& point) {
+  return Json::array({rounded(point.x()), rounded(point.y())});
+}
+
+[[nodiscard]] Json object_json(const FieldTable& table, const void* object);
+
+/// An element of a list, or the value of a key of a list by names.
+[[nodiscard]] inline Json element_json(const Field& field, const void* element) {
+  if (field.type == FieldType::kPoses) return pose_json(*static_cast<const Pose*>(element), false);
+  if (field.element != nullptr) return Json::parse(field.element->text(element));
+  if (field.kinds.empty()) return object_json(field.table(), element);
+  for (const Kind& kind : field.kinds) {
+    const void* const object = kind.find(element);
+    if (object == nullptr) continue;
+    Json value = object_json(kind.table(), object);
+    return kind.is_bare ? value : Json{{kind.word, value}};
+  }
+  return nullptr;
+}
+
+[[nodiscard]] inline Json list_json(const Field& field, const void* list) {
+  Json all = field.is_keyed ? Json::object() : Json::array();
+  for (std::size_t i = 0; i < field.list->size(list); ++i) {
+    const void* element = field.list->at(list, i);
+    if (field.is_keyed) {
+      const auto* name = static_cast<const std::string*>(field.table().fields[0].get(element));
+      all[*name] = element_json(field, element);
+    } else {
+      all.push_back(element_json(field, element));
+    }
+  }
+  return all;
+}
+
 /// The value of a setting in the format of world files.
 [[nodiscard]] inline Json value_json(const Field& field, const void* object) {
   const void* value = field.get(object);
@@ -43,34 +79,58 @@ using Json = nlohmann::ordered_json;
       return rounded(*static_cast<const double*>(value) / (field.is_angle ? kDegrees : 1.0));
     case FieldType::kInt:
       return integer_at(field, value);
-    case FieldType::kBool:
-      return *static_cast<const bool*>(value);
+    case FieldType::kInt64:
+      return rounded(to_seconds(*static_cast<const SimTime*>(value)));
+    case FieldType::kUint64:
+      return *static_cast<const std::uint64_t*>(value);
+    case FieldType::kBool: {
+      const bool is_set = *static_cast<const bool*>(value);
+      if (field.words.empty()) return is_set;
+      return field.words[is_set == field.first_word ? 0 : 1];
+    }
+    case FieldType::kTexts:
+      return *static_cast<const std::vector<std::string>*>(value);
+    case FieldType::kPoints: {
+      Json list = Json::array();
+      for (const Vec2& point : *static_cast<const std::vector<Vec2>*>(value)) {
+        list.push_back(vec2_json(point));
+      }
+      return list;
+    }
+    case FieldType::kStruct:
+      return object_json(field.table(), value);
     case FieldType::kText:
       return *static_cast<const std::string*>(value);
     case FieldType::kChoice:
       return field.words[static_cast<std::size_t>(integer_at(field, value))];
     case FieldType::kColour:
       return to_string(*static_cast<const Colour*>(value));
-    case FieldType::kVec2: {
-      const auto& point = *static_cast<const Vec2*>(value);
-      return Json::array({rounded(point.x()), rounded(point.y())});
-    }
+    case FieldType::kVec2:
+      return vec2_json(*static_cast<const Vec2*>(value));
     case FieldType::kPose:
       return pose_json(*static_cast<const Pose*>(value), true);
     case FieldType::kPoses:
-    case FieldType::kList: {
-      Json list = Json::array();
-      for (std::size_t i = 0; i < field.list->size(value); ++i) {
-        const void* element = field.list->at(value, i);
-        list.push_back(field.type == FieldType::kPoses
-                           ? pose_json(*static_cast<const Pose*>(element), false)
-                           : Json::parse(field.element->text(element)));
-      }
-      return list;
-    }
+    case FieldType::kList:
+      return list_json(field, value);
     default:
       return Json::parse(field.custom->text(value));
   }
+}
+
+/// The fields of a struct as read_fields() reads them, without those that have a format of their
+/// own.
+[[nodiscard]] inline Json object_json(const FieldTable& table, const void* object) {
+  Json made = Json::object();
+  for_each_field(table, object, [&made](const Field& field, const void* owner) {
+    if (field.read_only || field.custom != nullptr || field.get(owner) == nullptr) return;
+    const Json value = value_json(field, owner);
+    if (*field.name == '\0') {
+      made.update(value);
+    } else {
+      made[field.name] = value;
+    }
+  });
+  return made;
 }
 
 /// JSON in lines of at most 200 characters, where its structure allows it.

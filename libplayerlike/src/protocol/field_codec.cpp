@@ -94,6 +94,9 @@ json written(const Field& field, const void* value, Encoding encoding) {
     }
     case FieldType::kForm:
       return field.form->encode(value, encoding);
+    case FieldType::kPoints:
+    case FieldType::kMap:
+    case FieldType::kVariant:
     case FieldType::kInclude:
     case FieldType::kCustom:
       break;  // only in world files
@@ -221,6 +224,9 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
       return read_fields(field.table(), require(in, key), encoding, value);
     case FieldType::kForm:
       return field.form->decode(in, key, encoding, value);
+    case FieldType::kPoints:
+    case FieldType::kMap:
+    case FieldType::kVariant:
     case FieldType::kInclude:
     case FieldType::kCustom:
       SIM_ASSERT(false);  // only in world files

@@ -101,7 +101,9 @@ void Wifi::archive(StateArchive& archive) {
 }
 
 constexpr Field kAccessPoint[] = {
-    field<&AccessPoint::name>("name", "", "name of its network").needed("the name of its network"),
+    field<&AccessPoint::name>("name", "", "name of its network")
+        .as_name()
+        .needed("the name of its network"),
     field<&AccessPoint::p_W>("", "m", "place in the world").within(-kFarthest_m, kFarthest_m),
 };
 SIM_FIELDS(AccessPoint, kAccessPoint)

@@ -13,6 +13,7 @@
 #include "io/solid_limits.h"
 #include "sim/world/limits.h"
 #include "sim/world/robot_model.h"
+#include "world/controller_fields.h"
 
 namespace sim::io {
 namespace {
@@ -89,11 +90,21 @@ class ControllerChecker {
     need_number(pointer, x, 0.0, kLongestArenaTime_s, "s");
   }
 
-  void need_text(const std::string& pointer, const std::string& text) {
-    if (text.size() <= kMaxArenaText) return;
-    add("world/out-of-range", pointer,
-        "a text of at most " + std::to_string(kMaxArenaText) + " bytes",
-        std::to_string(text.size()) + " bytes");
+  /// Checks the lengths of an action's texts.
+  void check_texts(const ArenaAction& action, const std::string& pointer) {
+    for (const Kind& kind : field_named(fields_of<TimerDescription>(), "do").kinds) {
+      const void* const object = kind.find(&action);
+      if (object == nullptr) continue;
+      for_each_field(kind.table(), object, [&](const Field& field, const void* owner) {
+        if (field.type != FieldType::kText) return;
+        const auto& text = *static_cast<const std::string*>(field.get(owner));
+        if (text.size() <= field.max_count) return;
+        add("world/out-of-range",
+            pointer + '/' + kind.word + (kind.is_bare ? "" : std::string("/") + field.name),
+            "a text of at most " + std::to_string(field.max_count) + " bytes",
+            std::to_string(text.size()) + " bytes");
+      });
+    }
   }
 
   void need_obstacle(const std::string& pointer, const std::string& name) {
@@ -241,7 +252,8 @@ class ControllerChecker {
         }
       }
       if (timer.within_s) {
-        const auto [from_s, to_s] = *timer.within_s;
+        const double from_s = timer.within_s->x();
+        const double to_s = timer.within_s->y();
         need_time(pointer + "/within/0", from_s);
         need_time(pointer + "/within/1", to_s);
         if (from_s > to_s) {
@@ -300,6 +312,10 @@ class ControllerChecker {
     }
   }
 
+  /// Most conditions and actions name other parts of the world; the others need no check.
+  template <typename Simple>
+  static void check(const Simple&, const std::string&, bool) {}
+
   // --- Conditions
 
   void check_conditions(const std::vector<ArenaCondition>& conditions, const std::string& pointer,
@@ -340,6 +356,7 @@ class ControllerChecker {
                      bool of_timer) {
     if (!trusted_(pointer)) return;
     for (std::size_t i = 0; i < actions.size(); ++i) {
+      check_texts(actions[i], at(pointer, i));
       std::visit([&](const auto& kind) { check(kind, at(pointer, i), of_timer); }, actions[i]);
     }
   }
@@ -360,14 +377,9 @@ class ControllerChecker {
   void check(const PlaceAction& action, const std::string& pointer, bool) {
     need_obstacle(pointer + "/place/obstacle", action.obstacle);
   }
-  void check(const MessageAction& action, const std::string& pointer, bool) {
-    need_text(pointer + "/message", action.text);
-  }
   void check(const TextAction& action, const std::string& pointer, bool) {
-    need_text(pointer + "/text/text", action.text);
     need_time(pointer + "/text/duration", action.duration_s);
   }
-  static void check(const CanvasAction&, const std::string&, bool) {}
   void check(const RestartAction& action, const std::string& pointer, bool of_timer) {
     static_cast<void>(need_robot(pointer + "/restart", action.robot, of_timer));
   }
@@ -379,9 +391,6 @@ class ControllerChecker {
     for (std::size_t i = 0; i < action.names.size(); ++i) {
       need_switch(at(pointer + (action.on ? "/enable" : "/disable"), i), action.names[i]);
     }
-  }
-  void check(const EndAction& action, const std::string& pointer, bool) {
-    need_text(pointer + "/end/reason", action.reason);
   }
   void check(const MoveAction& action, const std::string& pointer, bool) {
     need_obstacle(pointer + "/move/obstacle", action.obstacle);

@@ -254,8 +254,8 @@ std::optional<SolidError> check_motion(const ObstacleMotion& motion) {
   if (motion.final_yaw_rad && !std::isfinite(*motion.final_yaw_rad)) {
     return SolidError{"/yaw_deg", "a number", number_text(*motion.final_yaw_rad), ""};
   }
-  if (!(motion.area_size.minCoeff() >= 0.0 && motion.area_size.allFinite() &&
-        motion.area_center.allFinite())) {
+  if (motion.area && !(motion.area->size.minCoeff() >= 0.0 && motion.area->size.allFinite() &&
+                       motion.area->center.allFinite())) {
     return SolidError{"/area", "finite numbers", "others", ""};
   }
   for (const Vec2& point : motion.points) {

@@ -147,8 +147,8 @@ void Simulation::Impl::Controller::begin_timer(std::size_t i) {
   timer.acted = 0;
   double first_s = description.at_s;
   if (description.within_s) {
-    const auto [from_s, to_s] = *description.within_s;
-    first_s = from_s + (to_s - from_s) * timer.random->uniform();
+    const Vec2 within_s = *description.within_s;
+    first_s = within_s[0] + (within_s[1] - within_s[0]) * timer.random->uniform();
   }
   timer.first_ns = from_seconds(first_s);
   plan_timer(i);

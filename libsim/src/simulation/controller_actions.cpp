@@ -154,12 +154,14 @@ void Simulation::Impl::Controller::act(const MessageAction& action, const Cause&
 }
 
 void Simulation::Impl::Controller::act(const TextAction& action, const Cause& cause) {
-  std::erase_if(texts_, [&](const Text& text) { return text.place == action.place; });
+  const ArenaDescription& arena = impl_.world.arena;
+  const Vec2 place = action.place.value_or(arena.origin + 0.5 * arena.size);
+  std::erase_if(texts_, [&](const Text& text) { return text.place == place; });
   if (texts_.size() >= kMostTexts) texts_.erase(texts_.begin());
   if (!action.text.empty()) {
     const SimTime end_ns =
         action.duration_s > 0.0 ? impl_.now_ns + from_seconds(action.duration_s) : kNever;
-    texts_.push_back({action.place, action.text, action.colour, end_ns});
+    texts_.push_back({place, action.text, action.colour, end_ns});
   }
   find_next_time();
   impl_.record(ArenaEventKind::kText, cause.name, {}, action.text, action.duration_s);

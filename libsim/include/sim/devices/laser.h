@@ -20,7 +20,7 @@ struct LaserParams {
   double latency_s = 0.0;     ///< from a measurement until its reading, [0, 10] [s]
   int beam_count = 682;       ///< 1..8192
   double resolution_rad = 0.39589 * std::numbers::pi / 180.0;  ///< angle between neighbouring beams
-  double range_max_m = 5.0;                                    ///< (0, 1000] [m]
+  double range_max_m = 5.0;                                    ///< [m]
   Pose X_BL{0.035, 0.0, 0.0};                                  ///< mounting on the body
   double height_m = 0.125;      ///< of its case along L's axes, for clients, >= 0
   Vec2 size_m{0.05, 0.05};      ///< of its case along L's axes, for clients, >= 0
