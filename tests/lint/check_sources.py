@@ -474,6 +474,20 @@ def promises(tree):
                 yield at(page, text, row.start(), f"there is no test {name}")
 
 
+# Words that begin a story instead of naming a subject.
+NARRATIVE = re.compile(r"(A|An|The|Who|What|So|It|Does|Do)(?=[A-Z])")
+
+
+def test_names(tree):
+    """A test's name is Subject_State_Result: one to three parts in plain words, at most 60 characters."""
+    part = r"[A-Z][A-Za-z0-9]*"
+    for path, source in tree.texts(r"tests/.*\.(cpp|cc|h)$"):
+        for match in TEST.finditer(source):
+            name = match[2]
+            if not re.fullmatch(f"{part}(_{part}){{0,2}}", name) or len(name) > 60 or NARRATIVE.match(name):
+                yield at(path, source, match.start(), f"the test's name {name} is not Subject_State_Result")
+
+
 # --- add_a_device: the page that explains the compass
 
 def add_a_device(tree):
@@ -520,7 +534,7 @@ def least(tree):
 
 
 RULES = [layering, seam, numbers, unused_using, size, words, links, index, glossary, which_world,
-         promises, add_a_device, least]
+         promises, test_names, add_a_device, least]
 
 
 # --- Tests of the rules themselves: each planted fault is found, and its neighbour is not.
@@ -657,6 +671,9 @@ def self_test():
          ":2: there is no test A.Bc", ":3: there is no test E.F_I")
 
     page = "".join(f"<!-- from: {name}.h -->\n```cpp\ncompass {name}\n```\n" for name in "abcdefg")
+    rule(test_names, {"tests/x_test.cpp": "TEST(A, B_IsC) {}\nTEST(A, TheB) {}\nTEST_F(A, B_C_D_E) {}\n"
+                                          "TEST_P(A,\n    b) {}\nTEST(A, Theta) {}\nTEST(A, Bc) {}\n"},
+         ":2: the test's name TheB", ":3: the test's name B_C_D_E", ":4: the test's name b")
     device = {"docs/add_a_device.md": "| `a.h` |\n| `tests/t.h` |\n" + page, "tests/t.h": "Compass"}
     sources = {f"{name}.h": f"compass {name}\n" for name in "abcdefg"}
     rule(add_a_device, {**device, "a.h": "compass"},

@@ -89,7 +89,7 @@ std::string table_of(const DriverType& type, const void* defaults) {
   return table;
 }
 
-TEST(DriverPages, EachDriverHasAPage) {
+TEST(DriverPages, ExistsForEachDriver) {
   std::vector<std::string> types;
   for (const DriverType& type : driver_types()) types.push_back(type.name);
   std::vector<std::string> described;
@@ -97,7 +97,7 @@ TEST(DriverPages, EachDriverHasAPage) {
   EXPECT_EQ(types, described);
 }
 
-TEST(DriverPages, HaveTheTablesThatTheFieldsMake) {
+TEST(DriverPages, Tables_MatchFields) {
   for_each_driver([](const DriverType& type, const void* defaults) {
     if (type.settings->fields.empty()) return;
     const std::string file = kRoot + "/docs/" + page_of(type).file;
@@ -194,7 +194,7 @@ Json with_drivers(Json schema) {
   return schema;
 }
 
-TEST(DriverPages, SchemaIsMadeOfTheFields) {
+TEST(DriverPages, Schema_MatchesFields) {
   const std::string file = kRoot + "/worlds/schema/world.schema.json";
   const std::string now = test_support::read_bytes(file);
   const std::string made = sim::test::json_text(with_drivers(Json::parse(now))) + "\n";

@@ -110,12 +110,12 @@ class MirrorTest : public testing::Test {
   std::unique_ptr<Mirror> mirror_;
 };
 
-TEST_F(MirrorTest, AWorldWithoutRealRobotsHasNone) {
+TEST_F(MirrorTest, WorldWithoutRealRobots_NoMirror) {
   sim::Simulation plain(sim::load_world_text("{}"));
   EXPECT_EQ(Mirror::open(plain, describe_robots(plain), opens(real_), {}), nullptr);
 }
 
-TEST_F(MirrorTest, ARobotStandsWhereTheRealOneSays) {
+TEST_F(MirrorTest, Robot_FollowsPoseOfRealRobot) {
   // The real robot's frame has its origin at (1, 2) and is turned by 90 degrees: its point
   // (0.5, 0.2) is (1 - 0.2, 2 + 0.5) in the world.
   open(world_text(R"(, "offset": {"x": 1, "y": 2, "yaw_deg": 90})"));
@@ -135,14 +135,14 @@ TEST_F(MirrorTest, ARobotStandsWhereTheRealOneSays) {
   EXPECT_NEAR(simulation_->statistics(0).path_length_m, 0.1, 1e-12);
 }
 
-TEST_F(MirrorTest, AnotherDeviceCanTellThePose) {
+TEST_F(MirrorTest, OtherDevice_MayProvidePose) {
   open(world_text(R"(, "pose": "position2d:1")"));
   measures({{test::kOdometry, test::pose_reading(1.0, {3.0, 3.0, 0.0})}});
   EXPECT_NEAR(pose().x_m, 3.0, 1e-12);
 }
 
 // A real robot that localises itself gives several hypotheses; the most likely one counts.
-TEST_F(MirrorTest, ALocalisationCanTellThePose) {
+TEST_F(MirrorTest, Localisation_MayProvidePose) {
   for (DeviceInfo& device : real_->robots[0].devices) {
     if (device.name == "pose") device.type = "amcl";
   }
@@ -167,7 +167,7 @@ TEST_F(MirrorTest, ALocalisationCanTellThePose) {
   EXPECT_NEAR(pose().x_m, 0.8, 1e-12);
 }
 
-TEST_F(MirrorTest, RealityWinsOverWalls) {
+TEST_F(MirrorTest, RealPose_OverridesWalls) {
   open(world_text());
   // An S1R reaches 0.087 m ahead of its axle, so it overlaps the border at x = 4.
   measures({{test::kPose, test::pose_reading(1.0, {3.97, 2.0, 0.0})}});
@@ -177,14 +177,14 @@ TEST_F(MirrorTest, RealityWinsOverWalls) {
   EXPECT_THAT(simulation_->collisions(), IsEmpty());
 }
 
-TEST_F(MirrorTest, InvalidPosesAreIgnored) {
+TEST_F(MirrorTest, InvalidPoses_Ignored) {
   open(world_text());
   measures({{test::kPose, test::pose_reading(1.0, {std::nan(""), 2.0, 0.0})}});
   EXPECT_EQ(pose().x_m, 1.0);
   EXPECT_THAT(warnings_, Contains(HasSubstr("the pose of the real robot of r1 is invalid")));
 }
 
-TEST_F(MirrorTest, ReadingsOfTheRealRobotReplaceThoseOfItsDevices) {
+TEST_F(MirrorTest, RealReadings_ReplaceSimulatedOnes) {
   open(world_text());
   for (const char* name : {"laser", "odometry", "pose"}) {
     EXPECT_TRUE(mirror_->replaces(device(name))) << name;
@@ -201,7 +201,7 @@ TEST_F(MirrorTest, ReadingsOfTheRealRobotReplaceThoseOfItsDevices) {
   EXPECT_THAT(mirror_->readings(), IsEmpty());
 }
 
-TEST_F(MirrorTest, DevicesThatTheRealRobotLacksStaySimulated) {
+TEST_F(MirrorTest, DevicesMissingOnRealRobot_StaySimulated) {
   std::erase_if(real_->robots[0].devices, [](const DeviceInfo& d) { return d.type == "laser"; });
   open(world_text());
   EXPECT_FALSE(mirror_->replaces(device("laser")));
@@ -212,14 +212,14 @@ TEST_F(MirrorTest, DevicesThatTheRealRobotLacksStaySimulated) {
   EXPECT_FALSE(mirror_->take_command(device("laser"), sim::TwistCommand{}));
 }
 
-TEST_F(MirrorTest, ReadingsOfAnotherKindAreIgnoredWithAWarning) {
+TEST_F(MirrorTest, ReadingsOfOtherType_IgnoredWithWarning) {
   open(world_text());
   real_->add_round({{test::kLaser, test::pose_reading(1.0, {})}});
   measures({{test::kOdometry, test::pose_reading(1.1, {})}});
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("gives other readings than its device laser")));
 }
 
-TEST_F(MirrorTest, CommandsGoToTheRealRobot) {
+TEST_F(MirrorTest, Commands_SentToRealRobot) {
   open(world_text());
   EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.25, 0.5, 0.0}}));
   EXPECT_TRUE(eventually([this] { return !sent().empty(); }));
@@ -228,7 +228,7 @@ TEST_F(MirrorTest, CommandsGoToTheRealRobot) {
 }
 
 // A goal in the world's frame W is sent in the frame F of the real robot's poses.
-TEST_F(MirrorTest, GoalsInTheWorldAreSentInTheRealRobotsFrame) {
+TEST_F(MirrorTest, WorldGoals_SentInFrameOfRealRobot) {
   open(world_text(R"(, "offset": {"x": 1, "y": 2, "yaw_deg": 90})"));
   EXPECT_TRUE(mirror_->take_command(device("motion"), sim::PositionCommand{{0.8, 2.5, 0.0}}));
   EXPECT_TRUE(eventually([this] { return !sent().empty(); }));
@@ -238,7 +238,7 @@ TEST_F(MirrorTest, GoalsInTheWorldAreSentInTheRealRobotsFrame) {
   EXPECT_EQ(goal.frame, test::kPose.device);
 }
 
-TEST_F(MirrorTest, TheRealRobotIsStoppedAtTheEnd) {
+TEST_F(MirrorTest, EndOfRun_StopsRealRobot) {
   open(world_text());
   mirror_->stop();
   ASSERT_FALSE(sent().empty());
@@ -247,7 +247,7 @@ TEST_F(MirrorTest, TheRealRobotIsStoppedAtTheEnd) {
   EXPECT_TRUE(report()["connected"]) << "the end of the run is no loss";
 }
 
-TEST_F(MirrorTest, APauseStopsTheRealRobot) {
+TEST_F(MirrorTest, Pause_StopsRealRobot) {
   open(world_text());
   EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.25, 0.0, 0.0}}));
   EXPECT_TRUE(eventually([this] { return !sent().empty(); }));
@@ -256,7 +256,7 @@ TEST_F(MirrorTest, APauseStopsTheRealRobot) {
   EXPECT_EQ(std::get<sim::TwistCommand>(sent()[1].second).twist, sim::Twist{});
 }
 
-TEST_F(MirrorTest, ALostConnectionIsReportedOnceAndCommandsEnd) {
+TEST_F(MirrorTest, LostConnection_ReportedOnceAndEndsCommands) {
   open(world_text());
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
   step();
@@ -285,7 +285,7 @@ TEST_F(MirrorTest, ALostConnectionIsReportedOnceAndCommandsEnd) {
 
 // --- Who is in charge of the real robot
 
-TEST_F(MirrorTest, ItShowsTheServerThatItIsThere) {
+TEST_F(MirrorTest, Heartbeat_SentToServer) {
   open(world_text(R"(, "watchdog": 0.05)"));
   EXPECT_TRUE(eventually([this] {
     const std::lock_guard lock(real_->mutex);
@@ -295,7 +295,7 @@ TEST_F(MirrorTest, ItShowsTheServerThatItIsThere) {
   EXPECT_THAT(warnings_, IsEmpty());
 }
 
-TEST_F(MirrorTest, ARobotOfAnotherMirrorIsAnErrorUnlessItIsTakenOver) {
+TEST_F(MirrorTest, RobotOfOtherMirror_RefusedUnlessTakenOver) {
   real_->in_charge = "the mirror on lab7, process 12";
   EXPECT_THAT([&] { open(world_text()); },
               ThrowsMessage<sim::ConfigError>(
@@ -305,7 +305,7 @@ TEST_F(MirrorTest, ARobotOfAnotherMirrorIsAnErrorUnlessItIsTakenOver) {
   EXPECT_THAT(real_->in_charge, Not(HasSubstr("lab7")));
 }
 
-TEST_F(MirrorTest, AMirrorWhoseRobotIsTakenOverHasLostIt) {
+TEST_F(MirrorTest, TakenOverRobot_ReportedLost) {
   open(world_text(R"(, "watchdog": 0.05)"));
   {
     const std::lock_guard lock(real_->mutex);
@@ -318,7 +318,7 @@ TEST_F(MirrorTest, AMirrorWhoseRobotIsTakenOverHasLostIt) {
   EXPECT_THAT(losses_, ElementsAre(HasSubstr("another mirror is in charge")));
 }
 
-TEST_F(MirrorTest, TheUserIsToldThatTheWatchdogHasStoppedTheRobot) {
+TEST_F(MirrorTest, WatchdogStop_Reported) {
   open(world_text(R"(, "watchdog": 0.05)"));
   {
     const std::lock_guard lock(real_->mutex);
@@ -331,13 +331,13 @@ TEST_F(MirrorTest, TheUserIsToldThatTheWatchdogHasStoppedTheRobot) {
   EXPECT_THAT(warnings_[0], HasSubstr("has stopped it, since it had heard nothing for 0.05 s"));
 }
 
-TEST_F(MirrorTest, AServerThatCannotWatchIsNamedAtTheStart) {
+TEST_F(MirrorTest, ServerWithoutWatchdog_NamedAtStart) {
   real_->watches = false;
   open(world_text(R"(, "watchdog": 0.05)"));
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("if the network fails, the robot drives on")));
 }
 
-TEST_F(MirrorTest, ALostConnectionIsMadeAgainIfTheWorldSaysSo) {
+TEST_F(MirrorTest, LostConnection_ReconnectsIfWorldAllows) {
   open(world_text(R"(, "on_lost": "reconnect")"));
   const auto set_closed = [this](bool closed) {
     const std::lock_guard lock(real_->mutex);
@@ -365,7 +365,7 @@ TEST_F(MirrorTest, ALostConnectionIsMadeAgainIfTheWorldSaysSo) {
 
 // --- What cannot reach the real robot is refused
 
-TEST_F(MirrorTest, DevicesThatTheRealRobotLacksDoNotMoveIt) {
+TEST_F(MirrorTest, DevicesMissingOnRealRobot_DoNotMoveIt) {
   open(world_text(R"(}, "devices": {"go": {"type": "waypoint"}, "jump": {"type": "teleport"})"));
   const auto refusal = [this](const char* name, const sim::Command& command) {
     const auto executed = mirror_->take_command(device(name), command);
@@ -379,7 +379,7 @@ TEST_F(MirrorTest, DevicesThatTheRealRobotLacksDoNotMoveIt) {
               HasSubstr("names a frame"));
 }
 
-TEST_F(MirrorTest, DevicesThatAreSwitchedOffTakeNoCommandsAndGiveNoReadings) {
+TEST_F(MirrorTest, DisabledDevices_TakeNoCommandsAndGiveNoReadings) {
   open(world_text());
   simulation_->set_active(device("motion"), false);
   EXPECT_THAT(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}),
@@ -391,7 +391,7 @@ TEST_F(MirrorTest, DevicesThatAreSwitchedOffTakeNoCommandsAndGiveNoReadings) {
   EXPECT_THAT(sent(), IsEmpty());
 }
 
-TEST_F(MirrorTest, NobodyPutsItElsewhereOrHoldsItFast) {
+TEST_F(MirrorTest, PlacementAndSuspension_Refused) {
   open(world_text());
   const auto mirrors = testing::Optional(HasSubstr("robot r1 mirrors a real robot"));
   EXPECT_THAT(simulation_->place_object("r1", {2.0, 2.0, 0.0}), mirrors);
@@ -400,7 +400,7 @@ TEST_F(MirrorTest, NobodyPutsItElsewhereOrHoldsItFast) {
   EXPECT_THAT(simulation_->reset(), mirrors);
 }
 
-TEST_F(MirrorTest, ServersThatCannotBeReachedAreErrorsWithTheirPlace) {
+TEST_F(MirrorTest, UnreachableServers_ErrorNamesThem) {
   sim::Simulation simulation(sim::load_world_text(world_text(), "lab.json"));
   const OpenRealRobot refuses = [](const RealRobotPlace&) -> std::unique_ptr<Session> {
     throw SessionError(SessionError::Code::kDisconnected, "connection refused");
@@ -414,7 +414,7 @@ TEST_F(MirrorTest, ServersThatCannotBeReachedAreErrorsWithTheirPlace) {
               ThrowsMessage<sim::ConfigError>(HasSubstr("no way to connect to real robots")));
 }
 
-TEST_F(MirrorTest, ARealRobotWithoutTheDeviceOfThePoseIsAnError) {
+TEST_F(MirrorTest, MissingPoseDevice_Error) {
   EXPECT_THAT([&] { open(world_text(R"(, "pose": "position2d:5")")); },
               ThrowsMessage<sim::ConfigError>(
                   AllOf(HasSubstr("position2d:5"), HasSubstr("position2d:0 (r1.pose)"))));
@@ -422,7 +422,7 @@ TEST_F(MirrorTest, ARealRobotWithoutTheDeviceOfThePoseIsAnError) {
 
 // --- The ghost
 
-TEST_F(MirrorTest, AGhostFollowsTheSameCommands) {
+TEST_F(MirrorTest, Ghost_FollowsSameCommands) {
   open(world_text(R"(, "drive": "both")"));
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
   EXPECT_EQ(report()["ghost"]["final_distance"], 0.0) << "it starts at the real robot";
@@ -451,7 +451,7 @@ TEST_F(MirrorTest, AGhostFollowsTheSameCommands) {
   EXPECT_NEAR(nlohmann::json::parse(fields[3]).get<double>(), 0.15, 1e-3);
 }
 
-TEST(Ghost, CollidesWithTheArena) {
+TEST(Ghost, CollidesWithArena) {
   Ghost ghost(sim::load_world_text(world_text()), 0);
   EXPECT_FALSE(ghost.place({3.99, 2.0, 0.0}));
   ASSERT_TRUE(ghost.place({3.8, 2.0, 0.0}));
@@ -463,7 +463,7 @@ TEST(Ghost, CollidesWithTheArena) {
   ghost.stop();
 }
 
-TEST(Ghost, BlocksRiseForItAsInTheWorld) {
+TEST(Ghost, BlocksRiseAsInWorld) {
   const char* const text = R"({"arena": {"size": [4, 4], "obstacles": [
     {"name": "gate", "type": "dynamic", "center": [3, 2], "size": [0.2, 1]}], "retracted": ["gate"]},
     "robots": [{"name": "r1", "pose": {"x": 1, "y": 2}}]})";
@@ -476,7 +476,7 @@ TEST(Ghost, BlocksRiseForItAsInTheWorld) {
   EXPECT_LT(ghost.pose().x_m, 2.9);
 }
 
-TEST_F(MirrorTest, TheGhostStopsWhenTheConnectionIsLost) {
+TEST_F(MirrorTest, LostConnection_StopsGhost) {
   open(world_text(R"(, "drive": "both")"));
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
   EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}));
@@ -497,7 +497,7 @@ TEST_F(MirrorTest, TheGhostStopsWhenTheConnectionIsLost) {
 
 // --- Scans
 
-TEST(ScanDifference, ComparesBeamsOfTheSameAngle) {
+TEST(ScanDifference, ComparesBeamsOfSameAngle) {
   // Three real beams at -0.5, 0 and 0.5 rad; the predicted scan has beams at -0.5, -0.25, ... 0.5.
   sim::LaserReading real;
   real.angle_min_rad = -0.5;
@@ -521,7 +521,7 @@ TEST(ScanDifference, ComparesBeamsOfTheSameAngle) {
   EXPECT_NEAR(difference.places[1].p_L.norm(), 2.5, 1e-12) << "where the world has something";
 }
 
-TEST(ScanDifference, BeamsOutsideOfThePredictedScanDoNotCount) {
+TEST(ScanDifference, BeamsOutsidePredictedScan_Ignored) {
   sim::LaserReading real;
   real.angle_min_rad = -3.0;
   real.resolution_rad = 1.0;
@@ -537,7 +537,7 @@ TEST(ScanDifference, BeamsOutsideOfThePredictedScanDoNotCount) {
   EXPECT_EQ(compare_scans({}, predicted).beams, 0);
 }
 
-TEST_F(MirrorTest, TheRealScanIsDrawnAndCompared) {
+TEST_F(MirrorTest, RealScan_DrawnAndCompared) {
   open(world_text());
   // From (2, 2), the laser is at (2.035, 2) and looks along x. Ahead, the border is at 1.965 m;
   // something that the world lacks stands at 1 m.
@@ -578,7 +578,7 @@ class Readings : public ReadingSink {
   std::vector<sim::SharedReading> readings;
 };
 
-TEST(MirroredRun, AProgramDrivesTheRealRobotAndReadsItsDevices) {
+TEST(MirroredRun, Program_DrivesAndReadsRealRobot) {
   const auto real = make_real_robot();
   const auto host = Host::create(sim::load_world_text(world_text()), settings_for(real));
   EXPECT_EQ(host->time().mode, sim::TimeMode::kPaced) << "a real robot lives in real time";
@@ -609,7 +609,7 @@ void lose(FakeWorld& real) {
   real.changed.notify_all();
 }
 
-TEST(MirroredRun, AProgramIsToldThatTheRealRobotIsLost) {
+TEST(MirroredRun, LostRobot_ReportedToProgram) {
   const auto real = make_real_robot();
   std::vector<std::string> log;
   std::mutex log_mutex;
@@ -639,7 +639,7 @@ TEST(MirroredRun, AProgramIsToldThatTheRealRobotIsLost) {
   host->finish();
 }
 
-TEST(MirroredRun, ForClientsOfAServerTheLossIsTheEnd) {
+TEST(MirroredRun, LostRobot_EndsRunForServerClients) {
   const auto real = make_real_robot();
   const auto host = Host::create(sim::load_world_text(world_text()), settings_for(real));
   const auto client = host->connect_events(6665, [] {});
@@ -653,7 +653,7 @@ TEST(MirroredRun, ForClientsOfAServerTheLossIsTheEnd) {
   host->finish();
 }
 
-TEST(MirroredRun, TheLossEndsTheRunIfTheWorldSaysSo) {
+TEST(MirroredRun, LostRobot_EndsRunIfWorldSaysSo) {
   const test_support::TemporaryFolder folder;
   const auto real = make_real_robot();
   RunSettings settings = settings_for(real);
@@ -672,7 +672,7 @@ TEST(MirroredRun, TheLossEndsTheRunIfTheWorldSaysSo) {
   EXPECT_FALSE(report["mirror"][0]["connected"]);
 }
 
-TEST(MirroredRun, TrajectoriesHaveTheGhostAndTheDifferences) {
+TEST(MirroredRun, Trajectory_HasGhostAndDifferences) {
   const test_support::TemporaryFolder folder;
   const auto real = make_real_robot();
   RunSettings settings = settings_for(real);
@@ -703,7 +703,7 @@ TEST(MirroredRun, TrajectoriesHaveTheGhostAndTheDifferences) {
                               "3.000000,0.000000,0.000000,,"));
 }
 
-TEST(MirroredRun, NeedsRealTime) {
+TEST(MirroredRun, RealTimeRequired) {
   RunSettings settings;
   settings.time_mode = sim::TimeMode::kLockstep;
   sim::WorldDescription world = sim::load_world_text(world_text());
@@ -723,7 +723,7 @@ TEST(MirroredRun, NeedsRealTime) {
               ThrowsMessage<sim::ConfigError>(HasSubstr("/simulation/time")));
 }
 
-TEST(MirroredRun, SettingsBindRobots) {
+TEST(MirroredRun, Settings_BindRobots) {
   RealRobotChoice choice;
   ASSERT_TRUE(parse_real_robot("r1=player://robot.example.org:6665", choice));
   EXPECT_EQ(choice.robot, "r1");
@@ -785,7 +785,7 @@ class MirroredMorse : public testing::Test {
   std::optional<Server> server_;
 };
 
-TEST_F(MirroredMorse, CommandsReachTheRealRobotAndAreRefusedWhereTheyCannot) {
+TEST_F(MirroredMorse, Commands_ReachRealRobotOrAreRefused) {
   auto client = connect();
   EXPECT_EQ(ask(client, "r1.motion set_speed [0.3, 0]"), "1 SUCCESS");
   EXPECT_TRUE(real_gets(0.3));
@@ -800,7 +800,7 @@ TEST_F(MirroredMorse, CommandsReachTheRealRobotAndAreRefusedWhereTheyCannot) {
   }
 }
 
-TEST_F(MirroredMorse, SwitchingItsMotorsOffStopsTheRealRobot) {
+TEST_F(MirroredMorse, MotorsOff_StopsRealRobot) {
   auto client = connect();
   EXPECT_EQ(ask(client, "r1.motion set_speed [0.3, 0]"), "1 SUCCESS");
   EXPECT_TRUE(real_gets(0.3));
@@ -812,7 +812,7 @@ TEST_F(MirroredMorse, SwitchingItsMotorsOffStopsTheRealRobot) {
   EXPECT_TRUE(real_gets(0.2));
 }
 
-TEST_F(MirroredMorse, TheRealRobotStopsWhenItsCommanderIsGone) {
+TEST_F(MirroredMorse, CommanderLeaves_RealRobotStops) {
   auto looker = connect();
   EXPECT_THAT(ask(looker, "simulation list_robots"), HasSubstr("r1"));
   {
@@ -846,7 +846,7 @@ TEST_F(MirroredMorse, StreamOfSensor_CarriesAllReadingsOfTheRealRobot) {
   EXPECT_THAT(line, HasSubstr("\"x\": 2.5,"));
 }
 
-TEST_F(MirroredMorse, AStreamOfCommandsStopsTheRealRobotAtItsEnd) {
+TEST_F(MirroredMorse, CommandStreamEnds_RealRobotStops) {
   auto client = connect();
   const std::string answer = ask(client, R"(simulation get_stream_port ["r1.motion"])");
   {

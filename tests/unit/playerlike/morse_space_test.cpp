@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 using testing::Contains;
 
-TEST(PythonJson, IsWrittenAsPythonDoes) {
+TEST(PythonJson, MatchesPython) {
   // Each text is what json.dumps() of Python 3.11 gives.
   EXPECT_EQ(python_json(json{{"a", {1, 2.0, true, nullptr}}, {"b", "x"}}),
             R"({"a": [1, 2.0, true, null], "b": "x"})");
@@ -80,7 +80,7 @@ class MorseSpace : public testing::Test {
   sim::Simulation simulation_;
 };
 
-TEST_F(MorseSpace, CarriedSensorsHaveTheirCarrierInTheirName) {
+TEST_F(MorseSpace, MountedSensors_NamedWithCarrier) {
   std::vector<std::string> names;
   for (const MorseComponent& one : components()) names.push_back(one.name);
   EXPECT_THAT(names, Contains("r1.ptu.gyro"));
@@ -90,7 +90,7 @@ TEST_F(MorseSpace, CarriedSensorsHaveTheirCarrierInTheirName) {
   EXPECT_EQ(component("r1.ptu").stream, StreamDirection::kIn);
 }
 
-TEST_F(MorseSpace, CommandsHaveMorsesSigns) {
+TEST_F(MorseSpace, Commands_HaveSignsOfMorse) {
   const auto point = std::get<sim::PointCommand>(command("r1.ptu", {{"pan", 0.5}, {"tilt", 0.2}}));
   EXPECT_EQ(point.pan_rad, 0.5);
   EXPECT_EQ(point.tilt_rad, -0.2);  // MORSE's tilt is positive downwards
@@ -111,7 +111,7 @@ TEST_F(MorseSpace, CommandsHaveMorsesSigns) {
   EXPECT_ANY_THROW(static_cast<void>(command("r1.orientation", {{"pitch", 1.0}})));
 }
 
-TEST_F(MorseSpace, RecordsHaveMorsesKeys) {
+TEST_F(MorseSpace, Records_HaveKeysOfMorse) {
   const json simple = record("r1.gps", 20);
   EXPECT_NEAR(simple["x"], 100.0, 1e-9);
   EXPECT_FALSE(simple.contains("latitude"));
@@ -127,7 +127,7 @@ TEST_F(MorseSpace, RecordsHaveMorsesKeys) {
   EXPECT_EQ(record("r1.altimeter", 1)["z"], 0.0);
 }
 
-TEST_F(MorseSpace, PicturesAreThoseOfMorse) {
+TEST_F(MorseSpace, Pictures_MatchMorse) {
   EXPECT_EQ(component("r1.camera").class_name, "VideoCamera");
   EXPECT_EQ(component("r1.depth").class_name, "DepthCamera");
   const json picture = record("r1.camera", 20);
@@ -158,7 +158,7 @@ TEST_F(MorseSpace, PicturesAreThoseOfMorse) {
   }
 }
 
-TEST_F(MorseSpace, DestinationsAndHandsAreThoseOfMorse) {
+TEST_F(MorseSpace, DestinationsAndHands_MatchMorse) {
   EXPECT_EQ(component("r1.go").stream, StreamDirection::kIn);
   const auto goal =
       std::get<sim::GotoCommand>(command("r1.go", {{"x", 1.0}, {"y", 2.0}, {"z", 3.0}}));

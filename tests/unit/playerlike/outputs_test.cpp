@@ -63,7 +63,7 @@ class Outputs : public testing::Test {
       "robots": [{"name": "r1", "pose": {"x": 0.5, "y": 0.5, "yaw_deg": 0}}]})")};
 };
 
-TEST_F(Outputs, EachLayerHasAFileOfItsOwnAndGreyOnesAMap) {
+TEST_F(Outputs, EachLayer_HasFileAndGreyLayersMap) {
   const sim::LayerId grey = add(sim::LayerKind::kGrey, "occupancy", 6665);
   const sim::LayerId path = add(sim::LayerKind::kBinary, "path", 6665);
   const std::vector<sim::CellValue> wall = {sim::CellValue::of(1.0F)};
@@ -84,7 +84,7 @@ TEST_F(Outputs, EachLayerHasAFileOfItsOwnAndGreyOnesAMap) {
   EXPECT_NEAR(map.at(4, 0), 0.5, 0.01);  // unknown, in shades of a byte
 }
 
-TEST_F(Outputs, NamesOfLayersAreMadeSafeAndToldApart) {
+TEST_F(Outputs, LayerNames_MadeSafeAndDistinct) {
   add(sim::LayerKind::kBinary, "../../etc/x", 6665);
   add(sim::LayerKind::kBinary, "path", 6665);
   add(sim::LayerKind::kBinary, "Path", 6666);    // equal if case is ignored
@@ -97,7 +97,7 @@ TEST_F(Outputs, NamesOfLayersAreMadeSafeAndToldApart) {
                           "canvas.png", "canvas_6666.png", "path_6665.png"));
 }
 
-TEST_F(Outputs, EqualRunsGiveEqualBytesAndLayersThatAreGoneLeaveNoFile) {
+TEST_F(Outputs, EqualRuns_SameBytesAndRemovedLayersNoFile) {
   const sim::LayerId grey = add(sim::LayerKind::kGrey, "occupancy", 6665);
   write();
   std::vector<std::string> first;
@@ -112,7 +112,7 @@ TEST_F(Outputs, EqualRunsGiveEqualBytesAndLayersThatAreGoneLeaveNoFile) {
   EXPECT_THAT(layer_files(), ElementsAre("canvas.png"));
 }
 
-TEST_F(Outputs, ScenePictureShowsTheGroundUnlessTheModeIsMiniMap) {
+TEST_F(Outputs, ScenePicture_ShowsGroundExceptInMiniMap) {
   simulation_.canvas().draw_line(0, 0, 19, 29, {255, 0, 0, 255});
   write();
   const std::string ground = bytes("scene.png");
@@ -124,7 +124,7 @@ TEST_F(Outputs, ScenePictureShowsTheGroundUnlessTheModeIsMiniMap) {
   EXPECT_FALSE(bytes("scene.png") == ground);
 }
 
-TEST_F(Outputs, RemovingResultsLeavesOtherFiles) {
+TEST_F(Outputs, RemovedResults_OtherFilesStay) {
   add(sim::LayerKind::kGrey, "occupancy", 6665);
   write();
   folder_.write("snapshots/scene_000001.000s.png", "old");
@@ -212,7 +212,7 @@ std::map<std::string, std::string> all_texts_of_a_run() {
   return texts;
 }
 
-TEST(OutputsOfAnArenaController, AreEventsScoresAndVerdict) {
+TEST(OutputsOfAnArenaController, EventsScoresAndVerdict_Written) {
   const auto report_of = [](const std::string& more) {
     sim::Simulation simulation(sim::load_world_text(
         R"({"arena": {"size": [4, 4]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}}])" +
@@ -236,7 +236,7 @@ TEST(OutputsOfAnArenaController, AreEventsScoresAndVerdict) {
   }
 }
 
-TEST(OutputsOfAnArenaController, HaveTheStateOfEachDynamicBlock) {
+TEST(OutputsOfAnArenaController, DynamicBlocks_StateWritten) {
   sim::Simulation simulation(sim::load_world_text(R"({"arena": {"size": [4, 4], "obstacles": [
       {"name": "wall", "center": [3, 1]}, {"name": "a", "center": [3, 2], "type": "dynamic"},
       {"name": "b", "center": [3, 3], "type": "dynamic", "rise_speed": 0.1},
@@ -251,7 +251,7 @@ TEST(OutputsOfAnArenaController, HaveTheStateOfEachDynamicBlock) {
             nlohmann::json::parse(R"({"a": "extended", "b": "sinking", "c": "waiting"})"));
 }
 
-TEST(OutputsInALocale, WithADecimalCommaAreTheSameBytesAsWithout) {
+TEST(OutputsInALocale, DecimalComma_SameBytes) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   std::setlocale(LC_ALL, "C");
   const std::map<std::string, std::string> expected = all_texts_of_a_run();

@@ -158,7 +158,7 @@ class PlayerWork : public testing::Test {
   Client other_{hub_};
 };
 
-TEST_F(PlayerWork, LargePartsOfTheMapAreMadeWhileOthersAreAnswered) {
+TEST_F(PlayerWork, LargeMap_OthersAnsweredBetweenPieces) {
   client_.open(PLAYER_MAP_CODE);
   player::MapData part;
   part.width = 2048;
@@ -183,7 +183,7 @@ TEST_F(PlayerWork, LargePartsOfTheMapAreMadeWhileOthersAreAnswered) {
   EXPECT_EQ(client_.peer.take().at(0).header.type, PLAYER_MSGTYPE_RESP_NACK);
 }
 
-TEST_F(PlayerWork, APolygonOfManyCornersIsDrawnInPieces) {
+TEST_F(PlayerWork, LargePolygon_DrawnInPieces) {
   client_.open(PLAYER_GRAPHICS2D_CODE);
   // 10 000 corners, at the lower and the upper edge in turn: each row crosses all edges.
   player::Graphics2dCmdPolygon polygon;
@@ -214,7 +214,7 @@ TEST_F(PlayerWork, APolygonOfManyCornersIsDrawnInPieces) {
   });
 }
 
-TEST_F(PlayerWork, LightDrawingsAreQueuedUntilTheyAreMany) {
+TEST_F(PlayerWork, SmallDrawings_QueuedUpToLimit) {
   client_.open(PLAYER_GRAPHICS2D_CODE);
   player::Graphics2dCmdPolyline line;
   line.points = {{0.0, 0.5}, {2.047, 0.5}};

@@ -81,14 +81,14 @@ INSTANTIATE_TEST_SUITE_P(Protocol, EachEncoding, testing::Values(Encoding::kJson
 
 // --- framing
 
-TEST(Framing, NamesEncodings) {
+TEST(Framing, Encodings_HaveNames) {
   EXPECT_EQ(parse_encoding("json"), Encoding::kJson);
   EXPECT_EQ(parse_encoding("cbor"), Encoding::kCbor);
   EXPECT_EQ(parse_encoding("CBOR"), std::nullopt);
   EXPECT_EQ(parse_encoding(""), std::nullopt);
 }
 
-TEST_P(EachEncoding, SplitsAStreamWhateverItsPieces) {
+TEST_P(EachEncoding, Stream_SplitInAnyPieces) {
   std::vector<json> messages;
   for (std::size_t length : {0U, 1U, 2U, 30U, 300U, 3U, 70000U, 5U}) {
     messages.push_back({{"id", messages.size()}, {"text", std::string(length, 'x')}});
@@ -119,7 +119,7 @@ TEST_P(EachEncoding, SplitsAStreamWhateverItsPieces) {
   }
 }
 
-TEST_P(EachEncoding, KnowsWhetherPartOfAMessageWaits) {
+TEST_P(EachEncoding, PartialMessage_Detected) {
   const std::string bytes = encode({{"id", 1}}, GetParam());
   MessageSplitter splitter(GetParam(), kLimit);
   EXPECT_FALSE(splitter.partial());
@@ -133,7 +133,7 @@ TEST_P(EachEncoding, KnowsWhetherPartOfAMessageWaits) {
   EXPECT_FALSE(splitter.partial());
 }
 
-TEST(Framing, LinesMayEndWithReturnAndLineFeed) {
+TEST(Framing, Lines_MayEndWithCrLf) {
   MessageSplitter splitter(Encoding::kJson, 3);
   splitter.add("abc\r\n\n\r\na\rb\nx");
   EXPECT_EQ(splitter.next(), "abc");
@@ -143,7 +143,7 @@ TEST(Framing, LinesMayEndWithReturnAndLineFeed) {
   EXPECT_EQ(splitter.next(), std::nullopt);
 }
 
-TEST(Framing, ALineThatIsTooLongIsKnownBeforeItsEnd) {
+TEST(Framing, LongLine_DetectedBeforeItsEnd) {
   MessageSplitter splitter(Encoding::kJson, 3);
   splitter.add("abc");
   EXPECT_EQ(splitter.next(), std::nullopt);
@@ -158,7 +158,7 @@ TEST(Framing, ALineThatIsTooLongIsKnownBeforeItsEnd) {
   EXPECT_EQ(error_of([&] { static_cast<void>(whole.next()); }), "protocol/too-long");
 }
 
-TEST(Framing, AFrameThatIsTooLongIsKnownByItsLength) {
+TEST(Framing, LongFrame_DetectedByLength) {
   MessageSplitter splitter(Encoding::kCbor, 3);
   splitter.add(std::string_view("\0\0\0\3abc\0\0\0", 10));
   EXPECT_EQ(splitter.next(), "abc");
@@ -170,7 +170,7 @@ TEST(Framing, AFrameThatIsTooLongIsKnownByItsLength) {
   EXPECT_EQ(error_of([&] { static_cast<void>(gigabytes.next()); }), "protocol/too-long");
 }
 
-TEST(Framing, TheEncodingMayChangeInTheMiddleOfAPiece) {
+TEST(Framing, Encoding_MayChangeWithinPiece) {
   const json message = {{"id", 7}};
   MessageSplitter splitter(Encoding::kJson, kLimit);
   splitter.add("1 playpen hello\n" + encode(message, Encoding::kCbor) + "1 time now\n");
@@ -181,7 +181,7 @@ TEST(Framing, TheEncodingMayChangeInTheMiddleOfAPiece) {
   EXPECT_EQ(splitter.next(), "1 time now");
 }
 
-TEST(Framing, TheLimitMayChange) {
+TEST(Framing, Limit_MayChange) {
   MessageSplitter splitter(Encoding::kJson, 10);
   splitter.add("123456\n1234\n");
   EXPECT_EQ(splitter.next(), "123456");
@@ -191,7 +191,7 @@ TEST(Framing, TheLimitMayChange) {
 
 // --- values
 
-TEST_P(EachEncoding, ValuesComeOutAsTheyWentIn) {
+TEST_P(EachEncoding, Values_RoundTrip) {
   const json message = {
       {"null", nullptr},
       {"yes", true},
@@ -205,7 +205,7 @@ TEST_P(EachEncoding, ValuesComeOutAsTheyWentIn) {
   EXPECT_EQ(through(message, GetParam()), message);
 }
 
-TEST_P(EachEncoding, DoublesComeOutToTheBit) {
+TEST_P(EachEncoding, Doubles_RoundTripExactly) {
   std::mt19937_64 random(2);
   std::vector<double> numbers = {0.0,
                                  -0.0,
@@ -239,7 +239,7 @@ TEST_P(EachEncoding, DoublesComeOutToTheBit) {
   }
 }
 
-TEST_P(EachEncoding, BytesComeOutAsTheyWentIn) {
+TEST_P(EachEncoding, Bytes_RoundTrip) {
   std::mt19937_64 random(3);
   for (std::size_t size = 0; size < 70; ++size) {
     std::vector<std::uint8_t> data(size);
@@ -249,7 +249,7 @@ TEST_P(EachEncoding, BytesComeOutAsTheyWentIn) {
   }
 }
 
-TEST(JsonText, BytesAreBase64AsInTheStandard) {
+TEST(JsonText, Bytes_AreStandardBase64) {
   // RFC 4648, section 10.
   const std::map<std::string, std::string> vectors = {{"", ""},
                                                       {"f", "Zg=="},
@@ -271,7 +271,7 @@ TEST(JsonText, BytesAreBase64AsInTheStandard) {
   }
 }
 
-TEST_P(EachEncoding, TextsThatAreNoUtf8AreSentWithReplacements) {
+TEST_P(EachEncoding, InvalidUtf8_Replaced) {
   const json message = {{"te\xffxt", {"a\xc3", {{"k\xed\xa0\x80", "\xf0\x9f\xa4\x96"}}}}, {"n", 1}};
   const json received = through(message, GetParam());
   EXPECT_EQ(received.at("te\uFFFDxt").at(0), "a\uFFFD");
@@ -279,16 +279,16 @@ TEST_P(EachEncoding, TextsThatAreNoUtf8AreSentWithReplacements) {
   EXPECT_EQ(received.at("n"), 1);
 }
 
-TEST(JsonText, AMessageIsOneLine) {
+TEST(JsonText, Message_OneLine) {
   const std::string line = encode({{"text", "a\nb\r\u2028"}, {"n", 1.0}}, Encoding::kJson);
   EXPECT_EQ(line, "{\"n\":1.0,\"text\":\"a\\nb\\r\u2028\"}\n");
 }
 
-TEST(JsonText, NumbersThatAreNotFiniteAreWrittenAsNull) {
+TEST(JsonText, NonFiniteNumbers_AreNull) {
   EXPECT_EQ(encode({{"n", std::nan("")}}, Encoding::kJson), "{\"n\":null}\n");
 }
 
-TEST(JsonText, LongListsOfNumbersAreReadAsTheParserWould) {
+TEST(JsonText, LongNumberLists_MatchParser) {
   // Many spellings, between other lists that look similar.
   const std::string numbers =
       " 0 ,-0,1.5e3,1E-2 ,\t12345678901234567890,0.1,2e+2,-7.25,8,9,10,11,12,13,14,15,1e-300 ";
@@ -312,7 +312,7 @@ TEST(JsonText, LongListsOfNumbersAreReadAsTheParserWould) {
   EXPECT_EQ(decode("{\"a\":" + tiny + "}", Encoding::kJson).at("a"), json::parse(tiny));
 }
 
-TEST(JsonText, ShortListsAndValuesOfLinesStayLists) {
+TEST(JsonText, ShortLists_StayLists) {
   EXPECT_EQ(decode("{\"a\":[1,2,3]}", Encoding::kJson), (json{{"a", {1, 2, 3}}}));
   const json list = std::vector<int>(100, 3);
   EXPECT_EQ(decode_json_value(list.dump()), list);
@@ -329,7 +329,7 @@ std::string repeated(const std::string& text, int times) {
   return out;
 }
 
-TEST(JsonText, RefusesWhatIsNoJson) {
+TEST(JsonText, InvalidJson_Refused) {
   for (const std::string text : {"",
                                  " ",
                                  "{",
@@ -372,7 +372,7 @@ TEST(JsonText, RefusesWhatIsNoJson) {
   }
 }
 
-TEST(JsonText, TellsWhereTheTextIsWrong) {
+TEST(JsonText, Error_NamesPlace) {
   std::string message;
   const std::string text = "{\"a\":[" + repeated("1.25,", 30) + "1],\"b\":x}";
   error_of([&] { static_cast<void>(decode(text, Encoding::kJson)); }, &message);
@@ -383,7 +383,7 @@ TEST(JsonText, TellsWhereTheTextIsWrong) {
   EXPECT_THAT(message, SizeIs(testing::Lt(300U))) << "as long as what was sent";
 }
 
-TEST(JsonText, RefusesNumbersThatAreTooLarge) {
+TEST(JsonText, LargeNumbers_Refused) {
   for (const std::string& number : {std::string("1e999"), std::string("-1e999"),
                                     std::string(400, '9'), "-" + std::string(400, '9')}) {
     EXPECT_EQ(decode_error("{\"a\":" + number + "}", Encoding::kJson), "protocol/number") << number;
@@ -393,7 +393,7 @@ TEST(JsonText, RefusesNumbersThatAreTooLarge) {
   }
 }
 
-TEST(JsonText, RefusesDeepNesting) {
+TEST(JsonText, DeepNesting_Refused) {
   const auto nested = [](int levels, const char* open, const char* close) {
     return "{\"a\":" + repeated(open, levels - 1) + "1" + repeated(close, levels - 1) + "}";
   };
@@ -406,13 +406,13 @@ TEST(JsonText, RefusesDeepNesting) {
   EXPECT_EQ(decode_error(repeated("{\"a\":", 200000), Encoding::kJson), "protocol/too-deep");
 }
 
-TEST(JsonText, RefusesAKeyThatStandsTwice) {
+TEST(JsonText, DuplicateKey_Refused) {
   EXPECT_EQ(decode_error(R"({"a":1,"b":{"c":1,"d":2,"c":3}})", Encoding::kJson),
             "protocol/duplicate-key");
   EXPECT_EQ(decode_error(R"({"a":1,"b":{"a":1}})", Encoding::kJson), "");
 }
 
-TEST_P(EachEncoding, RefusesAMessageThatIsNoObject) {
+TEST_P(EachEncoding, NonObject_Refused) {
   for (const json& value : {json(nullptr), json(1), json("text"), json{1, 2}}) {
     const std::string bytes = encode(value, GetParam());
     MessageSplitter splitter(GetParam(), kLimit);
@@ -424,7 +424,7 @@ TEST_P(EachEncoding, RefusesAMessageThatIsNoObject) {
 /// {"a": ITEM} in CBOR.
 std::string cbor_of(const std::string& item) { return "\xa1\x61" + ("a" + item); }
 
-TEST(Cbor, ReadsWhatTheStandardHas) {
+TEST(Cbor, StandardExamples_Read) {
   // RFC 8949, appendix A.
   const std::vector<std::pair<std::string, json>> items = {
       {{"\x00", 1}, 0},
@@ -455,7 +455,7 @@ TEST(Cbor, ReadsWhatTheStandardHas) {
       std::signbit(decode(cbor_of({"\xf9\x80\x00", 3}), Encoding::kCbor).at("a").get<double>()));
 }
 
-TEST(Cbor, RefusesWhatIsNotPartOfTheProtocol) {
+TEST(Cbor, UnsupportedItems_Refused) {
   using namespace std::string_literals;
   const std::vector<std::string> items = {
       ""s,      // nothing
@@ -498,7 +498,7 @@ TEST(Cbor, RefusesWhatIsNotPartOfTheProtocol) {
   EXPECT_EQ(decode_error("", Encoding::kCbor), "protocol/syntax");
 }
 
-TEST(Cbor, BelievesNoLengthThatIsNotThere) {
+TEST(Cbor, FalseLengths_Refused) {
   using namespace std::string_literals;
   // 2^64 - 1 and 2^32 - 1 bytes, characters, elements and members.
   for (const char first : {'\x5b', '\x7b', '\x9b', '\xbb'}) {
@@ -513,7 +513,7 @@ TEST(Cbor, BelievesNoLengthThatIsNotThere) {
             "protocol/syntax");
 }
 
-TEST(Cbor, RefusesNumbersThatAreNotFiniteOrTooLarge) {
+TEST(Cbor, NonFiniteOrLargeNumbers_Refused) {
   using namespace std::string_literals;
   for (const std::string& item :
        {"\xf9\x7c\x00"s, "\xf9\xfc\x00"s, "\xf9\x7e\x00"s, "\xfa\x7f\x80\x00\x00"s,
@@ -536,7 +536,7 @@ TEST(Cbor, RefusesNumbersThatAreNotFiniteOrTooLarge) {
   }
 }
 
-TEST(Cbor, RefusesDeepNesting) {
+TEST(Cbor, DeepNesting_Refused) {
   const auto nested = [](int lists) { return cbor_of(repeated("\x81", lists) + "\x01"); };
   EXPECT_EQ(decode_error(nested(kMaxDepth - 1), Encoding::kCbor), "");
   EXPECT_EQ(decode_error(nested(kMaxDepth), Encoding::kCbor), "protocol/too-deep");
@@ -548,7 +548,7 @@ TEST(Cbor, RefusesDeepNesting) {
             "protocol/too-deep");
 }
 
-TEST(Cbor, RefusesAKeyThatStandsTwice) {
+TEST(Cbor, DuplicateKey_Refused) {
   EXPECT_EQ(decode_error("\xa2\x61"
                          "a\x01\x61"
                          "a\x02",
@@ -556,7 +556,7 @@ TEST(Cbor, RefusesAKeyThatStandsTwice) {
             "protocol/duplicate-key");
 }
 
-TEST_P(EachEncoding, BrokenMessagesGiveNothingButProtocolErrors) {
+TEST_P(EachEncoding, BrokenMessages_GiveProtocolErrorsOnly) {
   const json message = {{"id", 12},
                         {"do", "read"},
                         {"list", {1, 2.5, "x", nullptr, {{"deep", {true}}}}},
@@ -578,7 +578,7 @@ TEST_P(EachEncoding, BrokenMessagesGiveNothingButProtocolErrors) {
 
 // --- reading members
 
-TEST(Members, AreRequiredWithTheirKind) {
+TEST(Members, RequiredWithTheirType) {
   const json object = {{"n", 2.5}, {"w", 3.0}, {"i", 7}, {"b", true}, {"t", "x"}, {"l", {1}}};
   EXPECT_EQ(require_number(object, "n"), 2.5);
   EXPECT_EQ(require_number(object, "i"), 7.0);
@@ -623,7 +623,7 @@ TEST(Members, AreRequiredWithTheirKind) {
   refused([&] { static_cast<void>(require_bytes({{"b", "AAAA"}}, "b", Encoding::kCbor)); });
 }
 
-TEST(Members, UnknownKeysAreNamed) {
+TEST(Members, UnknownKeys_Named) {
   std::string message;
   refuse_unknown_keys({{"a", 1}}, {"a", "b"}, "a thing");
   EXPECT_EQ(error_of(
@@ -636,7 +636,7 @@ TEST(Members, UnknownKeysAreNamed) {
   EXPECT_EQ(error_of([] { refuse_unknown_keys(3, {"a"}, "a thing"); }), "protocol/bad-value");
 }
 
-TEST_P(EachEncoding, DeviceIdsComeOutAsTheyWentIn) {
+TEST_P(EachEncoding, DeviceIds_RoundTrip) {
   const json message = through({{"device", encode_device_id({3, 14})}}, GetParam());
   const DeviceId id = require_device_id(message, "device");
   EXPECT_EQ(id.robot, 3);
@@ -672,7 +672,7 @@ std::unique_ptr<sim::Reading> any_reading(const sim::ReadingKind& kind, RandomFi
   return reading;
 }
 
-TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
+TEST_P(EachEncoding, Readings_RoundTripExactly) {
   RandomFields fields(5);
   int sensors = 0;
   for (const sim::DeviceKind& kind : sim::device_kinds()) {
@@ -703,7 +703,7 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
   EXPECT_GE(sensors, 9);
 }
 
-TEST(Readings, DoNotTellWhereTheLaserReallyWas) {
+TEST(Readings, TrueLaserPose_NotSent) {
   sim::LaserReading reading;
   reading.X_WB = {1.0, 2.0, 3.0};
   const json message = encode_reading({0, 0}, "laser", reading, Encoding::kCbor);
@@ -711,7 +711,7 @@ TEST(Readings, DoNotTellWhereTheLaserReallyWas) {
   EXPECT_EQ(dynamic_cast<const sim::LaserReading&>(*decoded.reading).X_WB, sim::Pose());
 }
 
-TEST(Readings, LookAsTheReferenceSays) {
+TEST(Readings, MatchReference) {
   sim::PoseReading reading;
   reading.time_ns = 100'000'000;
   reading.sequence = 1;
@@ -723,13 +723,13 @@ TEST(Readings, LookAsTheReferenceSays) {
             "\n");
 }
 
-TEST(Readings, MayHaveMoreKeysThanAreKnown) {
+TEST(Readings, UnknownKeys_Accepted) {
   json message = encode_reading({0, 0}, "pose", sim::PoseReading(), Encoding::kJson);
   message["altitude"] = 3;
   EXPECT_NE(decode_reading(message, Encoding::kJson).reading, nullptr);
 }
 
-TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
+TEST(Readings, MissingOrWrongMembers_Refused) {
   for (const sim::DeviceKind& kind : sim::device_kinds()) {
     if (kind.reading.fields == nullptr) continue;
     for (const Encoding encoding : {Encoding::kJson, Encoding::kCbor}) {
@@ -774,7 +774,7 @@ std::vector<sim::Command> all_commands(RandomFields& fields) {
   return commands;
 }
 
-TEST_P(EachEncoding, CommandsOfAllKindsComeOutToTheBit) {
+TEST_P(EachEncoding, Commands_RoundTripExactly) {
   RandomFields fields(6);
   for (int i = 0; i < 20; ++i) {
     for (const sim::Command& sent : all_commands(fields)) {
@@ -785,7 +785,7 @@ TEST_P(EachEncoding, CommandsOfAllKindsComeOutToTheBit) {
   }
 }
 
-TEST(Commands, LookAsTheReferenceSays) {
+TEST(Commands, MatchReference) {
   const auto line = [](const sim::Command& command) {
     return encode(encode_command(command), Encoding::kJson);
   };
@@ -797,7 +797,7 @@ TEST(Commands, LookAsTheReferenceSays) {
   EXPECT_EQ(std::get<sim::TwistCommand>(short_twist).twist, (sim::Twist{0.3, 0.0, 0.0}));
 }
 
-TEST(Commands, AreRefusedWhenAnythingIsMissingWrongOrUnknown) {
+TEST(Commands, MissingWrongOrUnknownMembers_Refused) {
   RandomFields fields(7);
   for (const sim::Command& command : all_commands(fields)) {
     const sim::FieldTable& table = sim::command_kinds()[command.index()].fields();
@@ -831,7 +831,7 @@ TEST(Commands, AreRefusedWhenAnythingIsMissingWrongOrUnknown) {
 
 // --- other messages
 
-TEST_P(EachEncoding, RobotsComeOutToTheBit) {
+TEST_P(EachEncoding, Robots_RoundTripExactly) {
   RandomFields fields(8);
   for (int i = 0; i < 5; ++i) {
     std::vector<RobotInfo> sent(fields.random()() % 4);
@@ -850,7 +850,7 @@ TEST_P(EachEncoding, RobotsComeOutToTheBit) {
   }
 }
 
-TEST(Robots, AreRefusedWithDevicesOutOfPlaceAndDriversOutOfRange) {
+TEST(Robots, DevicesOutOfPlaceAndInvalidDrivers_Refused) {
   RobotInfo robot;
   robot.devices.push_back({{0, 1}, "laser", "laser", {}});
   const auto refused = [](const json& robots) {
@@ -874,7 +874,7 @@ TEST(Robots, AreRefusedWithDevicesOutOfPlaceAndDriversOutOfRange) {
   EXPECT_EQ(refused({1}), "protocol/bad-value");
 }
 
-TEST_P(EachEncoding, CanvasTimeAndLayersComeOutToTheBit) {
+TEST_P(EachEncoding, CanvasTimeAndLayers_RoundTripExactly) {
   RandomFields fields(9);
   for (int i = 0; i < 20; ++i) {
     CanvasInfo canvas;
@@ -893,7 +893,7 @@ TEST_P(EachEncoding, CanvasTimeAndLayersComeOutToTheBit) {
   }
 }
 
-TEST(Canvas, IsRefusedWithAnImpossibleSize) {
+TEST(Canvas, ImpossibleSize_Refused) {
   const json sound = encode_canvas({172, 186, 0.02, 0.0, 0.0});
   const auto refused = [&](const char* key, const json& value) {
     json canvas = sound;
@@ -907,14 +907,14 @@ TEST(Canvas, IsRefusedWithAnImpossibleSize) {
   EXPECT_TRUE(refused("x", nullptr));
 }
 
-TEST(Time, IsRefusedWithAnUnknownMode) {
+TEST(Time, UnknownMode_Refused) {
   json time = encode_time({});
   EXPECT_EQ(error_of([&] { static_cast<void>(decode_time(time)); }), "");
   time["mode"] = "fast";
   EXPECT_EQ(error_of([&] { static_cast<void>(decode_time(time)); }), "protocol/bad-value");
 }
 
-TEST(Styles, HaveDefaultsAndRefuseWhatIsUnknown) {
+TEST(Styles, DefaultsAndUnknownValues_Handled) {
   EXPECT_EQ(decode_style(json::object()), sim::LayerStyle());
   EXPECT_EQ(decode_style({{"name", "way"}, {"colour", "#f00"}}),
             (sim::LayerStyle{.name = "way", .colour = {255, 0, 0, 255}}));
@@ -932,7 +932,7 @@ TEST(Styles, HaveDefaultsAndRefuseWhatIsUnknown) {
   }
 }
 
-TEST_P(EachEncoding, MapsComeOutToTheBit) {
+TEST_P(EachEncoding, Maps_RoundTripExactly) {
   std::mt19937_64 random(10);
   for (int i = 0; i < 50; ++i) {
     sim::OccupancyMap sent{static_cast<int>(1 + random() % 40),
@@ -952,7 +952,7 @@ TEST_P(EachEncoding, MapsComeOutToTheBit) {
   }
 }
 
-TEST_P(EachEncoding, MapsAreRefusedWithWrongCells) {
+TEST_P(EachEncoding, MapsWithWrongCells_Refused) {
   sim::OccupancyMap map{3, 2, 0.02, {0.0, 0.0}, std::vector<float>(6, 1.0F)};
   const auto refused = [&] {
     return error_of(
@@ -979,7 +979,7 @@ std::string written(const sim::DrawOperation& v) {
   return text;
 }
 
-TEST_P(EachEncoding, DrawingsComeOutAsTheyWentIn) {
+TEST_P(EachEncoding, Drawings_RoundTrip) {
   std::mt19937_64 random(11);
   const auto any_int = [&] { return static_cast<int>(random()); };
   std::vector<sim::DrawOperation> sent(1000);
@@ -1005,7 +1005,7 @@ TEST_P(EachEncoding, DrawingsComeOutAsTheyWentIn) {
   EXPECT_THAT(decode_drawings(none, GetParam()), IsEmpty());
 }
 
-TEST(Drawings, LookAsTheReferenceSays) {
+TEST(Drawings, MatchReference) {
   const std::vector<sim::DrawOperation> drawings = {
       {Kind::kPixel, 0, 3, 4, 0, 0, sim::CellValue::of(sim::Colour{255, 0, 0, 255})},
       {Kind::kLine, 2, 0, 1, 5, -6, sim::CellValue::of(true)},
@@ -1022,7 +1022,7 @@ TEST(Drawings, LookAsTheReferenceSays) {
   EXPECT_EQ(data, expected);
 }
 
-TEST(Drawings, AreRefusedWhenTheyAreWrong) {
+TEST(Drawings, InvalidDrawings_Refused) {
   for (const json& wrong :
        {json(1), json::array({1}), json::array({json::array()}), json{{"dot", 0, 1, 1, 0}},
         json{{"pixel", 0, 1, 1}}, json{{"pixel", 0, 1, 1, 0, 0}}, json{{"pixel", 0, 1.5, 1, 0}},
@@ -1049,7 +1049,7 @@ TEST(Drawings, AreRefusedWhenTheyAreWrong) {
             "protocol/bad-value");
 }
 
-TEST_P(EachEncoding, CellsComeOutAsTheyWentIn) {
+TEST_P(EachEncoding, Cells_RoundTrip) {
   std::mt19937_64 random(12);
   std::vector<sim::CellValue> sent(1000);
   for (sim::CellValue& cell : sent) cell.bits = static_cast<std::uint32_t>(random());
@@ -1062,14 +1062,14 @@ TEST_P(EachEncoding, CellsComeOutAsTheyWentIn) {
   }
 }
 
-TEST(Cells, LieAsTheReferenceSays) {
+TEST(Cells, MatchReference) {
   const std::vector<sim::CellValue> cells = {sim::CellValue::of(sim::Colour{1, 2, 3, 4}),
                                              sim::CellValue::of(true), sim::CellValue::of(1.0F)};
   EXPECT_THAT(encode_cells(cells, Encoding::kCbor).get_binary(),
               ElementsAre(1, 2, 3, 4, 1, 0, 0, 0, 0, 0, 0x80, 0x3f));
 }
 
-TEST(Errors, OfSessionsHaveNamesThatLeadBack) {
+TEST(Errors, SessionErrors_NamesRoundTrip) {
   using Code = SessionError::Code;
   for (const Code code : {Code::kFinished, Code::kDisconnected, Code::kNoSuchDevice,
                           Code::kNotAvailable, Code::kBadArgument}) {

@@ -52,7 +52,7 @@ std::vector<sim::SharedReading> next(Session& session) {
   return keeper.readings;
 }
 
-TEST(SharedReading, StaysAsItIsAndIsTheSameForAll) {
+TEST(SharedReading, ConstantAndSharedByAll) {
   const auto host = Host::create(room());
   const auto one = host->connect(6665);
   const auto other = host->connect(6665);
@@ -76,7 +76,7 @@ TEST(SharedReading, StaysAsItIsAndIsTheSameForAll) {
 }
 
 // A program that reads repeatedly needs two objects: the current one, and the next.
-TEST(SharedReading, ObjectsThatNobodyHasAreUsedAgain) {
+TEST(SharedReading, UnusedObjects_Reused) {
   const auto host = Host::create(room());
   const auto session = host->connect(6665);
   session->request(SubscribeRequest{device_of(*session, "laser")});
@@ -91,7 +91,7 @@ TEST(SharedReading, ObjectsThatNobodyHasAreUsedAgain) {
   for (std::size_t i = 4; i < seen.size(); ++i) EXPECT_EQ(seen[i], seen[i - 2]) << i;
 }
 
-TEST(SharedReading, QueuedOnesAreAllDifferent) {
+TEST(SharedReading, QueuedReadings_Distinct) {
   const auto host = Host::create(room());
   const auto session = host->connect(6665);
   session->request(ReplaceRequest{std::nullopt, false});
@@ -130,7 +130,7 @@ class Looks : public testing::Test {
   LaserProxy laser{&client, 0};
 };
 
-TEST_F(Looks, OneThreadReadsAndAnotherLooks) {
+TEST_F(Looks, ReaderThread_OtherThreadSeesConsistentData) {
   constexpr int kScans = 2000;
   add_scans(kScans);
   std::atomic<bool> stop{false};
@@ -143,7 +143,7 @@ TEST_F(Looks, OneThreadReadsAndAnotherLooks) {
   other.join();
 }
 
-TEST_F(Looks, TheThreadThatReadChangesInTheMiddle) {
+TEST_F(Looks, ReaderThread_MayChange) {
   constexpr int kScans = 1000;
   add_scans(2 * kScans);
   for (int i = 1; i <= kScans; ++i) client.Read();
@@ -161,7 +161,7 @@ TEST_F(Looks, TheThreadThatReadChangesInTheMiddle) {
   EXPECT_EQ(laser[0], 0.001 * 2 * kScans);
 }
 
-TEST_F(Looks, ThreadsReadByTurns) {
+TEST_F(Looks, Threads_ReadInTurns) {
   constexpr int kScans = 1000;
   add_scans(2 * kScans);
   const auto read = [this] {
@@ -184,7 +184,7 @@ TEST_F(Looks, ThreadsReadByTurns) {
   EXPECT_GT(laser[2], 0.001 * kScans);
 }
 
-TEST_F(Looks, AnotherThreadConfigures) {
+TEST_F(Looks, Configure_FromOtherThread) {
   add_scans(1);
   client.Read();
   EXPECT_EQ(laser.GetCount(), 5U);
@@ -200,7 +200,7 @@ TEST_F(Looks, AnotherThreadConfigures) {
   EXPECT_EQ(laser[4], 0.0);  // beyond the window
 }
 
-TEST_F(Looks, CopiesAndLatecomersHaveTheirOwnSnapshots) {
+TEST_F(Looks, CopiesAndLateProxies_HaveOwnSnapshots) {
   add_scans(3);
   client.Read();
   LaserProxy copy(laser);
@@ -213,7 +213,7 @@ TEST_F(Looks, CopiesAndLatecomersHaveTheirOwnSnapshots) {
   for (const LaserProxy* proxy : {&laser, &copy, &late}) EXPECT_EQ((*proxy)[1], 0.003);
 }
 
-TEST(LooksAtTheEnd, AClientThatIsGoneIsAnError) {
+TEST(LooksAtTheEnd, ClosedClient_Throws) {
   const auto world = test::make_fake_world();
   world->add_round({{test::kLaser, test::scan(1, {1, 2, 3, 4, 5})}});
   auto client = std::make_unique<PlayerClient>(std::make_unique<FakeSession>(world));
@@ -230,7 +230,7 @@ TEST(LooksAtTheEnd, AClientThatIsGoneIsAnError) {
   }
 }
 
-TEST(MorseLooks, OneThreadReadsAndAnotherLooks) {
+TEST(MorseLooks, ReaderThread_OtherThreadSeesConsistentData) {
   constexpr int kScans = 1000;
   const auto world = test::make_fake_world();
   for (int i = 1; i <= kScans; ++i) {

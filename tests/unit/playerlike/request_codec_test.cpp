@@ -93,7 +93,7 @@ Request any_request(const RequestKind& kind, RandomFields& fields) {
   return request;
 }
 
-TEST_P(RequestMessages, ComeOutAsTheyWentIn) {
+TEST_P(RequestMessages, RoundTrip) {
   RandomFields fields(1);
   for_each_kind([&](std::size_t type, const RequestKind& kind) {
     EXPECT_EQ(find_request(kind.name), type);
@@ -112,7 +112,7 @@ TEST_P(RequestMessages, ComeOutAsTheyWentIn) {
   EXPECT_FALSE(find_request("nonsense"));
 }
 
-TEST_P(RequestMessages, AnswersComeOutAsTheyWentIn) {
+TEST_P(RequestMessages, Answers_RoundTrip) {
   RandomFields fields(2);
   for_each_kind([&](std::size_t, const RequestKind& kind) {
     for (int i = 0; i < 5; ++i) {
@@ -155,7 +155,7 @@ TEST(RequestCodec, Samples_AreEncodedAsInTheReference) {
             "{\"stopped\":false,\"watched\":true}\n");
 }
 
-TEST_P(RequestMessages, HaveDefaultsForWhatMayBeLeftOut) {
+TEST_P(RequestMessages, OptionalMembers_HaveDefaults) {
   const auto read = [](const json& message) {
     const Encoding encoding = GetParam();
     return decode_request(find_request(message.at("do").get<std::string>()).value(), message,
@@ -198,7 +198,7 @@ TEST(RequestCodec, AreRefusedWhenAnythingIsMissingWrongOrUnknown) {
   });
 }
 
-TEST(RequestCodec, AreRefusedForWhatIsWrongByName) {
+TEST(RequestCodec, InvalidMembers_RefusedByName) {
   EXPECT_EQ(refusal({{"do", "object_pose"}}), "protocol/bad-value: the key \"name\" is missing");
   EXPECT_EQ(refusal({{"do", "object_pose"}, {"name", 3}}),
             "protocol/bad-value: name: expected a text, found 3");
@@ -217,7 +217,7 @@ TEST(RequestCodec, AreRefusedForWhatIsWrongByName) {
               HasSubstr("[column, row, width, height]"));
 }
 
-TEST(RequestCodec, RefuseWrongAnswersAboutTheArena) {
+TEST(RequestCodec, InvalidArenaAnswers_Refused) {
   const auto refusal_of = [](const Request& request, const json& answer) -> std::string {
     try {
       static_cast<void>(decode_answer(request, answer, Encoding::kJson));
@@ -244,7 +244,7 @@ TEST(RequestCodec, RefuseWrongAnswersAboutTheArena) {
 }
 
 // The table of docs/protocol.md: | `NAME` | `key`, `key`... | ... |
-TEST(RequestCodec, AreThoseOfTheReference) {
+TEST(RequestCodec, MatchReference) {
   std::ifstream page(PLAYPEN_SOURCE_DIR "/docs/protocol.md");
   ASSERT_TRUE(page);
   std::map<std::string, std::set<std::string>> told;

@@ -173,7 +173,7 @@ void expect_equal(const Position2dProxy& proxy, const player::Position2dData& da
   EXPECT_EQ(proxy.GetStall(), data.stall != 0);
 }
 
-TEST(WirePosition2d, DrivesAsTheProxyDoes) {
+TEST(WirePosition2d, Commands_DriveLikeProxy) {
   Twins twins("cave.json");
   Position2dProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("position2d");
@@ -206,7 +206,7 @@ TEST(WirePosition2d, DrivesAsTheProxyDoes) {
   EXPECT_EQ(proxy.GetXSpeed(), 0.0);
 }
 
-TEST(WirePosition2d, SetsOdometry) {
+TEST(WirePosition2d, Odometry_Set) {
   Twins twins("devices/odometry.json");
   Position2dProxy proxy(&twins.client, 1);
   WireDevice device = twins.open("position2d", 1);
@@ -224,7 +224,7 @@ TEST(WirePosition2d, SetsOdometry) {
   EXPECT_NEAR(proxy.GetXPos(), 0.0, 0.1);
 }
 
-TEST(WirePosition2d, TellsItsGeometryAndRefusesControlSettings) {
+TEST(WirePosition2d, Geometry_SentAndControlSettingsRefused) {
   Twins twins("cave.json");
   Position2dProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("position2d");
@@ -240,7 +240,7 @@ TEST(WirePosition2d, TellsItsGeometryAndRefusesControlSettings) {
   EXPECT_FALSE(device.accepts(PLAYER_POSITION2D_REQ_SPEED_PROF, player::Position2dSpeedProfReq{}));
 }
 
-TEST(WirePosition2d, RefusesNumbersThatAreNotFinite) {
+TEST(WirePosition2d, NonFiniteNumbers_Refused) {
   Twins twins("cave.json");
   WireDevice device = twins.open("position2d");
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -261,7 +261,7 @@ TEST(WirePosition2d, RefusesNumbersThatAreNotFinite) {
   EXPECT_EQ(device.data<player::Position2dData>().vel.px, 0.0);
 }
 
-TEST(WirePosition2d, DriverPursuesGoals) {
+TEST(WirePosition2d, Driver_PursuesGoals) {
   Twins twins("examples/snd_driver.json");
   Position2dProxy proxy(&twins.client, 2);
   WireDevice device = twins.open("position2d", 2);
@@ -278,7 +278,7 @@ TEST(WirePosition2d, DriverPursuesGoals) {
   EXPECT_EQ(device.data<player::Position2dData>().vel.px, 0.0);
 }
 
-TEST(WirePosition2d, RobotWithoutMotorsCannotBeCommanded) {
+TEST(WirePosition2d, RobotWithoutMotors_CommandsRefused) {
   Twins twins(sim::load_world_text(
       R"({"arena": {"size": [2, 2]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1},
           "devices": {"motion": null, "pen": null}}]})"));
@@ -292,7 +292,7 @@ TEST(WirePosition2d, RobotWithoutMotorsCannotBeCommanded) {
                      player::CapabilitiesReq{PLAYER_MSGTYPE_CMD, PLAYER_POSITION2D_CMD_VEL}));
 }
 
-TEST(WireLocalize, TellsTheHypothesisOfTheProxy) {
+TEST(WireLocalize, Hypothesis_MatchesProxy) {
   Twins twins("devices/pose.json");
   LocalizeProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("localize");
@@ -337,7 +337,7 @@ void expect_equal(const LaserProxy& proxy, const player::LaserData& data) {
   EXPECT_EQ(data.max_range, single(proxy.GetMaxRange()));
 }
 
-TEST(WireLaser, MeasuresAndIsConfiguredAsTheProxy) {
+TEST(WireLaser, ScanAndConfigure_MatchProxy) {
   Twins twins("cave.json");
   LaserProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("laser");
@@ -434,13 +434,13 @@ void expect_ranger_equal(const std::string& world_name) {
   EXPECT_TRUE(device.accepts(PLAYER_RANGER_REQ_INTNS, player::RangerIntnsConfig{1}));
 }
 
-TEST(WireRanger, MeasuresAndIsConfiguredAsTheProxy) {
+TEST(WireRanger, RangesAndConfigure_MatchProxy) {
   expect_ranger_equal("cave.json");
   expect_ranger_equal("devices/sonar.json");
   expect_ranger_equal("devices/infrared.json");
 }
 
-TEST(WireSonar, MeasuresAsTheProxy) {
+TEST(WireSonar, Ranges_MatchProxy) {
   Twins twins("devices/sonar.json");
   SonarProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("sonar");
@@ -458,7 +458,7 @@ TEST(WireSonar, MeasuresAsTheProxy) {
   EXPECT_TRUE(device.accepts(PLAYER_SONAR_REQ_POWER, player::SonarPowerConfig{1}));
 }
 
-TEST(WireIr, MeasuresAsTheProxy) {
+TEST(WireIr, Ranges_MatchProxy) {
   Twins twins("devices/infrared.json", 6666);
   IrProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("ir");
@@ -478,7 +478,7 @@ TEST(WireIr, MeasuresAsTheProxy) {
 
 // --- Sensing
 
-TEST(WireBumper, FeelsAsTheProxy) {
+TEST(WireBumper, Segments_MatchProxy) {
   Twins twins("devices/bumper.json");
   BumperProxy proxy(&twins.client, 0);
   Position2dProxy motors(&twins.client, 0);
@@ -524,7 +524,7 @@ void expect_item(const Item& item, int id, const sim::Pose& X_ST, const sim::Pos
   }
 }
 
-TEST(WireFiducial, SeesAsTheProxy) {
+TEST(WireFiducial, Items_HaveExpectedNumbers) {
   Twins twins(sim::load_world_text(R"({"arena": {"size": [6, 6], "obstacles": [
       {"name": "post", "center": [1.1, 3.3], "size": [0.2, 0.2], "yaw_deg": 120, "fiducial": 7}]},
       "robots": [{"name": "finder", "pose": {"x": 2, "y": 2, "yaw_deg": 90}, "devices": {
@@ -576,7 +576,7 @@ void expect_blob(const Blob& blob) {
   EXPECT_NEAR(blob.range, 2.0F, 0.01F);  // the mean over the columns; the edges are farther
 }
 
-TEST(WireBlobfinder, SeesAsTheProxy) {
+TEST(WireBlobfinder, Blobs_HaveExpectedNumbers) {
   // The example of docs/devices/blobfinder.md: a face 2 m away, 0.4 m wide and 0.3 m high, seen
   // from a height of 0.1 m with f = 69.28. Columns 40 -+ 6.93, rows from 30 - 6.93 to 30 + 3.46.
   Twins twins(sim::load_world_text(R"({"arena": {"size": [6, 4], "obstacles": [
@@ -597,7 +597,7 @@ TEST(WireBlobfinder, SeesAsTheProxy) {
   expect_blob(proxy[0]);
 }
 
-TEST(WireCamera, SeesAsTheProxy) {
+TEST(WireCamera, Picture_MatchesProxy) {
   Twins twins("devices/camera.json");
   CameraProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("camera");
@@ -616,7 +616,7 @@ TEST(WireCamera, SeesAsTheProxy) {
   EXPECT_FALSE(device.accepts(PLAYER_CAMERA_REQ_GET_SOURCE));
 }
 
-TEST(WireGps, TellsWhatPlayersClientsTurnIntoTheProxysValues) {
+TEST(WireGps, Values_ConvertedToThoseOfProxy) {
   Twins twins("devices/gps.json");
   GpsProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("gps");
@@ -640,7 +640,7 @@ TEST(WireGps, TellsWhatPlayersClientsTurnIntoTheProxysValues) {
   EXPECT_LT(data.latitude, -330000000);
 }
 
-TEST(WireImu, MeasuresAsTheProxyInEachKindOfData) {
+TEST(WireImu, DataTypes_HaveExpectedNumbers) {
   // A circle at 0.2 m/s and 0.5 rad/s: 0.05 rad in each round of 0.1 s.
   Twins twins(sim::load_world_text(R"({"arena": {"size": [6, 6]}, "robots": [
       {"pose": {"x": 3, "y": 2, "yaw_deg": 0}, "devices": {"imu": {}}}]})"));
@@ -717,7 +717,7 @@ TEST(WireImu, MeasuresAsTheProxyInEachKindOfData) {
       SessionError);
 }
 
-TEST(WireImu, CompassTellsTheHeading) {
+TEST(WireImu, Compass_SendsHeading) {
   // Facing 30 degrees, with magnetic north along y, at 90 degrees.
   Twins twins(sim::load_world_text(R"({"arena": {"size": [6, 6]}, "robots": [
       {"pose": {"x": 3, "y": 3, "yaw_deg": 30}, "devices": {"compass": {"north_deg": 90}}}]})"));
@@ -729,7 +729,7 @@ TEST(WireImu, CompassTellsTheHeading) {
   EXPECT_NEAR(proxy.GetPose().pyaw, -std::numbers::pi / 3.0, 1e-9);
 }
 
-TEST(WirePower, MeasuresAsTheProxy) {
+TEST(WirePower, Charge_MatchesProxy) {
   for (const int port : {6665, 6666}) {
     Twins twins("devices/battery.json", port);
     PowerProxy proxy(&twins.client, 0);
@@ -746,7 +746,7 @@ TEST(WirePower, MeasuresAsTheProxy) {
   }
 }
 
-TEST(WireWifi, HearsAsTheProxy) {
+TEST(WireWifi, Links_MatchProxy) {
   Twins twins("devices/wifi.json");
   WiFiProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("wifi");
@@ -773,7 +773,7 @@ TEST(WireWifi, HearsAsTheProxy) {
 
 // --- Acting
 
-TEST(WirePtz, PointsAsTheProxy) {
+TEST(WirePtz, View_MatchesProxy) {
   Twins twins("devices/ptz.json");
   PtzProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("ptz");
@@ -801,7 +801,7 @@ TEST(WirePtz, PointsAsTheProxy) {
   EXPECT_THROW(device.command(PLAYER_PTZ_CMD_STATE, player::PtzCmd{0, 0, 0, NAN, 0}), SessionError);
 }
 
-TEST(WireGripper, GripsAsTheProxy) {
+TEST(WireGripper, States_MatchProxyAndExpectedNumbers) {
   Twins twins("devices/gripper.json");
   GripperProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("gripper");
@@ -853,7 +853,7 @@ TEST(WireGripper, GripsAsTheProxy) {
   EXPECT_THROW(device.command(PLAYER_GRIPPER_CMD_OPEN, player::Uint32{1}), ProtocolError);
 }
 
-TEST(WireActArray, MovesAsTheProxy) {
+TEST(WireActArray, Arm_MatchesProxy) {
   Twins twins("devices/actarray.json");
   ActArrayProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("actarray");
@@ -948,7 +948,7 @@ TEST(WireActArray, MovesAsTheProxy) {
                SessionError);
 }
 
-TEST(WireAio, MeasuresAndSetsAsTheProxy) {
+TEST(WireAio, Voltages_MatchProxy) {
   Twins twins("devices/aio.json");
   AioProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("aio");
@@ -966,7 +966,7 @@ TEST(WireAio, MeasuresAndSetsAsTheProxy) {
   EXPECT_THROW(device.command(PLAYER_AIO_CMD_STATE, player::AioCmd{0, 1e30F}), SessionError);
 }
 
-TEST(WireDio, MeasuresAndSetsAsTheProxy) {
+TEST(WireDio, Bits_MatchProxy) {
   Twins twins("devices/dio.json", 6666);
   DioProxy proxy(&twins.client, 0);
   PlayerClient other(twins.embedded->connect(6665));
@@ -981,7 +981,7 @@ TEST(WireDio, MeasuresAndSetsAsTheProxy) {
   EXPECT_TRUE(proxy.GetInput(3));
 }
 
-TEST(WireBlinkenlight, LightsAsTheProxy) {
+TEST(WireBlinkenlight, Light_MatchesProxy) {
   Twins twins("devices/blinkenlight.json");
   BlinkenLightProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("blinkenlight");
@@ -1018,7 +1018,7 @@ TEST(WireBlinkenlight, LightsAsTheProxy) {
       SessionError);
 }
 
-TEST(WireOpaque, CarriesMessages) {
+TEST(WireOpaque, Messages_Delivered) {
   Twins twins("devices/opaque.json", 6667);  // hears itself
   WireDevice device = twins.open("opaque");
   device.read();
@@ -1036,7 +1036,7 @@ TEST(WireOpaque, CarriesMessages) {
                SessionError);
 }
 
-TEST(WireSpeech, SaysTexts) {
+TEST(WireSpeech, Texts_Spoken) {
   Twins twins("devices/speech.json");
   WireDevice device = twins.open("speech");
   EXPECT_THAT(device.device().sources(), IsEmpty());
@@ -1054,7 +1054,7 @@ TEST(WireSpeech, SaysTexts) {
 
 // --- Drawing
 
-TEST(WireGraphics2d, DrawsAsTheProxy) {
+TEST(WireGraphics2d, Drawings_MatchProxy) {
   Twins twins("devices/pen.json", 6666);
   WireDevice device = twins.open("graphics2d");
   Graphics2dProxy proxy(&twins.client, 0);
@@ -1097,7 +1097,7 @@ TEST(WireGraphics2d, DrawsAsTheProxy) {
   EXPECT_TRUE(picture(*twins.session) == blank);
 }
 
-TEST(WireGraphics2d, RefusesWhatCannotBeDrawn) {
+TEST(WireGraphics2d, InvalidDrawings_Refused) {
   Twins twins("devices/pen.json", 6666);
   WireDevice device = twins.open("graphics2d");
   EXPECT_THROW(
@@ -1127,7 +1127,7 @@ std::vector<std::int8_t> uncompressed(const player::MapData& tile) {
   return cells;
 }
 
-TEST(WireMap, TellsTheMapOfTheProxyInTiles) {
+TEST(WireMap, Tiles_MatchProxy) {
   Twins twins("office.json");
   MapProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("map");
@@ -1170,7 +1170,7 @@ TEST(WireMap, TellsTheMapOfTheProxyInTiles) {
   EXPECT_FALSE(device.accepts(PLAYER_MAP_REQ_GET_VECTOR));
 }
 
-TEST(WireSimulation, TellsAndSetsPosesAndProperties) {
+TEST(WireSimulation, PosesAndProperties_ReadAndSet) {
   Twins twins("cave.json");
   WireDevice device = twins.open("simulation");
   const std::string r1 = player::text_bytes(twins.session->robots().front().name);
@@ -1227,7 +1227,7 @@ TEST(WireSimulation, TellsAndSetsPosesAndProperties) {
                SessionError);
 }
 
-TEST(WireBlackboard, ReportsChangesOfSubscriptions) {
+TEST(WireBlackboard, SubscribedChanges_Reported) {
   const auto host = Host::create(world("cave.json"));
   const auto session = host->connect(6665);
   WireDevice device(*session, 6665, "blackboard");
@@ -1273,7 +1273,7 @@ TEST(WireBlackboard, ReportsChangesOfSubscriptions) {
       SessionError);
 }
 
-TEST(WireLog, WritesAndReplays) {
+TEST(WireLog, Log_WrittenAndReplayed) {
   const test_support::TemporaryFolder folder;
   playerlike::RunSettings settings;
   settings.output_folder = folder.path().string();
@@ -1298,7 +1298,7 @@ TEST(WireLog, WritesAndReplays) {
 
 // --- All interfaces
 
-TEST(WireDevices, AllInterfacesOfTheWorldsAreOffered) {
+TEST(WireDevices, AllInterfaces_Offered) {
   std::vector<std::string> worlds;
   for (const std::string_view name : playerlike::interface_names()) {
     const auto host = Host::create(world(playerlike::example_world(name)));
@@ -1323,7 +1323,7 @@ TEST(WireDevices, AllInterfacesOfTheWorldsAreOffered) {
                SessionError);
 }
 
-TEST(WireDevices, PropertiesAndCapabilitiesAreThoseOfTheProxies) {
+TEST(WireDevices, PropertiesAndCapabilities_MatchProxies) {
   Twins twins("cave.json");
   LaserProxy proxy(&twins.client, 0);
   WireDevice device = twins.open("laser");
@@ -1378,7 +1378,7 @@ TEST(WireDevices, PropertiesAndCapabilitiesAreThoseOfTheProxies) {
 }
 
 // Nothing but ProtocolError and SessionError leaves a device, whatever a client sends.
-TEST(WireDevices, RefuseHostilePayloads) {
+TEST(WireDevices, InvalidPayloads_Refused) {
   const std::string zeros(200, '\0');
   const std::string huge = std::string("\xff\xff\xff\xff\xff\xff\xff\xff", 8) + zeros;
   std::vector<std::string> payloads = {"",    "abc", std::string(4, '\0'), std::string(400, '\xff'),

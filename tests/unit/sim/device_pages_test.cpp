@@ -118,12 +118,12 @@ class DevicePage : public testing::TestWithParam<DeviceKind> {
 INSTANTIATE_TEST_SUITE_P(All, DevicePage, testing::ValuesIn(device_kinds()),
                          [](const auto& row) { return row.param.name; });
 
-TEST_P(DevicePage, ExistsAndIsNamedAfterTheType) {
+TEST_P(DevicePage, ExistsForEachType) {
   ASSERT_TRUE(fs::exists(page_file())) << page_file();
   EXPECT_TRUE(read_bytes(page_file()).starts_with("# " + type() + "\n"));
 }
 
-TEST_P(DevicePage, HasTheTableThatTheFieldsMake) {
+TEST_P(DevicePage, TableMatchesFields) {
   const std::string page = read_bytes(page_file());
   const std::size_t section = page.find("\n## Settings\n");
   ASSERT_NE(section, std::string::npos);
@@ -138,7 +138,7 @@ TEST_P(DevicePage, HasTheTableThatTheFieldsMake) {
   }
 }
 
-TEST_P(DevicePage, ListsTheKeysThatTheReaderKnowsAndNoOther) {
+TEST_P(DevicePage, ListsKeysOfReaderOnly) {
   std::vector<std::string> expected;
   for (const ConfigIssue& issue : issues_of(type(), "\"zz\": 0")) {
     if (issue.id == "world/unknown-key") expected.push_back(issue.expected);
@@ -159,7 +159,7 @@ TEST_P(DevicePage, ListsTheKeysThatTheReaderKnowsAndNoOther) {
   EXPECT_EQ(listed, known);
 }
 
-TEST_P(DevicePage, TellsTheDefaultsOfTheReader) {
+TEST_P(DevicePage, DefaultsMatchReader) {
   const auto defaults = GetParam().properties(GetParam().defaults());
   for (const Setting& setting : settings()) {
     const auto read =
@@ -180,7 +180,7 @@ double number_of(const std::string& text) {
   return value;
 }
 
-TEST_P(DevicePage, TellsTheRangesOfTheReader) {
+TEST_P(DevicePage, RangesMatchReader) {
   const std::regex kRange(R"(([\[(])([-0-9.]+), ([-0-9.]+)([\])]))");
   for (const Setting& setting : settings()) {
     std::smatch range;
@@ -199,7 +199,7 @@ TEST_P(DevicePage, TellsTheRangesOfTheReader) {
   }
 }
 
-TEST_P(DevicePage, HasTheSameKeysInTheSchema) {
+TEST_P(DevicePage, SchemaHasSameKeys) {
   const auto schema = nlohmann::json::parse(read_bytes(kRoot / "worlds/schema/world.schema.json"));
   std::set<std::string> in_schema;
   const auto& settings_object = schema.at("$defs").at("device_" + type()).at("oneOf").at(0);
@@ -216,12 +216,12 @@ TEST_P(DevicePage, HasTheSameKeysInTheSchema) {
                   .contains(type()));
 }
 
-TEST_P(DevicePage, EmptySettingsGiveTheDefaults) {
+TEST_P(DevicePage, EmptySettings_GiveDefaults) {
   EXPECT_EQ(read_properties(GetParam(), ""), GetParam().properties(GetParam().defaults()));
   EXPECT_EQ(GetParam().properties({}), GetParam().properties(GetParam().defaults()));
 }
 
-TEST_P(DevicePage, HasAWorldThatSetsEachSettingOfTheType) {
+TEST_P(DevicePage, ExampleWorldSetsEachSetting) {
   ASSERT_TRUE(fs::exists(world_file())) << world_file();
   Simulation simulation(load_world(world_file().string()));
   int devices = 0;
@@ -240,7 +240,7 @@ TEST_P(DevicePage, HasAWorldThatSetsEachSettingOfTheType) {
   EXPECT_EQ(simulation.steps(), 100U);
 }
 
-TEST(RealismPage, HasTheTableThatTheFieldsMake) {
+TEST(RealismPage, TableMatchesFields) {
   const fs::path file = kRoot / "docs/realism.md";
   const std::string page = read_bytes(file);
   const std::size_t first = page.find("| device | setting |");
@@ -254,7 +254,7 @@ TEST(RealismPage, HasTheTableThatTheFieldsMake) {
   }
 }
 
-TEST(DevicePages, AreOfKnownTypes) {
+TEST(DevicePages, KnownTypesOnly) {
   std::set<std::string> types;
   for (const DeviceKind& kind : device_kinds()) types.insert(kind.name);
   for (const char* folder : {"docs/devices", "worlds/devices"}) {
@@ -282,7 +282,7 @@ TEST(ShippedWorlds, LoadAndStep) {
 }
 
 // A test of the page's reader itself: one that finds nothing must fail.
-TEST(DevicePageTable, IsReadFromItsSectionOnly) {
+TEST(DevicePageTable, ReadFromItsSectionOnly) {
   const std::vector<Setting> settings = settings_of(
       "# x\n| `a` | m | – | `1` | no |\n## Settings\n| key | unit | range | default |\n|---|---|\n"
       "| `b` | m | (0, 1] | `2` | yes |\n## Reading\n| `c` | m | [0, 1] | `3` | no |\n");

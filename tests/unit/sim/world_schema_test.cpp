@@ -80,7 +80,7 @@ std::set<std::string> keys_of(const json& object) {
   return keys;
 }
 
-TEST(WorldSchema, HasTheKeysThatTheReaderKnows) {
+TEST(WorldSchema, HasKeysOfReader) {
   const json root = schema();
   const std::map<std::string, std::string> definitions{
       {"", ""},
@@ -136,7 +136,7 @@ TEST(WorldSchema, HasTheKeysThatTheReaderKnows) {
   }
 }
 
-TEST(WorldSchema, IsMadeOfTheFieldsOfDevices) {
+TEST(WorldSchema, MatchesFieldsOfDevices) {
   const std::string file = std::string(PLAYPEN_SOURCE_DIR) + "/worlds/schema/world.schema.json";
   const std::string now = test_support::read_bytes(file);
   const std::string made = test::json_text(test::with_devices(test::Json::parse(now))) + "\n";
@@ -164,7 +164,7 @@ TEST(WorldSchema, ExplainsEachKey) {
   EXPECT_GT(count, 50);
 }
 
-TEST(WorldSchema, KnowsTheRobotModels) {
+TEST(WorldSchema, HasRobotModels) {
   json names{default_robot_model().name};
   for (const ShippedModel& model : shipped_models()) names.push_back(model.name);
   std::sort(names.begin(), names.end());
