@@ -127,10 +127,11 @@ PLAYERLIKE = arrows({
     "imr-h": "",
     "replace": "",
     # Their implementation.
-    "devices": "messages process session virtual_time connect libCCMorse libplayerc++",
-    "proxies": "messages session virtual_time connect libCCMorse libplayerc++ devices",
-    "drivers": "messages session virtual_time libCCMorse libplayerc++ devices proxies",
-    "playerc": "virtual_time libplayerinterface libplayerc libplayerc++ devices proxies",
+    "core": "messages process session virtual_time connect libCCMorse libplayerc++",
+    "devices": "messages process session virtual_time connect libCCMorse libplayerc++ core",
+    "proxies": "messages session virtual_time connect libCCMorse libplayerc++ core devices",
+    "drivers": "messages session virtual_time libCCMorse libplayerc++ core devices proxies",
+    "playerc": "virtual_time libplayerinterface libplayerc libplayerc++ core devices proxies",
     # Devices in the words of Player's protocol.
     "wire": "messages protocol session libplayerinterface libplayerc++ proxies",
     "imr": "virtual_time libplayerc++ imr-h",
@@ -182,7 +183,7 @@ PLACES = [(re.compile(include), re.compile(path), why) for include, path, why in
     (r"sim/", r"(?!libplayerlike/include/(libplayer|libCCMorse/|libPlayer/|imr-h/))",
      "clients are C++14, libsim's headers are C++20"),
     (r"protocol/", r"(?!libplayerlike/(src|include/playerlike)/host/)"
-                   r"|libplayerlike/src/host/run_log\.cpp$",
+                   r"|libplayerlike/src/host/results/run_log\.cpp$",
      "of a host only the log of a run is written in the protocol's words"),
     (r"asio(\.hpp$|/)", r"(?!libplayerlike/)|libplayerlike/src/(server|remote)/",
      "sockets belong in libplayerlike/src/server and libplayerlike/src/remote"),

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "devices/client_core.h"
-#include "devices/errors.h"
+#include "core/client_core.h"
+#include "core/errors.h"
 #include "devices/morse_receiver.h"
 #include "libCCMorse/MorseActuator.h"
 #include "libCCMorse/MorseBattery.h"

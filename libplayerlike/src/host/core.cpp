@@ -6,9 +6,9 @@
 #include <exception>
 #include <utility>
 
-#include "host/busy_alarm.h"
-#include "host/virtual_clock.h"
-#include "host/window.h"
+#include "host/launch/busy_alarm.h"
+#include "host/stepping/virtual_clock.h"
+#include "host/window/window.h"
 #include "process/end_of_program.h"
 #include "sim/core/number_text.h"
 #include "virtual_time/program_threads.h"

@@ -5,7 +5,7 @@
 
 #include "host/core.h"
 #include "host/in_process_session.h"
-#include "host/virtual_clock.h"
+#include "host/stepping/virtual_clock.h"
 
 namespace playerlike {
 

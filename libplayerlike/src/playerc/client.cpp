@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "playerc/device.h"
 #include "playerc/guard.h"
 #include "proxies/link.h"

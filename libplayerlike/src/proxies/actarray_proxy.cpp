@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/actarrayproxy.h"
 #include "proxies/link.h"
 #include "session/player_values.h"

@@ -4,7 +4,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/aioproxy.h"
 #include "proxies/link.h"
 #include "sim/core/number_text.h"

@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "devices/errors.h"
-#include "devices/warnings.h"
+#include "core/errors.h"
+#include "core/warnings.h"
 #include "libplayerc++/clientproxy.h"
 #include "playerlike/session/device_properties.h"
 #include "proxies/link.h"

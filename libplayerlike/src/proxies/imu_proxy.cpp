@@ -2,7 +2,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/imuproxy.h"
 #include "proxies/link.h"
 #include "session/player_values.h"

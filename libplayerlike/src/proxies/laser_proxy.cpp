@@ -8,7 +8,7 @@
 #include <string>
 #include <variant>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/laserproxy.h"
 #include "proxies/beam_window.h"
 #include "proxies/link.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/client_core.h"
+#include "core/client_core.h"
 #include "libplayerc++/clientproxy.h"
 #include "playerlike/messages/messages.h"
 #include "proxies/interfaces.h"
@@ -49,8 +49,8 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   [[nodiscard]] scoped_lock_t lock_element(const char* fun) const {
     return lock(fun, proxy.mElements.Looks());
   }
-  /// Publishes the elements of `newest`, which HandleReading() may have replaced. The client's mutex
-  /// is held, and begin_change() was called.
+  /// Publishes the elements of `newest`, which HandleReading() may have replaced. The client's
+  /// mutex is held, and begin_change() was called.
   void show();
   void show(sim::SharedReading reading) {
     newest.reading = std::move(reading);

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/localizeproxy.h"
 #include "proxies/link.h"
 #include "session/player_values.h"

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/opaqueproxy.h"
 #include "proxies/link.h"
 #include "sim/devices/opaque.h"

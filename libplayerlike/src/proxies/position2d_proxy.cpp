@@ -3,7 +3,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/position2dproxy.h"
 #include "proxies/goal_driver.h"
 #include "proxies/link.h"

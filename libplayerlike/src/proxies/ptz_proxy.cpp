@@ -2,7 +2,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/ptzproxy.h"
 #include "proxies/link.h"
 #include "sim/devices/ptz.h"

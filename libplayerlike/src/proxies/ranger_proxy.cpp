@@ -3,7 +3,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/rangerproxy.h"
 #include "proxies/beam_window.h"
 #include "proxies/link.h"

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Who commands which robot, and which robots stop when those are gone. Times are given, so nothing
 // waits.
-#include "host/commanders.h"
+#include "host/stepping/commanders.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,15 +11,15 @@
 #include <string>
 #include <vector>
 
-#include "host/alarms.h"
-#include "host/blackboard.h"
-#include "host/clients.h"
-#include "host/inputs.h"
-#include "host/lockstep.h"
-#include "host/pace.h"
-#include "host/progress.h"
-#include "host/results.h"
-#include "host/stalled_time_warning.h"
+#include "host/requests/blackboard.h"
+#include "host/results/results.h"
+#include "host/stepping/alarms.h"
+#include "host/stepping/clients.h"
+#include "host/stepping/inputs.h"
+#include "host/stepping/lockstep.h"
+#include "host/stepping/pace.h"
+#include "host/stepping/progress.h"
+#include "host/stepping/stalled_time_warning.h"
 #include "sim/devices/localization.h"
 #include "temporary_folder.h"
 

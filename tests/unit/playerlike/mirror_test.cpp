@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Robots that mirror real ones. The real robot is a FakeSession, so a test says what it measures.
-#include "host/mirror.h"
+#include "host/mirror/mirror.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@
 #include <thread>
 
 #include "fake_session.h"
-#include "host/ghost.h"
-#include "host/scan_difference.h"
+#include "host/mirror/ghost.h"
+#include "host/mirror/scan_difference.h"
 #include "patience.h"
 #include "playerlike/host/host.h"
 #include "playerlike/server/server.h"

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "host/outputs.h"
+#include "host/results/outputs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "comma_locale.h"
-#include "host/recorder.h"
+#include "host/results/recorder.h"
 #include "playerlike/host/program.h"
 #include "playerlike/host/report_summary.h"
 #include "playerlike/host/results.h"

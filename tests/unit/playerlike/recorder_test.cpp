@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "host/recorder.h"
+#include "host/results/recorder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,11 +13,11 @@
 #include <string_view>
 #include <vector>
 
-#include "host/command_book.h"
-#include "host/permissions.h"
-#include "host/refusal_book.h"
-#include "host/seen_floor.h"
-#include "host/travel_meter.h"
+#include "host/requests/permissions.h"
+#include "host/results/refusal_book.h"
+#include "host/results/seen_floor.h"
+#include "host/results/travel_meter.h"
+#include "host/stepping/command_book.h"
 #include "patient_host.h"
 #include "run_files.h"
 #include "temporary_folder.h"

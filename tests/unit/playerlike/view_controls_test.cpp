@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Keys of the live window, and steering by hand.
-#include "host/view_controls.h"
+#include "host/window/view_controls.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

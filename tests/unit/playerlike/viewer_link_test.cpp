@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // The connection to a window; the test acts as the viewer.
-#include "host/viewer_link.h"
+#include "host/window/viewer_link.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
