@@ -144,6 +144,9 @@ class RandomFields {
         return fill(field.table(), value);
       case FieldType::kForm:
         return set_in_form(field, value);
+      case FieldType::kPoints:
+      case FieldType::kMap:
+      case FieldType::kVariant:
       case FieldType::kInclude:
       case FieldType::kCustom:
         throw std::logic_error("not a field of messages");
@@ -230,6 +233,9 @@ class FieldText {
         return add_all(field.table(), value);
       case FieldType::kForm:
         return add(field.form->encode(value, protocol::Encoding::kJson).dump());
+      case FieldType::kPoints:
+      case FieldType::kMap:
+      case FieldType::kVariant:
       case FieldType::kInclude:
       case FieldType::kCustom:
         return add("not a field of messages");

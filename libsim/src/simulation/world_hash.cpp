@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/assert.h"
 #include "sim/core/fields.h"
 #include "sim/core/hash.h"
 #include "sim/devices/builtin.h"
@@ -124,6 +125,8 @@ class FieldHash {
         return add_kind(field, value);
       case FieldType::kCustom:
         return hash.add(field.custom->text(value));
+      case FieldType::kForm:
+        SIM_ASSERT(false);  // occurs in messages only
     }
   }
 };
