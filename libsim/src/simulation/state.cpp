@@ -168,8 +168,7 @@ StateParts Simulation::state_parts() const {
 void StateParts::append_state(StateArchive& archive, LayerStack& layers) {
   archive.raw(bodies_.data(), bodies_.size());
   layers.archive_base(archive);
-  // A world without a controller and moving obstacles has none: there is no pointer to copy from.
-  if (!rules_.empty()) archive.raw(rules_.data(), rules_.size());
+  archive.raw(rules_.data(), rules_.size());
 }
 
 std::uint64_t StateParts::hash(LayerStack& layers) {

@@ -121,7 +121,9 @@ class StateArchive {
   }
   void table(const FieldTable& table, void* object);
   /// Raw bytes.
+  /// @param data  may be null if there are none.
   void raw(void* data, std::size_t size) {
+    if (size == 0) return;  // std::memcpy() must not get a null pointer
     if (reading_) {
       expect(size <= left_.size(), "more bytes");
       std::memcpy(data, left_.data(), size);
