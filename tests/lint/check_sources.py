@@ -599,7 +599,7 @@ def self_test():
     includes("libplayerlike/src/server/x.cpp", "zlib.h", "zlib")
     includes("apps/par_common/src/x.cpp", "libCCMorse/CCMorse.h", "from par_common to libCCMorse")
     includes("apps/par_intro/template/x.cc", "libCCMorse/CCMorse.h")
-    includes("apps/playpen/x.cpp", "core/x.h", "public headers only")
+    includes("apps/playpen/x.cpp", "world/x.h", "public headers only")
     includes("apps/playpen/x.cpp", "X11/Xlib.h", "windows belong")
 
     includes("libsim/src/devices/x.cpp", "box2d/box2d.h", "Box2D")

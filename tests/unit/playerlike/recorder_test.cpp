@@ -79,7 +79,7 @@ TEST(Recorder, FilmAfterEnd_Reported) {
   simulation.step();
   recorder.observe(simulation);
   EXPECT_THAT([&] { recorder.close_film(); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("begin at 2 s (--record-from)")));
+              ThrowsMessage<std::runtime_error>(HasSubstr("start at 2 s (--record-from)")));
   EXPECT_FALSE(fs::exists(settings.film));
 }
 
