@@ -150,7 +150,7 @@ TEST_F(ViewerLinkTest, InvalidMessage_ClosesLink) {
   viewer.hello();
   ASSERT_TRUE(viewer.show());
   viewer.send_bytes(std::string(1000, 'x'));
-  EXPECT_THAT(run.told(1), ElementsAre(HasSubstr("no message")));
+  EXPECT_THAT(run.told(1), ElementsAre(HasSubstr("invalid message")));
   while (viewer.receive()) {
   }
   SUCCEED() << "the connection was closed";
@@ -158,7 +158,7 @@ TEST_F(ViewerLinkTest, InvalidMessage_ClosesLink) {
 
 TEST_F(ViewerLinkTest, UnknownMessage_ClosesLink) {
   viewer.say(static_cast<ViewerMessageKind>(99));
-  EXPECT_THAT(run.told(1), ElementsAre(HasSubstr("no message")));
+  EXPECT_THAT(run.told(1), ElementsAre(HasSubstr("invalid message")));
 }
 
 TEST_F(ViewerLinkTest, DeadViewer_Detected) {
