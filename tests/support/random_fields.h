@@ -18,7 +18,7 @@
 #include "sim/core/fields.h"
 
 /// Structs by their tables of fields: random values, and all values as text for comparison.
-namespace playerlike::test {
+namespace test {
 
 /// A finite double with uniformly distributed bits: also tiny, huge and -0.
 inline double any_double(std::mt19937_64& random) {
@@ -65,7 +65,7 @@ class RandomFields {
   double number() { return any_double(random_); }
   std::uint8_t octet() { return static_cast<std::uint8_t>(random_()); }
   /// Often so many that a list of numbers counts as long.
-  std::size_t length() { return random_() % (2 * protocol::kLongList); }
+  std::size_t length() { return random_() % (2 * playerlike::protocol::kLongList); }
   template <typename T, typename Make>
   void fill_list(void* value, Make make) {
     auto& list = *static_cast<std::vector<T>*>(value);
@@ -96,8 +96,8 @@ class RandomFields {
     for (std::size_t i = 0; i < kSamples.size(); ++i) {
       const nlohmann::json sample = {{"it", kSamples[(first + i) % kSamples.size()]}};
       try {
-        return field.form->decode(sample, "it", protocol::Encoding::kJson, value);
-      } catch (const protocol::ProtocolError&) {
+        return field.form->decode(sample, "it", playerlike::protocol::Encoding::kJson, value);
+      } catch (const playerlike::protocol::ProtocolError&) {
         continue;  // a sample of another form
       }
     }
@@ -232,7 +232,7 @@ class FieldText {
       case FieldType::kStruct:
         return add_all(field.table(), value);
       case FieldType::kForm:
-        return add(field.form->encode(value, protocol::Encoding::kJson).dump());
+        return add(field.form->encode(value, playerlike::protocol::Encoding::kJson).dump());
       case FieldType::kPoints:
       case FieldType::kMap:
       case FieldType::kVariant:
@@ -268,4 +268,4 @@ inline bool may_be_missing(const sim::Field* field) {
          (field->may_be_left_out || (field->drop != nullptr && !field->null_if_empty));
 }
 
-}  // namespace playerlike::test
+}  // namespace test

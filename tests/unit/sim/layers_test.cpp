@@ -701,32 +701,32 @@ TEST(Drawings, PiecesAndWithoutCovered_SameCells) {
 }
 
 TEST(Drawings, LastFillAndLater_Kept) {
-  using Kind = DrawOperation::Kind;
-  const auto on = [](Kind kind, LayerId layer, int column = 0) {
+  using Draw = DrawOperation::Kind;
+  const auto on = [](Draw kind, LayerId layer, int column = 0) {
     return DrawOperation{kind, layer, column, 0, 0, 0, {}};
   };
   std::vector<DrawOperation> drawings = {
-      on(Kind::kPixel, 0),    on(Kind::kFill, 0), on(Kind::kPixel, 1, 5), on(Kind::kFill, 0),
-      on(Kind::kPixel, 0, 7), on(Kind::kFill, 1), on(Kind::kFill, 2)};
+      on(Draw::kPixel, 0),    on(Draw::kFill, 0), on(Draw::kPixel, 1, 5), on(Draw::kFill, 0),
+      on(Draw::kPixel, 0, 7), on(Draw::kFill, 1), on(Draw::kFill, 2)};
   drop_covered(drawings);
   ASSERT_EQ(drawings.size(), 4U);
-  EXPECT_EQ(drawings[0].kind, Kind::kFill);
+  EXPECT_EQ(drawings[0].kind, Draw::kFill);
   EXPECT_EQ(drawings[1].x0, 7);
   EXPECT_EQ(drawings[2].layer, 1);
   EXPECT_EQ(drawings[3].layer, 2);
 }
 
 TEST(Drawings, Cost_CellsInside) {
-  using Kind = DrawOperation::Kind;
-  const auto cost = [](Kind kind, int x0, int y0, int x1, int y1) {
+  using Draw = DrawOperation::Kind;
+  const auto cost = [](Draw kind, int x0, int y0, int x1, int y1) {
     return cells_written({kind, 0, x0, y0, x1, y1, {}}, 100, 50);
   };
-  EXPECT_EQ(cost(Kind::kPixel, -5, 0, 0, 0), 1U);
-  EXPECT_EQ(cost(Kind::kFill, 0, 0, 0, 0), 5000U);
-  EXPECT_EQ(cost(Kind::kLine, 0, 0, 9, 3), 10U);
-  EXPECT_EQ(cost(Kind::kLine, 9, 30, 0, 0), 31U);
-  EXPECT_EQ(cost(Kind::kLine, -2147483647, 0, 2147483647, 9), 100U);
-  EXPECT_EQ(cost(Kind::kLine, 200, 0, 300, 40), 1U) << "all outside";
+  EXPECT_EQ(cost(Draw::kPixel, -5, 0, 0, 0), 1U);
+  EXPECT_EQ(cost(Draw::kFill, 0, 0, 0, 0), 5000U);
+  EXPECT_EQ(cost(Draw::kLine, 0, 0, 9, 3), 10U);
+  EXPECT_EQ(cost(Draw::kLine, 9, 30, 0, 0), 31U);
+  EXPECT_EQ(cost(Draw::kLine, -2147483647, 0, 2147483647, 9), 100U);
+  EXPECT_EQ(cost(Draw::kLine, 200, 0, 300, 40), 1U) << "all outside";
 }
 
 TEST(LayerStack, ComposeInPieces_SamePicture) {

@@ -80,7 +80,7 @@ void add_controller(WorldDescription& world) {
   timer.every_s = 0.7;
   timer.jitter_s = 0.3;
   timer.actions = {BlocksAction{BlocksAction::Change::kToggle, blocks},
-                   TextAction{.text = "toggled", .place = {1.0, 1.0}, .duration_s = 0.5}};
+                   TextAction{.text = "toggled", .place = Vec2{1.0, 1.0}, .duration_s = 0.5}};
   world.controller.timers.push_back(timer);
   TrapDescription trap;
   trap.name = "trap";
