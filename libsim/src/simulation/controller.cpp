@@ -66,6 +66,7 @@ Simulation::Impl::Controller::Controller(Impl& owner)
     batteries_.push_back(first_device<Battery>(owner.robots[i].devices));
     fiducials_.push_back(first_device<FiducialFinder>(owner.robots[i].devices));
   }
+  scores_.resize(owner.robots.size());
   reset();
 }
 
