@@ -32,14 +32,16 @@ class Simulation::Impl::Controller {
   void after_step();
   /// Starts anew in the next step, like that of a new simulation.
   void reset();
-  /// Continues at another time.
-  void shift_times(SimTime later_ns);
+  /// Continues at another time, with the scores and the verdict of the one before.
+  void take_over_from(Controller& before, SimTime later_ns);
 
   std::optional<std::string> configure(const std::string& name);
   std::optional<std::string> set_timer_enabled(const std::string& name, bool enabled);
   std::optional<std::string> set_trap_enabled(const std::string& name, bool enabled);
   [[nodiscard]] std::optional<bool> is_enabled(const std::string& name) const;
 
+  [[nodiscard]] const std::vector<double>& scores() const noexcept { return scores_; }
+  [[nodiscard]] const std::optional<Verdict>& verdict() const noexcept { return verdict_; }
   [[nodiscard]] ArenaState state() const;
   void show(SceneSnapshot& scene) const;
   void archive(StateArchive& archive);
@@ -139,6 +141,8 @@ class Simulation::Impl::Controller {
   std::vector<Stay> stays_;
   std::vector<std::size_t> waiting_;  // robots to be put back to their start
   std::vector<Text> texts_;           // oldest first
+  std::vector<double> scores_;        // of the robots
+  std::optional<Verdict> verdict_;
 };
 
 }  // namespace sim

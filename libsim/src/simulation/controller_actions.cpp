@@ -58,7 +58,7 @@ bool Simulation::Impl::Controller::holds(const CountCondition& condition, int) c
 bool Simulation::Impl::Controller::holds(const BlockCondition& condition, int) const {
   const std::optional<int> block = impl_.find_obstacle(condition.block);
   SIM_ASSERT(block.has_value());
-  return impl_.phase_of(*block) == condition.phase;
+  return impl_.blocks->phase_of(*block) == condition.phase;
 }
 
 std::optional<double> Simulation::Impl::Controller::quantity(RobotQuantity quantity,
@@ -78,7 +78,7 @@ std::optional<double> Simulation::Impl::Controller::quantity(RobotQuantity quant
     case RobotQuantity::kScore:
       break;
   }
-  return impl_.scores[robot];
+  return scores_[robot];
 }
 
 bool Simulation::Impl::Controller::holds(const QuantityCondition& condition, int robot) const {
@@ -122,16 +122,16 @@ void Simulation::Impl::Controller::act(const BlocksAction& action, const Cause&)
 std::optional<std::string> Simulation::Impl::Controller::change_block(const std::string& name,
                                                                       BlocksAction::Change change) {
   int index = 0;
-  if (auto reason = impl_.find_free_block(name, index)) {
+  if (auto reason = impl_.blocks->find_free(name, index)) {
     impl_.record(ArenaEventKind::kRefused, name, {}, *reason);
     return reason;
   }
   bool extend = change == BlocksAction::Change::kExtend;
   if (change == BlocksAction::Change::kToggle) {
-    const BlockPhase phase = impl_.phase_of(index);
+    const BlockPhase phase = impl_.blocks->phase_of(index);
     extend = phase == BlockPhase::kRetracted || phase == BlockPhase::kSinking;
   }
-  return impl_.set_block(index, extend);  // records what it refuses
+  return impl_.blocks->set(index, extend);  // records what it refuses
 }
 
 void Simulation::Impl::Controller::act(const PlaceAction& action, const Cause&) {
@@ -212,7 +212,7 @@ void Simulation::Impl::Controller::act(const ScoreAction& action, const Cause& c
   const int index = robot_of(action.robot, cause.robot);
   if (index < 0) return;
   const auto robot = static_cast<std::size_t>(index);
-  impl_.scores[robot] += action.points;
+  scores_[robot] += action.points;
   impl_.record(ArenaEventKind::kScore, cause.name, impl_.world.robots[robot].name, {},
                action.points);
 }
@@ -225,7 +225,7 @@ void Simulation::Impl::Controller::act(const SwitchAction& action, const Cause&)
 }
 
 void Simulation::Impl::Controller::act(const EndAction& action, const Cause& cause) {
-  impl_.verdict = Verdict{action.passed, action.reason, impl_.now_ns};
+  verdict_ = Verdict{action.passed, action.reason, impl_.now_ns};
   impl_.record(ArenaEventKind::kEnd, cause.name, {}, action.reason, action.passed ? 1.0 : 0.0);
 }
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "physics/robot_body.h"
+#include "physics/body.h"
 
 namespace sim::physics {
 namespace {
@@ -19,7 +19,7 @@ b2Vec2 nearest_on_outline(const b2PolygonShape& shape, const b2Vec2& p) {
 
 }  // namespace
 
-b2AABB box_of(const RobotDetails& d, const b2Transform& xf) {
+b2AABB box_of(const BodyDetails& d, const b2Transform& xf) {
   b2AABB box;
   d.solid().ComputeAABB(&box, xf, 0);
   for (const b2PolygonShape& part : d.further) {
@@ -30,7 +30,7 @@ b2AABB box_of(const RobotDetails& d, const b2Transform& xf) {
   return box;
 }
 
-b2DistanceOutput distance_between(const RobotDetails& a, const b2Transform& xf_a, const b2Shape& b,
+b2DistanceOutput distance_between(const BodyDetails& a, const b2Transform& xf_a, const b2Shape& b,
                                   const b2Transform& xf_b, b2SimplexCache& cache) {
   b2DistanceOutput least = distance_between(a.solid(), xf_a, b, xf_b, cache);
   for (const b2PolygonShape& part : a.further) {
@@ -40,8 +40,8 @@ b2DistanceOutput distance_between(const RobotDetails& a, const b2Transform& xf_a
   return least;
 }
 
-b2DistanceOutput distance_between(const RobotDetails& a, const b2Transform& xf_a,
-                                  const RobotDetails& b, const b2Transform& xf_b,
+b2DistanceOutput distance_between(const BodyDetails& a, const b2Transform& xf_a,
+                                  const BodyDetails& b, const b2Transform& xf_b,
                                   b2SimplexCache& cache) {
   b2DistanceOutput least = distance_between(a, xf_a, b.solid(), xf_b, cache);
   for (const b2PolygonShape& part : b.further) {
@@ -53,7 +53,7 @@ b2DistanceOutput distance_between(const RobotDetails& a, const b2Transform& xf_a
   return least;
 }
 
-bool is_between_parts(const RobotDetails& d, std::size_t part, const b2Vec2& point,
+bool is_between_parts(const BodyDetails& d, std::size_t part, const b2Vec2& point,
                       const b2Vec2& normal) {
   if (d.further.empty()) return false;
   // A point a little inside of the part, and then farther out along the normal: it is outside of
@@ -71,7 +71,7 @@ bool is_between_parts(const RobotDetails& d, std::size_t part, const b2Vec2& poi
   return false;
 }
 
-LineDistance distance_to_line(const Robot& r, const Wall& wall, const b2Transform& xf) {
+LineDistance distance_to_line(const Body& r, const Wall& wall, const b2Transform& xf) {
   Vec2 normal(wall.along.y(), -wall.along.x());
   if (normal.dot(r.X_WB.position() - wall.start) < 0.0) normal = -normal;
   if (r.details->round) {
@@ -95,7 +95,7 @@ LineDistance distance_to_line(const Robot& r, const Wall& wall, const b2Transfor
   return {apart_m, -n, apart_m > 0.0 && way_m >= 0.0 && way_m <= wall.length_m};
 }
 
-bool may_reach(const Robot& r, const Wall& wall, double reach_m) {
+bool may_reach(const Body& r, const Wall& wall, double reach_m) {
   if (!wall.is_edge) return true;
   const Vec2 off = r.X_WB.position() - wall.start;
   const double way_m = wall.along.dot(off);

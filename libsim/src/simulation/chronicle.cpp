@@ -1,16 +1,18 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Events of the arena, and the state of blocks, events, scores and verdict.
+// What is kept of a run, and the words for events of the arena.
+#include "simulation/chronicle.h"
+
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "sim/core/number_text.h"
 #include "sim/simulation/arena_event.h"
-#include "simulation/controller.h"
-#include "simulation/simulation_impl.h"
 
 namespace sim {
 namespace {
+
+constexpr std::size_t kKeptCollisions = 1024;
+constexpr std::size_t kKeptSpokenTexts = 1024;
 
 constexpr std::array<std::string_view, 23> kKindNames = {
     "timer",    "trap",   "configuration", "rising", "extended", "sinking", "retracted", "waiting",
@@ -86,86 +88,68 @@ std::string description(const ArenaEvent& event) {
   return text;
 }
 
-void Simulation::Impl::record(ArenaEventKind kind, std::string what, std::string who,
-                              std::string text, double value) {
-  if (!records_events) return;
-  if (events.newest.size() == kKeptArenaEvents) events.newest.pop_front();
-  events.newest.push_back(
-      {++events.count, now_ns, kind, std::move(what), std::move(who), std::move(text), value});
-  if (log) {
-    log(LogLevel::kInfo,
-        "arena, " + fixed_text(to_seconds(now_ns), 2) + " s: " + description(events.newest.back()));
+void Chronicle::add_event(SimTime now_ns, ArenaEventKind kind, std::string what, std::string who,
+                          std::string text, double value) {
+  if (!records_events_) return;
+  if (events_.newest.size() == kKeptArenaEvents) events_.newest.pop_front();
+  events_.newest.push_back(
+      {++events_.count, now_ns, kind, std::move(what), std::move(who), std::move(text), value});
+  if (log_) {
+    log_(LogLevel::kInfo, "arena, " + fixed_text(to_seconds(now_ns), 2) +
+                              " s: " + description(events_.newest.back()));
   }
 }
 
-void Simulation::Impl::archive_arena(StateArchive& archive) {
-  if (!records_events) return;
-  int last = -1;
-  archive.list(block_motions, [&](BlockMotion& motion) {
-    archive.index(motion.obstacle, world.arena.obstacles.size());
-    archive.choice(motion.phase, BlockPhase::kSinking);
-    ObstacleDescription& block = obstacle(motion.obstacle);
-    const bool waits = motion.phase == BlockPhase::kRetracted;
-    archive(block.present_height_m);
-    const bool can_be = motion.obstacle > last && block.type == ObstacleType::kDynamic &&
-                        block.carried_by < 0 && motion.phase != BlockPhase::kExtended &&
-                        waits == (block.state == ObstacleState::kRetracted) &&
-                        waits != block.present_height_m.has_value() &&
-                        (waits || block.rise_speed_mps > 0.0) &&
-                        block.present_height_m.value_or(0.0) >= 0.0 &&
-                        block.present_height_m.value_or(0.0) <= block.height_m;
-    archive.expect(can_be, "blocks that move");
-    last = motion.obstacle;
-  });
-  archive(events.count);
-  archive.list(events.newest, [&](ArenaEvent& event) {
+void Chronicle::archive_events(StateArchive& archive) {
+  archive(events_.count);
+  archive.list(events_.newest, [&](ArenaEvent& event) {
     archive(event.number);
     archive.time(event.time_ns);
     archive.choice(event.kind, kLastArenaEventKind);
     archive(event.what, event.who, event.text, event.value);
   });
-  archive.expect(events.newest.size() <= kKeptArenaEvents, "few events");
-  if (!controller) return;
-  for (double& score : scores) archive(score);
-  bool ended = verdict.has_value();
-  archive(ended);
-  if (ended && !verdict) verdict.emplace();
-  if (ended) {
-    archive(verdict->passed, verdict->reason);
-    archive.time(verdict->time_ns);
-  }
-  controller->archive(archive);
+  archive.expect(events_.newest.size() <= kKeptArenaEvents, "few events");
 }
 
-std::optional<std::string> Simulation::set_configuration(const std::string& name) {
-  if (!impl_->controller) {
-    return "there is no configuration named \"" + name + "\"; this world has none";
-  }
-  return impl_->controller->configure(name);
+void Chronicle::add_collision(Collision collision) {
+  if (collisions_.size() == 2 * kKeptCollisions) forget_old_collisions();
+  collisions_.push_back(std::move(collision));
 }
 
-std::optional<std::string> Simulation::set_timer_enabled(const std::string& name, bool enabled) {
-  if (!impl_->controller) {
-    return "there is no timer named \"" + name + "\"; this world has none";
-  }
-  return impl_->controller->set_timer_enabled(name, enabled);
+void Chronicle::forget_old_collisions() {
+  if (collisions_.size() <= kKeptCollisions) return;
+  collisions_.erase(collisions_.begin(),
+                    collisions_.end() - static_cast<std::ptrdiff_t>(kKeptCollisions));
 }
 
-std::optional<std::string> Simulation::set_trap_enabled(const std::string& name, bool enabled) {
-  if (!impl_->controller) return "there is no trap named \"" + name + "\"; this world has none";
-  return impl_->controller->set_trap_enabled(name, enabled);
+void Chronicle::add_spoken(SpokenText spoken, const std::string& speaker) {
+  if (spoken_texts_.size() == kKeptSpokenTexts) spoken_texts_.erase(spoken_texts_.begin());
+  if (log_) log_(LogLevel::kInfo, "robot " + speaker + " says: " + spoken.text);
+  spoken_texts_.push_back(std::move(spoken));
 }
 
-std::optional<bool> Simulation::timer_or_trap_enabled(const std::string& name) const {
-  if (!impl_->controller) return std::nullopt;
-  return impl_->controller->is_enabled(name);
+void Chronicle::archive(StateArchive& archive, std::size_t robots) {
+  forget_old_collisions();
+  archive.list(collisions_, [&](Collision& collision) {
+    archive.time(collision.time_ns);
+    archive.index(collision.robot, robots);
+    archive(collision.partner);
+  });
+  archive.list(spoken_texts_, [&](SpokenText& spoken) {
+    archive.time(spoken.time_ns);
+    archive.index(spoken.robot, robots);
+    archive(spoken.text);
+  });
 }
 
-ArenaState Simulation::arena_state() const {
-  return impl_->controller ? impl_->controller->state() : ArenaState{};
+void Chronicle::archive_places(StateArchive& archive) {
+  for (Collision& collision : collisions_) archive(collision.place);
 }
 
-const std::vector<double>& Simulation::scores() const noexcept { return impl_->scores; }
-const std::optional<Verdict>& Simulation::verdict() const noexcept { return impl_->verdict; }
+void Chronicle::take_over_from(Chronicle& before) {
+  collisions_ = std::move(before.collisions_);
+  spoken_texts_ = std::move(before.spoken_texts_);
+  events_ = std::move(before.events_);
+}
 
 }  // namespace sim

@@ -69,7 +69,7 @@ struct ObstacleBody {
 };
 
 /// Data of a robot that is needed less often.
-struct RobotDetails {
+struct BodyDetails {
   b2PolygonShape shape;
   std::vector<b2PolygonShape> further;  ///< of a body that is not convex: its parts after `shape`
   b2CircleShape disc;                   ///< of a round obstacle, about B, instead of `shape`
@@ -111,7 +111,7 @@ struct RobotDetails {
 };
 
 /// A robot or an obstacle that moves, as stored in Bodies for all parts of the physics.
-struct alignas(64) Robot {
+struct alignas(64) Body {
   // The members that are needed most often come first: one cache line, then some others.
   b2Body* body = nullptr;  ///< null while nothing hinders the robot
   Twist target;
@@ -130,18 +130,18 @@ struct alignas(64) Robot {
   double stall_clock_s = 0.0;
   double wall_at_travel_m = kUnknown;  ///< its cumulative travel at its last search for walls
   BodyState* state = nullptr;
-  RobotDetails* details = nullptr;
+  BodyDetails* details = nullptr;
 };
 
 /// Pose of a robot's shape.
-[[nodiscard]] inline b2Transform transform_of(const Robot& r) {
+[[nodiscard]] inline b2Transform transform_of(const Body& r) {
   if (r.body != nullptr) return r.body->GetTransform();
   return {to_box2d(r.X_WB.position()), b2Rot(static_cast<float>(r.X_WB.yaw_rad))};
 }
 
 /// Calls visit(corner) for each corner of a body's polygons, in B.
 template <typename Visitor>
-void for_each_corner(const RobotDetails& d, Visitor visit) {
+void for_each_corner(const BodyDetails& d, Visitor visit) {
   for (int32 i = 0; i < d.shape.m_count; ++i) visit(d.shape.m_vertices[i]);
   for (const b2PolygonShape& part : d.further) {
     for (int32 i = 0; i < part.m_count; ++i) visit(part.m_vertices[i]);
@@ -149,7 +149,7 @@ void for_each_corner(const RobotDetails& d, Visitor visit) {
 }
 
 /// The least n . v over the points v of a body.
-[[nodiscard]] inline float least_along(const b2Vec2& n, const RobotDetails& d,
+[[nodiscard]] inline float least_along(const b2Vec2& n, const BodyDetails& d,
                                        const b2Transform& xf) {
   float least = least_along(n, d.solid(), xf);
   for (const b2PolygonShape& part : d.further) least = std::min(least, least_along(n, part, xf));
@@ -157,15 +157,15 @@ void for_each_corner(const RobotDetails& d, Visitor visit) {
 }
 
 /// The bounding box of a body.
-[[nodiscard]] b2AABB box_of(const RobotDetails& d, const b2Transform& xf);
+[[nodiscard]] b2AABB box_of(const BodyDetails& d, const b2Transform& xf);
 
 /// Distance of a body from a shape or another body; see distance_between().
 /// @param cache  of solid(), or of both solid(); is updated. Other parts have none.
-[[nodiscard]] b2DistanceOutput distance_between(const RobotDetails& a, const b2Transform& xf_a,
+[[nodiscard]] b2DistanceOutput distance_between(const BodyDetails& a, const b2Transform& xf_a,
                                                 const b2Shape& b, const b2Transform& xf_b,
                                                 b2SimplexCache& cache);
-[[nodiscard]] b2DistanceOutput distance_between(const RobotDetails& a, const b2Transform& xf_a,
-                                                const RobotDetails& b, const b2Transform& xf_b,
+[[nodiscard]] b2DistanceOutput distance_between(const BodyDetails& a, const b2Transform& xf_a,
+                                                const BodyDetails& b, const b2Transform& xf_b,
                                                 b2SimplexCache& cache);
 
 /// Whether a contact of a part is inside the body, where that part meets another one: then the
@@ -173,16 +173,16 @@ void for_each_corner(const RobotDetails& d, Visitor visit) {
 /// inner side of the second one.
 /// @param point   of the contact, near the part, in B [Box2D units].
 /// @param normal  out of the part, in B.
-[[nodiscard]] bool is_between_parts(const RobotDetails& d, std::size_t part, const b2Vec2& point,
+[[nodiscard]] bool is_between_parts(const BodyDetails& d, std::size_t part, const b2Vec2& point,
                                     const b2Vec2& normal);
 
 /// Distance between the bounding circles of two robots.
-[[nodiscard]] inline double circles_apart_m(const Robot& a, const Robot& b) {
+[[nodiscard]] inline double circles_apart_m(const Body& a, const Body& b) {
   return std::max(0.0, (a.X_WB.position() - b.X_WB.position()).norm() - a.radius_m - b.radius_m);
 }
 
 /// Upper bound of how far any point of a robot moves if it follows its target [m].
-[[nodiscard]] inline double most_travel_m(const Robot& r, double dt_s) {
+[[nodiscard]] inline double most_travel_m(const Body& r, double dt_s) {
   return (std::abs(r.target.v_mps) + std::abs(r.target.lateral_mps) +
           std::abs(r.target.omega_radps) * r.radius_m) *
          dt_s;
@@ -208,10 +208,9 @@ struct LineDistance {
   bool exact;  ///< the nearest point of the line is on the edge, so apart_m is the distance to the
                ///< edge, too
 };
-[[nodiscard]] LineDistance distance_to_line(const Robot& r, const Wall& wall,
-                                            const b2Transform& xf);
+[[nodiscard]] LineDistance distance_to_line(const Body& r, const Wall& wall, const b2Transform& xf);
 
 /// Whether a wall may be within reach_m of a robot, judged by the robot's bounding circle.
-[[nodiscard]] bool may_reach(const Robot& r, const Wall& wall, double reach_m);
+[[nodiscard]] bool may_reach(const Body& r, const Wall& wall, double reach_m);
 
 }  // namespace sim::physics
