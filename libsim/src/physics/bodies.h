@@ -10,8 +10,8 @@
 #include <memory>
 #include <vector>
 
-#include "physics/fixtures.h"
 #include "physics/body.h"
+#include "physics/fixtures.h"
 #include "sim/core/state_archive.h"
 #include "sim/world/description.h"
 

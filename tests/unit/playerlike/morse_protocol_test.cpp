@@ -815,7 +815,8 @@ TEST_F(MorseProtocol, Properties_ConstantFromWorld) {
   EXPECT_EQ(configurations["beams"], 682.0);
   EXPECT_EQ(configurations["object_to_robot"]["translation"], json::parse("[0.035, 0.0, 0.125]"));
   EXPECT_EQ(client.get("r1.laser set_property [\"range_max\", 5]"), nullptr);
-  EXPECT_THAT(client.refusal("r1.laser set_property [\"range_max\", 6]"), HasSubstr("does not change during a run"));
+  EXPECT_THAT(client.refusal("r1.laser set_property [\"range_max\", 6]"),
+              HasSubstr("does not change during a run"));
   EXPECT_THAT(client.refusal("r1.laser set_property [\"colour\", 6]"), HasSubstr("does not exist"));
   EXPECT_THAT(client.get("r1.robot_properties get_properties")["properties"], IsEmpty());
 }
