@@ -189,6 +189,15 @@ std::optional<FieldError> check_canvas(const void* object) {
   return FieldError{"", "a number greater than 0", "", "", "cell_size"};
 }
 
+// Of a driver in messages; worlds have a table of their own.
+const FieldTable& driver_fields() {
+  static constexpr Field kFields[] = {
+      field<&DriverDescription::type>("type"),
+      field<&DriverDescription::settings>("settings", form::kMapOf<std::string>)};
+  static constexpr FieldTable kTable = {kFields};
+  return kTable;
+}
+
 }  // namespace
 
 /// Defines fields_of<Struct>() like SIM_FIELDS, but with the fields themselves. They call the
@@ -225,8 +234,6 @@ MESSAGE(LayerInfo, field<&T::id>("layer"), field<&T::kind>("kind", form::kLayerK
         field<&T::owner>("owner"), field<&T::style>("style", form::kStyle))
 MESSAGE(playerlike::DeviceInfo, field<&T::id>("device", form::kDevice), field<&T::name>("name"),
         field<&T::type>("type"), field<&T::properties>("properties", form::kMapOf<double>))
-MESSAGE(DriverDescription, field<&T::type>("type"),
-        field<&T::settings>("settings", form::kMapOf<std::string>))
 MESSAGE(playerlike::RobotInfo, field<&T::name>("name"), field<&T::model>("model"),
         field<&T::colour>("colour").expecting(kColourText), field<&T::initial_pose>("initial_pose"),
         field<&T::port>("port").within(0, 65535), field<&T::length_m>("length"),
@@ -235,7 +242,8 @@ MESSAGE(playerlike::RobotInfo, field<&T::name>("name"), field<&T::model>("model"
         field<&T::max_speed_mps>("max_speed"), field<&T::max_turn_rate_radps>("max_turn_rate"),
         field<&T::proxies>("proxies", form::kMapOf<int>),
         field<&T::interfaces>("interfaces", form::kMapOf<std::vector<std::string>>),
-        field<&T::drivers>("drivers"), field<&T::devices>("devices"))
+        field<&T::drivers>("drivers").with<&Field::table>(&driver_fields),
+        field<&T::devices>("devices"))
 MESSAGE(ArenaTrigger, field<&T::name>("name"), field<&T::enabled>("enabled"),
         field<&T::count>("count"), field<&T::time_left_s>("time_left"))
 MESSAGE(ArenaEvent, field<&T::number>("number"), natural(field<&T::time_ns>("t")),
