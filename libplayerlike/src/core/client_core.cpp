@@ -266,11 +266,12 @@ const DeviceInfo& ClientCore::info_of(DeviceId device) const {
 }
 
 void show_elements(Elements& elements, const Newest& newest) {
-  const auto show = [&](const std::vector<double>& values) {
-    elements.Show(newest.reading, values.data(), static_cast<std::uint32_t>(values.size()));
+  const auto show = [&](const std::vector<double>& values, auto... bearings) {
+    elements.Show(newest.reading, values.data(), static_cast<std::uint32_t>(values.size()),
+                  bearings...);
   };
   if (const auto* scan = newest.find<sim::LaserReading>()) {
-    show(scan->ranges_m);
+    show(scan->ranges_m, scan->angle_min_rad, scan->resolution_rad);
   } else if (const auto* round = newest.find<sim::RangerReading>()) {
     show(round->ranges_m);
   }

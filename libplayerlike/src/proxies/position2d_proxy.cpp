@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ostream>
 
@@ -15,6 +16,18 @@ using playerlike::require_finite;
 using playerlike::SessionError;
 using playerlike::translated;
 using sim::PoseReading;
+
+namespace {
+
+// In the order of Position2dProxy::Numbers.
+std::array<double, 8> numbers_of(const PoseReading& reading) {
+  const sim::Pose& pose = reading.pose;
+  const sim::Twist& twist = reading.twist;
+  return {0.0,         pose.x_m,          pose.y_m,          pose.yaw_rad,
+          twist.v_mps, twist.lateral_mps, twist.omega_radps, reading.stalled ? 1.0 : 0.0};
+}
+
+}  // namespace
 
 struct Position2dProxy::Control {
   // Limits of the robot's motors, for drivers.
@@ -76,6 +89,11 @@ void Position2dProxy::HandleReading() {
   const auto* reading = mLink->newest.find<PoseReading>();
   if (reading == nullptr) return;
   mLink->core->note_pose(mLink->binding.robot, reading->pose, mLink->info().type == "pose");
+  if (!mElements.MayShow()) return;
+  const auto numbers = numbers_of(*reading);
+  static_assert(numbers.size() == kNumberCount);
+  std::ranges::copy(numbers, mNumbers);
+  mElements.Show(nullptr, mNumbers, kNumberCount);
 }
 
 void Position2dProxy::SetSpeed(double aXSpeed, double aYSpeed, double aYawSpeed) {
@@ -188,13 +206,10 @@ void Position2dProxy::SetOdometry(double aX, double aY, double aYaw) {
   mLink->send(fun, sim::SetPoseCommand{{aX, aY, sim::normalize_angle(aYaw)}});
 }
 
-double Position2dProxy::GetXPos() const { return Look(&PoseReading::pose).x_m; }
-double Position2dProxy::GetYPos() const { return Look(&PoseReading::pose).y_m; }
-double Position2dProxy::GetYaw() const { return Look(&PoseReading::pose).yaw_rad; }
-double Position2dProxy::GetXSpeed() const { return Look(&PoseReading::twist).v_mps; }
-double Position2dProxy::GetYSpeed() const { return Look(&PoseReading::twist).lateral_mps; }
-double Position2dProxy::GetYawSpeed() const { return Look(&PoseReading::twist).omega_radps; }
-bool Position2dProxy::GetStall() const { return Look(&PoseReading::stalled); }
+double Position2dProxy::LockedNumber(Numbers aNumber) const {
+  const scoped_lock_t lock(mLink->lock_element("ClientProxy"));
+  return numbers_of(mLink->newest.as<PoseReading>())[aNumber];
+}
 
 }  // namespace PlayerCc
 

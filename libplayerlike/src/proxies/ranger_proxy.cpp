@@ -125,7 +125,9 @@ player_bbox3d_t RangerProxy::GetElementSize(uint32_t aIndex) const {
 }
 
 uint32_t RangerProxy::GetRangeCount() const {
-  const scoped_lock_t lock(LockData("RangerProxy::GetRangeCount"));
+  uint32_t count = 0;
+  if (mElements.Count(count)) return count;
+  const scoped_lock_t lock(mLink->lock_element("RangerProxy::GetRangeCount"));
   return static_cast<uint32_t>(ranges_of(mLink->newest).size());
 }
 
