@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cctype>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -179,6 +181,104 @@ using Json = nlohmann::ordered_json;
          ", " + rounded_text(field.range.max, 12) + "]";
 }
 
+/// The default of a field of a world; nullopt if it has none, or if it depends on others.
+[[nodiscard]] inline std::optional<Json> default_json(const Field& field, const void* object) {
+  if (field.set == nullptr || *field.default_text != '\0' || field.needed_for != nullptr) return {};
+  const void* const value = field.get(object);
+  if (value == nullptr) return field.may_be_null ? std::optional<Json>(nullptr) : std::nullopt;
+  switch (field.type) {
+    case FieldType::kMap:
+    case FieldType::kStruct:
+    case FieldType::kVariant:
+      return {};
+    case FieldType::kNumber: {
+      const double number = *static_cast<const double*>(value) / (field.is_angle ? kDegrees : 1.0);
+      if (!std::isfinite(number) || number < field.range.min) return {};
+      return Json::parse(rounded_text(number, 9));
+    }
+    case FieldType::kInt:
+      if (integer_at(field, value) < field.least) return {};
+      break;
+    default:
+      break;
+  }
+  Json json = value_json(field, object);
+  if (json.is_structured() ? json.empty() : json == "") return {};
+  return json;
+}
+
+/// The values that a field of a world may have: "(0, 1000]", or the words of a choice, or the
+/// number of elements.
+[[nodiscard]] inline std::string values_text(const Field& field) {
+  const auto counted = [&field](const std::string& what) -> std::string {
+    constexpr std::size_t kAny = Field{"", FieldType::kList}.max_count;
+    if (field.max_count == kAny) return "–";
+    return (field.min_count > 0 ? std::to_string(field.min_count) + " to " : "at most ") +
+           std::to_string(field.max_count) + what;
+  };
+  Json words = std::vector<std::string>(field.words.begin(), field.words.end());
+  if (field.custom != nullptr) {
+    const Json schema = Json::parse("{" + std::string(field.custom->schema) + "}");
+    if (schema.contains("enum")) words = schema["enum"];
+  }
+  std::string text;
+  for (const Json& word : words) text += (text.empty() ? "`" : ", `") + word.dump() + "`";
+  if (!text.empty()) return text;
+  switch (field.type) {
+    case FieldType::kText:
+      return counted(" bytes");
+    case FieldType::kTexts:
+    case FieldType::kPoints:
+    case FieldType::kList:
+      return counted("");
+    case FieldType::kVec2:
+    case FieldType::kInt64: {
+      Field number = field;
+      number.type = FieldType::kNumber;
+      return range_text(number);
+    }
+    default:
+      return range_text(field);
+  }
+}
+
+/// A row of a table of fields.
+[[nodiscard]] inline std::string field_row(const Field& field, const std::string& range,
+                                           const std::string& default_value) {
+  const std::string unit = field.range.unit;
+  return "| `" + std::string(field.name) + "` | " + (unit.empty() ? "–" : unit) + " | " + range +
+         " | " + default_value + " | " + field.meaning + " |\n";
+}
+inline constexpr const char* kFieldTableHead =
+    "| key | unit | range | default | meaning |\n|---|---|---|---|---|\n";
+
+/// The table of the fields of a part of worlds.
+/// @param only  its keys; empty: all.
+[[nodiscard]] inline std::string fields_table(const FieldTable& table, const void* defaults,
+                                              std::span<const std::string> only = {}) {
+  std::string rows = kFieldTableHead;
+  for_each_field(table, defaults, [&](const Field& field, const void* owner) {
+    if (field.custom != nullptr && field.custom->keys != nullptr) {
+      rows += fields_table(field.custom->keys(), field.get(owner))
+                  .substr(std::string(kFieldTableHead).size());
+      return;
+    }
+    if (field.read_only && !field.is_read_apart) return;
+    if (!only.empty() && std::find(only.begin(), only.end(), field.name) == only.end()) return;
+    const std::optional<Json> value = default_json(field, owner);
+    const std::string words = field.needed_for != nullptr ? "**needed**" : field.default_text;
+    rows += field_row(field, values_text(field),
+                      value           ? "`" + line_of_json(*value) + "`"
+                      : words.empty() ? "–"
+                                      : words);
+    for (const Kind& kind : field.kinds) {
+      if (!kind.is_beside) continue;
+      rows += "| `" + std::string(kind.word) + "` | – | – | – | " + kind.meaning + " |\n";
+    }
+  });
+  return rows;
+}
+
 /// Visits each setting of a device kind, with the object that holds its default.
 template <typename Visit>
 void for_each_setting(const DeviceKind& kind, const Visit& visit) {
@@ -193,13 +293,10 @@ void for_each_setting(const DeviceKind& kind, const Visit& visit) {
 [[nodiscard]] inline std::string settings_table(const DeviceKind& kind) {
   std::string rows;
   for_each_setting(kind, [&](const Field& field, const void* defaults) {
-    const std::string unit = field.range.unit;
-    rows += "| `" + std::string(field.name) + "` | " + (unit.empty() ? "–" : unit) + " | " +
-            range_text(field) + " | `" + line_of_json(value_json(field, defaults)) + "` | " +
-            field.meaning + " |\n";
+    rows +=
+        field_row(field, range_text(field), "`" + line_of_json(value_json(field, defaults)) + "`");
   });
-  if (rows.empty()) return "";
-  return "| key | unit | range | default | meaning |\n|---|---|---|---|---|\n" + rows;
+  return rows.empty() ? "" : kFieldTableHead + rows;
 }
 
 /// The table of docs/realism.md: the figures of all settings that the level of realism changes.
@@ -217,132 +314,28 @@ void for_each_setting(const DeviceKind& kind, const Visit& visit) {
   return "| device | setting | unit | ideal | real |\n|---|---|---|---|---|\n" + rows;
 }
 
-/// Turns a phrase into a sentence without Markdown: "above the floor" -> "Above the floor [m]."
-[[nodiscard]] inline std::string sentence(std::string phrase, const std::string& unit) {
-  std::erase(phrase, '`');
-  if (!phrase.empty()) {
-    phrase[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(phrase[0])));
-  }
-  return phrase + (unit.empty() ? "." : " [" + unit + "].");
-}
-
-[[nodiscard]] Json object_schema(const FieldTable& table);
-
-/// Adds the schema of a field, or of its parts if it has no name, to the properties of an object.
-inline void add_schema(const Field& field, const void* defaults, Json& properties) {
-  Json schema = {{"description", sentence(field.meaning, field.range.unit)}};
-  const auto add_range = [&field](Json& number) {
-    number[field.range.min_exclusive ? "exclusiveMinimum" : "minimum"] = rounded(field.range.min);
-    number["maximum"] = rounded(field.range.max);
-  };
-  switch (field.type) {
-    case FieldType::kNumber:
-    case FieldType::kInt:
-      if (range_text(field) == "–") {
-        schema["$ref"] = "#/$defs/angle";
-        break;
-      }
-      schema["type"] = field.type == FieldType::kInt ? "integer" : "number";
-      add_range(schema);
-      break;
-    case FieldType::kBool:
-      schema["type"] = "boolean";
-      break;
-    case FieldType::kText:
-      schema.update(field.needed_for == nullptr ? Json{{"type", "string"}}
-                                                : Json{{"$ref", "#/$defs/name"}});
-      break;
-    case FieldType::kChoice:
-      schema["enum"] = std::vector<std::string>(field.words.begin(), field.words.end());
-      break;
-    case FieldType::kColour:
-      schema["type"] = "string";
-      schema["pattern"] = "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6}|[0-9A-Fa-f]{8})$";
-      break;
-    case FieldType::kVec2: {
-      Json part = {{"type", "number"}};
-      add_range(part);
-      if (*field.name == '\0') {
-        for (const char* key : {"x", "y"}) {
-          properties[key] = {{"description", schema["description"]}};
-          properties[key].update(part);
-          properties[key]["default"] = 0;
-        }
-        return;
-      }
-      schema.update({{"type", "array"}, {"items", part}, {"minItems", 2}, {"maxItems", 2}});
-      break;
-    }
-    case FieldType::kPose:
-      schema["$ref"] = "#/$defs/pose";
-      break;
-    case FieldType::kPoses:
-    case FieldType::kList:
-      schema["type"] = "array";
-      if (field.min_count > 0) schema["minItems"] = field.min_count;
-      schema["maxItems"] = field.max_count;
-      schema["items"] = field.element != nullptr          ? Json::parse(field.element->schema)
-                        : field.type == FieldType::kPoses ? Json{{"$ref", "#/$defs/pose"}}
-                                                          : object_schema(field.table());
-      break;
-    default:
-      schema.update(Json::parse("{" + std::string(field.custom->schema) + "}"));
-  }
-  if (defaults != nullptr && field.get(defaults) != nullptr) {
-    schema["default"] = value_json(field, defaults);
-  }
-  properties[field.name] = schema;
-}
-
-/// The schema of an object with these fields.
-inline Json object_schema(const FieldTable& table) {
-  Json schema = {{"type", "object"}, {"properties", Json::object()}};
-  for (const Field& field : table.fields) {
-    add_schema(field, nullptr, schema["properties"]);
-    if (field.needed_for != nullptr) schema["required"].push_back(field.name);
-  }
-  schema["additionalProperties"] = false;
-  return schema;
-}
-
-/// The schema of the object under a device's name in a world file.
-[[nodiscard]] inline Json device_schema(const DeviceKind& kind) {
-  Json properties = {{"type", {{"$ref", "#/$defs/device_type"}}}};
-  for_each_setting(kind, [&properties](const Field& field, const void* defaults) {
-    add_schema(field, defaults, properties);
-  });
-  const Json settings = {
-      {"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
-  return {{"description", "Settings of a device of type " + kind.name +
-                              "; those left out keep the model's, or have their defaults."},
-          {"oneOf", {settings, {{"$ref", "#/$defs/removed"}}}}};
-}
-
-/// The schema of worlds with a newly generated part for devices.
-[[nodiscard]] inline Json with_devices(Json schema) {
-  Json& definitions = schema.at("$defs");
-  std::vector<std::string> names;
-  for (const DeviceKind& kind : device_kinds()) names.push_back(kind.name);
-  std::sort(names.begin(), names.end());
-  std::vector<std::string> old;
-  for (const auto& [key, value] : definitions.items()) {
-    if (key.starts_with("device_") && key != "device_type") old.push_back(key);
-  }
-  for (const std::string& key : old) definitions.erase(key);
-  Json devices = Json::object();
-  for (const std::string& name : names) {
-    devices[name] = {{"$ref", "#/$defs/device_" + name}};
-    definitions["device_" + name] = device_schema(*find_device_kind(name));
-  }
-  definitions.at("robot").at("properties").at("devices").at("properties") = devices;
-  return schema;
-}
-
 /// Whether the test writes the files instead of comparing them: PLAYPEN_WRITE_PAGES=1.
 [[nodiscard]] inline bool writes_pages() { return std::getenv("PLAYPEN_WRITE_PAGES") != nullptr; }
 
 inline void write_page(const std::string& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
+}
+
+/// Whether the first table under a heading of a page is `made`; if the test writes pages, it is
+/// written.
+[[nodiscard]] inline bool is_table_of_page(const std::string& file, const std::string& heading,
+                                           const std::string& made) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string page(std::istreambuf_iterator<char>(stream), {});
+  const std::size_t section = page.find("\n" + heading + "\n");
+  const std::size_t before = page.find("\n| key |", section);
+  if (section == std::string::npos || before == std::string::npos) return false;
+  const std::size_t first = before + 1;
+  const std::size_t end = page.find("\n\n", first);
+  const std::size_t last = end == std::string::npos ? page.size() : end + 1;
+  if (!writes_pages()) return page.substr(first, last - first) == made;
+  write_page(file, page.substr(0, first) + made + page.substr(last));
+  return true;
 }
 
 }  // namespace sim::test

@@ -5,7 +5,6 @@
 
 #include "io/document.h"
 #include "sim/io/field_reader.h"
-#include "sim/world/limits.h"
 #include "world/controller_fields.h"
 
 namespace sim::io {
@@ -17,7 +16,8 @@ void read_near(Reader& reader, TrapRegion& region) {
   read_fields(reader, region_kinds().back().table(), &near);
   const auto middle = only_key(reader, {"object", "place"}, "the middle of the surroundings", true);
   if (middle == "place") {
-    const Vec2 place = reader.vec2("place", {0.0, 0.0}, {-kFarthest_m, kFarthest_m, false, "m"});
+    const FieldTable& fields = region_kinds().back().table();
+    const Vec2 place = reader.vec2("place", {0.0, 0.0}, field_named(fields, "place").range);
     region = CircleRegion{place, near.distance_m};
   } else {
     region = near;
@@ -87,11 +87,15 @@ void name_unnamed(List& list, const char* prefix) {
 
 }  // namespace
 
-const CustomField kTrapRegionFormat{read_region};
-const CustomField kTrapRobotsFormat{read_robots};
+const CustomField kTrapRegionFormat{
+    .read = read_region, .rules = R"("oneOf": [{"required": ["region"]}, {"required": ["near"]}])"};
+const CustomField kTrapRobotsFormat{.read = read_robots, .or_else = R"({"const": "any"})"};
 const CustomField kTrapStayFormat{read_stay};
 const CustomField kFirstTimeFormat{read_first_time};
-const CustomField kRandomTimeFormat{read_random_time};
+const CustomField kRandomTimeFormat{.read = read_random_time,
+                                    .rules = R"("not": {"required": ["at", "within"]})"};
+const CustomField kNearPlaceFormat{
+    .rules = R"("oneOf": [{"required": ["object"]}, {"required": ["place"]}])"};
 
 ControllerDescription read_controller(Reader& root) {
   ControllerDescription controller;

@@ -4,7 +4,6 @@
 
 #include "io/obstacle_io.h"
 #include "sim/io/field_reader.h"
-#include "sim/world/limits.h"
 #include "world/controller_fields.h"
 #include "world/motion_fields.h"
 #include "world/world_fields.h"
@@ -56,7 +55,7 @@ void read_move(Reader& reader, const Field& /*field*/, void* object) {
                  "\"to\", \"path\", \"yaw_deg\" or \"stop\": where the obstacle moves", "none");
   }
   if (has_to) motion.points.push_back(reader.vec2("to", {0.0, 0.0}, kPositionInWorld));
-  if (has_path && !has_to) read_as_usual(reader, waypoints_field("path"), &motion);
+  if (has_path && !has_to) read_as_usual(reader, field_named(move_fields(), "path"), &motion);
   read_fields(reader, path_fields(), &motion);
   if (has_yaw) motion.final_yaw_rad = reader.angle_deg("yaw_deg", 0.0);
   if (has_yaw && motion.repeat != PathRepeat::kOnce) {
@@ -67,8 +66,13 @@ void read_move(Reader& reader, const Field& /*field*/, void* object) {
 
 }  // namespace
 
-const CustomField kMotionFormat{read_motion};
-const CustomField kFrictionFormat{read_friction};
-const CustomField kMoveFormat{read_move};
+const CustomField kMotionFormat{.read = read_motion, .kind_key = "type", .kinds = motion_kinds};
+const CustomField kFrictionFormat{.read = read_friction,
+                                  .rules = R"("dependentRequired": {"friction": ["mass"]})"};
+const CustomField kMoveFormat{.read = read_move,
+                              .rules = R"("oneOf": [{"required": ["to"]}, {"required": ["path"]},
+      {"required": ["yaw_deg"], "properties": {"to": false, "path": false}},
+      {"required": ["stop"]}])",
+                              .keys = move_fields};
 
 }  // namespace sim::io

@@ -50,8 +50,8 @@ void read_shape(Reader& reader, const Field& /*field*/, void* object) {
   if (!known) return;
   if (shape == "box") read_some(reader, block, {"size"});
   if (shape == "circle" && reader.require("radius", "the radius of the circle, in m")) {
-    constexpr NumberRange kRadius{kLeastLength_m, 0.5 * kGreatestLength_m, false, "m"};
-    make_circle(block, reader.number("radius", radius_m(block), kRadius));
+    const Field& radius = field_named(fields_of<ObstacleDescription>(), "radius");
+    make_circle(block, reader.number(radius.name, radius_m(block), radius.range));
   }
   if (shape == "polygon" &&
       reader.require("outline", "the outline: a list of points [x, y] round the obstacle, in m")) {
@@ -93,10 +93,24 @@ void read_bottom(Reader& reader, const Field& field, void* object) {
 
 }  // namespace
 
-const CustomField kShapeFormat{read_shape};
+const CustomField kShapeFormat{.read = read_shape, .rules = R"("allOf": [
+      {"if": {"properties": {"shape": {"const": "box"}}},
+       "then": {"properties": {"radius": false, "outline": false}}},
+      {"if": {"properties": {"shape": {"const": "circle"}}, "required": ["shape"]},
+       "then": {"required": ["radius"], "properties": {"size": false, "outline": false}}},
+      {"if": {"properties": {"shape": {"const": "polygon"}}, "required": ["shape"]},
+       "then": {"required": ["outline"], "properties": {"size": false, "radius": false}}}])"};
 const CustomField kStateFormat{read_state};
 const CustomField kDynamicFormat{read_of_dynamic};
 const CustomField kBottomFormat{read_bottom};
+
+namespace {
+
+constexpr const char* kSeparatorKeys[] = {"name", "center", "size", "yaw_deg", "height"};
+
+}  // namespace
+
+const CustomField kSeparatorsFormat{.only_keys = kSeparatorKeys};
 
 std::string free_name(const std::string& prefix, std::size_t number, std::set<std::string>& taken) {
   for (;; ++number) {
@@ -112,7 +126,7 @@ void read_blocks(Reader& arena, const char* key, const char* prefix, bool separa
     ObstacleDescription block;
     if (reader.expect_object()) {
       if (separators) {
-        read_some(reader, block, {"name", "center", "size", "yaw_deg", "height"});
+        for (const char* of_separator : kSeparatorKeys) read_some(reader, block, {of_separator});
       } else {
         read_fields(reader, fields_of<ObstacleDescription>(), &block);
       }

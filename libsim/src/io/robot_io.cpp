@@ -170,7 +170,7 @@ bool is_file_name(const std::string& name) {
 
 }  // namespace
 
-const CustomField kFootprintFormat{read_footprint};
+const CustomField kFootprintFormat{.read = read_footprint, .or_field = "parts"};
 const CustomField kSuperstructureFormat{read_superstructures};
 const CustomField kDriveFormat{read_drive};
 

@@ -57,8 +57,8 @@ void read_time(Reader& reader, const Field& field, void* object) {
     }
   } else if (time->is_number()) {
     simulation.time_mode = TimeMode::kPaced;
-    simulation.time_factor =
-        reader.number(field.name, simulation.time_factor, {0.0, 1e6, true, "times real time"});
+    const Field& factor = field_named(fields_of<SimulationDescription>(), "time_factor");
+    simulation.time_factor = reader.number(field.name, simulation.time_factor, factor.range);
   } else {
     reader.issue("world/wrong-type", "\"lockstep\", \"real\" or a number: how many times real time",
                  time->description_for_message(), "", field.name);
@@ -108,14 +108,43 @@ void read_real_pose(Reader& reader, const Field& field, void* object) {
   }
 }
 
+const FieldTable& no_fields() {
+  static constexpr FieldTable kNone{};
+  return kNone;
+}
+
 }  // namespace
 
-const CustomField kTagsFormat{read_tags};
-const CustomField kMapPlaceFormat{read_map_place};
-const CustomField kTimeFormat{read_time};
-const CustomField kCanvasSizeFormat{read_canvas_size};
-const CustomField kPortFormat{read_port};
-const CustomField kRealServerFormat{read_real_server};
-const CustomField kRealPoseFormat{read_real_pose};
+const CustomField kTagsFormat{.read = read_tags, .schema = R"("items": {"$ref": "#/$defs/name"})"};
+const CustomField kMapPlaceFormat{.read = read_map_place, .rules = R"("if": {"required": ["size"]},
+      "then": {"properties": {"resolution": false, "origin": false}},
+      "else": {"properties": {"pose": false}})"};
+const CustomField kTimeFormat{
+    .read = read_time, .schema = R"("enum": ["lockstep", "real"])", .or_field = "time_factor"};
+const CustomField kCanvasSizeFormat{.read = read_canvas_size, .is_pair = true};
+const CustomField kPortFormat{.read = read_port, .schema = R"("not": {"const": 4000})"};
+const CustomField kRealServerFormat{.read = read_real_server,
+                                    .schema = R"("pattern": "^(player|tcp)://.")"};
+const CustomField kRealPoseFormat{.read = read_real_pose,
+                                  .schema = R"("pattern": "^(position2d|localize):[0-9]{1,5}$")"};
+
+// These are read with the parts of a world that they depend on.
+const CustomField kPresetFormat{.schema = R"("type": null, "enum": ["syrotek"])",
+                                .rules = R"("if": {"required": ["preset"]},
+      "then": {"properties": {"size": false, "origin": false, "map": false}})"};
+const CustomField kMapsFormat{.or_else = R"({"$ref": "#/$defs/map"})"};
+const CustomField kDriverSettingsFormat{
+    .rules =
+        R"("additionalProperties": {"type": ["number", "string", "boolean", "array", "object"]})",
+    .keys = no_fields};
+const CustomField kProxiesFormat{
+    .schema = R"("additionalProperties": {"type": "integer", "minimum": 0, "maximum": 65535})"};
+const CustomField kInterfacesFormat{.schema =
+                                        R"("additionalProperties": {"type": "array", "maxItems": 64,
+      "items": {"$ref": "#/$defs/name"}})"};
+const CustomField kDevicesFormat{.schema = R"("propertyNames": {"$ref": "#/$defs/name"},
+      "additionalProperties": {"$ref": "#/$defs/device"})"};
+const CustomField kModelDevicesFormat{.schema = R"("type": null, "additionalProperties": null,
+      "$ref": "world.schema.json#/$defs/robot/properties/devices")"};
 
 }  // namespace sim::io

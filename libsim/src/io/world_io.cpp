@@ -443,9 +443,7 @@ class WorldReader {
 
   static DriverDescription read_driver(Reader& reader) {
     DriverDescription driver;
-    if (reader.require("type", "which driver, for example \"snd\"")) {
-      driver.type = reader.name("type", "");
-    }
+    read_some(reader, driver, {"type"});
     for (const std::string& key : reader.keys()) {
       if (key == "type") continue;
       Reader setting = *reader.child(key);

@@ -18,6 +18,9 @@ template <auto kMember>
 [[nodiscard]] constexpr Field place_field(const char* name, const char* meaning) {
   return field<kMember>(name, "m", meaning).within(-kFarthest_m, kFarthest_m);
 }
+[[nodiscard]] constexpr Field place_key(const char* name, const char* meaning) {
+  return key_of_files<Vec2>(name, "m", meaning).within(-kFarthest_m, kFarthest_m);
+}
 template <auto kMember>
 [[nodiscard]] constexpr Field extent_field(const char* name, const char* meaning) {
   return field<kMember>(name, "m", meaning).above(0.0, kGreatestLength_m);
@@ -38,14 +41,15 @@ template <auto kMember>
 /// The robot of a condition or an action.
 template <auto kMember>
 [[nodiscard]] constexpr Field robot_field() {
-  return field<kMember>("robot", "", "name of a robot; left out: the one that sprang the trap");
+  return field<kMember>("robot", "", "name of a robot; a timer has to name one")
+      .defaults_to("the one that sprang the trap");
 }
 
 // --- Conditions
 
 constexpr Field kTimeFields[] = {
     time_field<&TimeCondition::from_s>("from", "since the start or the last reset, included"),
-    time_field<&TimeCondition::to_s>("to", "excluded; left out: no end"),
+    time_field<&TimeCondition::to_s>("to", "excluded").defaults_to("no end"),
 };
 constexpr Field kCountFields[] = {
     field<&CountCondition::of>("of", "", "name of a timer or trap")
@@ -125,26 +129,29 @@ constexpr Field kMessageAction[] = {message_field<&MessageAction::text>(
 constexpr Field kTextAction[] = {
     message_field<&TextAction::text>("text", "what is shown; \"\" removes the text at this place")
         .needed("what is shown"),
-    place_field<&TextAction::place>("place", "its middle; it replaces an earlier text there"),
+    place_field<&TextAction::place>("place", "its middle; it replaces an earlier text there")
+        .defaults_to("the middle of the floor"),
     time_field<&TextAction::duration_s>("duration", "how long it is shown; 0: until the end"),
     field<&TextAction::colour>("colour", "", "of the letters"),
 };
 constexpr Field kCanvasArea[] = {
     place_field<&CanvasAction::Area::center>(
-        "center", "middle of a rectangle; left out with `size`: the whole canvas")
+        "center", "middle of a rectangle; left out together with `size`: the whole canvas")
         .needed("[x, y] of the middle of the rectangle, in m"),
     extent_field<&CanvasAction::Area::size>("size", "sides of the rectangle along x and y")
         .needed("[x, y]: the sides of the rectangle, in m"),
 };
 constexpr Field kCanvasAction[] = {
-    field<&CanvasAction::colour>("colour", "", "left out: the cells become transparent"),
+    field<&CanvasAction::colour>("colour", "", "of the cells")
+        .defaults_to("the cells become transparent"),
     field<&CanvasAction::area>(""),
 };
 constexpr Field kRestartAction[] = {
     robot_field<&RestartAction::robot>(),
     field<&RestartAction::when_blocked>(
         "when_blocked", "",
-        "what is done if the place is taken: nothing, or the same once it is free")
+        "what is done if the place is taken: nothing, or the same once it is free; events tell "
+        "both")
         .one_of(kBlockedWords),
 };
 constexpr Field kScoreAction[] = {
@@ -166,7 +173,7 @@ constexpr Field kMoveAction[] = {
     field<&MoveAction::obstacle>("obstacle", "",
                                  "name of an obstacle that is neither dynamic nor portable")
         .needed("the name of an obstacle"),
-    field<&MoveAction::motion>("motion", "", "where it moves, or `stop`")
+    field<&MoveAction::motion>("motion", "", "has keys among those of the action")
         .in_format(io::kMoveFormat),
 };
 
@@ -226,21 +233,27 @@ template <auto kMember>
 }
 
 constexpr Field kTimerFields[] = {
-    field<&TimerDescription::name>("name", "", "unique among timers and traps").as_name(),
-    field<&TimerDescription::every_s>("every", "s",
-                                      "period of further times; left out: it acts once")
-        .within(kLeastArenaPeriod_s, kLongestArenaTime_s),
-    time_field<&TimerDescription::at_s>(
-        "at", "first time, counted from when the timer is switched on; default: `every`")
+    field<&TimerDescription::name>("name", "", "unique among timers and traps")
+        .as_name()
+        .defaults_to("the first free of timer1, timer2, ..."),
+    field<&TimerDescription::every_s>("every", "s", "period of further times")
+        .within(kLeastArenaPeriod_s, kLongestArenaTime_s)
+        .defaults_to("it acts once"),
+    time_field<&TimerDescription::at_s>("at",
+                                        "first time, counted from when the timer is switched on")
+        .defaults_to("`every` if it is given, otherwise 0")
         .in_format(io::kFirstTimeFormat),
     time_field<&TimerDescription::within_s>(
-        "within", "[from, to]: the first time is random between these times; not with `at`")
+        "within",
+        "[from, to]: the first time is random between these times, by the seed; not with `at`")
         .in_format(io::kRandomTimeFormat),
-    field<&TimerDescription::times>(
-        "times", "", "it is switched off after having acted so often; left out: no limit")
-        .within(1, 1e9),
+    field<&TimerDescription::times>("times", "", "it is switched off after having acted so often")
+        .within(1, 1e9)
+        .defaults_to("no limit"),
     time_field<&TimerDescription::jitter_s>(
-        "jitter", "each time is moved by a random number from -jitter to jitter"),
+        "jitter",
+        "each time is moved by a random number from -jitter to jitter, by the seed; at most half "
+        "of `every`"),
     field<&TimerDescription::enabled>("enabled", "", "whether it is on at the start"),
     conditions_field<&TimerDescription::conditions>(
         "it acts only if all these hold when it is time"),
@@ -257,7 +270,7 @@ constexpr Field kBoxFields[] = {
 constexpr Field kCircleFields[] = {
     place_field<&CircleRegion::center>("center", "its middle in the world")
         .needed("[x, y] of its middle, in m"),
-    extent_field<&CircleRegion::radius_m>("radius", ""),
+    extent_field<&CircleRegion::radius_m>("radius", "its radius"),
 };
 constexpr Field kPolygonFields[] = {
     place_field<&PolygonRegion::corners>("polygon", "corners [x, y] of any polygon")
@@ -265,25 +278,34 @@ constexpr Field kPolygonFields[] = {
 constexpr Field kNearFields[] = {
     extent_field<&NearRegion::distance_m>("distance", "how far from the middle"),
     field<&NearRegion::object>("object", "",
-                               "name of a robot or an obstacle; the trap moves with its middle"),
+                               "name of a robot or an obstacle; the trap moves with its middle")
+        .defaults_to("there has to be a `place`"),
+    place_key("place", "[x, y] of the middle").in_format(io::kNearPlaceFormat),
 };
 constexpr Kind kRegionKinds[] = {
     kind<TrapRegion, BoxRegion, kBoxFields>("box", "a rectangle"),
     kind<TrapRegion, CircleRegion, kCircleFields>("circle", "a circle"),
     kind<TrapRegion, PolygonRegion, kPolygonFields>("polygon", "").bare(),
-    kind<TrapRegion, NearRegion, kNearFields>("near", "the surroundings of something"),
+    kind<TrapRegion, NearRegion, kNearFields>(
+        "near", "the surroundings of a robot, an obstacle or a place; either this or `region`")
+        .beside(),
 };
 
 constexpr const char* kTrapEvents[] = {"enter", "leave", "stay"};
 constexpr Field kTrapFields[] = {
-    field<&TrapDescription::name>("name", "", "unique among timers and traps").as_name(),
-    field<&TrapDescription::region>("region", "", "a part of the floor")
+    field<&TrapDescription::name>("name", "", "unique among timers and traps")
+        .as_name()
+        .defaults_to("the first free of trap1, trap2, ..."),
+    field<&TrapDescription::region>("region", "", "a part of the floor; either this or `near`")
+        .defaults_to("there has to be `near`")
         .of_kinds(kRegionKinds, "a region")
         .in_format(io::kTrapRegionFormat),
     names_field<&TrapDescription::robots>("robots",
-                                          "names of the robots that it is for, or \"any\"")
+                                          "names of the robots that it is for, or `\"any\"`")
+        .defaults_to("`\"any\"`")
         .in_format(io::kTrapRobotsFormat),
-    field<&TrapDescription::model>("model", "", "only for robots of this model; left out: of any"),
+    field<&TrapDescription::model>("model", "", "only for robots of this model")
+        .defaults_to("for any"),
     field<&TrapDescription::on>(
         "on", "",
         "when it springs: a robot's middle comes in, goes out, or has been inside for some time")

@@ -30,6 +30,7 @@ extern const CustomField kTrapStayFormat;    ///< only for traps that need it
 extern const CustomField kFirstTimeFormat;   ///< by default the period
 extern const CustomField kRandomTimeFormat;  ///< not with a first time
 extern const CustomField kMoveFormat;        ///< the motion of a MoveAction
+extern const CustomField kNearPlaceFormat;   ///< instead of an object
 /// @}
 
 }  // namespace io

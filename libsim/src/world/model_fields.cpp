@@ -8,6 +8,7 @@ namespace sim {
 namespace {
 
 constexpr double kMaxVertex_m = 100.0;
+constexpr std::size_t kMostVertices = 8;  // Box2D's limit for polygons
 
 template <auto kMember>
 [[nodiscard]] constexpr Field wheel_field(const char* name, const char* meaning) {
@@ -17,6 +18,7 @@ template <auto kMember>
 [[nodiscard]] constexpr Field vertices_field(const char* name, const char* meaning) {
   return field<kMember>(name, "m", meaning)
       .within(-kMaxVertex_m, kMaxVertex_m)
+      .counting(3, kMostVertices)
       .needed("the outline: a list of points [x, y] round it, in m");
 }
 
@@ -39,7 +41,10 @@ constexpr Field kCar[] = {
                                            "of a car: how fast the front wheels turn; 0: at once")
         .within(0.0, 3600.0),
     field<&Drive::steering_commands>(
-        "commands", "", "of a car: whether commands give a turn rate or a steering angle")
+        "commands", "",
+        "of a car; turn_rate: the second number of `SetSpeed` is a turn rate, and the speed is "
+        "that of the rear axle; steering: it is the angle of the front wheels, and the speed is "
+        "theirs, as in Stage")
         .one_of(kSteeringWords, false),
 };
 constexpr Field kDriveDescription[] = {
@@ -53,15 +58,21 @@ constexpr Kind kDriveKinds[] = {
 };
 
 constexpr Field kSuperstructureFields[] = {
-    field<&Superstructure::bottom_m>("bottom", "m", "height of its lower side")
+    field<&Superstructure::bottom_m>(
+        "bottom", "m",
+        "height of its lower side; lasers, sonars and other sensors of distances look under it")
         .within(0.0, kGreatestRobotHeight_m),
-    vertices_field<&Superstructure::outline>("outline", "convex outline: its corners in order"),
-    field<&Superstructure::height_m>("height", "m", "height of its top above the floor")
+    vertices_field<&Superstructure::outline>("outline",
+                                             "convex outline: its corners [x, y] in order, in the "
+                                             "frame of the footprint"),
+    field<&Superstructure::height_m>(
+        "height", "m", "height of its top above the floor, greater than that of the body")
         .within(kLeastLength_m, kGreatestRobotHeight_m)
         .needed("the height of its top above the floor, in m"),
 };
 
-constexpr Field kPolygonItself[] = {field_itself<Polygon>()};
+constexpr Field kPolygonItself[] = {
+    field_itself<Polygon>().within(-kMaxVertex_m, kMaxVertex_m).counting(3, kMostVertices)};
 
 // The devices have tables of their own (sim/devices/builtin.h).
 constexpr Field kModelFields[] = {
@@ -71,26 +82,41 @@ constexpr Field kModelFields[] = {
     field<&RobotModel::description>("description", "", "a sentence for people").not_identity(),
     vertices_field<&RobotModel::footprint>(
         "footprint",
-        "convex outline of the robot: its corners [x, y] in order, or 2 to 16 outlines")
+        "convex outline of the robot: its corners [x, y] in order, x ahead and y to the left from "
+        "the centre of the axle (of a car: the rear axle); of a robot that is not convex: 2 to 16 "
+        "such outlines, which together are its body")
         .in_format(io::kFootprintFormat),
-    field<&RobotModel::parts>("parts").as_read_only(),
-    field<&RobotModel::solid>("solid", "", "false: nothing collides with the robot"),
+    field<&RobotModel::parts>("parts").counting(2, kMostBodyParts).as_read_only(),
+    field<&RobotModel::solid>("solid", "",
+                              "`false`: nothing collides with the robot; sensors see it"),
     field<&RobotModel::height_m>("height", "m", "sensors that are mounted lower see the robot")
         .within(kLeastLength_m, kGreatestRobotHeight_m),
-    field<&RobotModel::superstructures>("superstructures", "", "what is higher than the body")
+    field<&RobotModel::superstructures>(
+        "superstructures", "",
+        "what is higher than the body; sensors above the body see it, and nothing collides with it")
         .counting(0, kMostSuperstructures)
         .in_format(io::kSuperstructureFormat),
     field<&RobotModel::mass_kg>("mass", "kg", "it determines how hard the robot is to push")
         .within(kLeastMass_kg, kGreatestMass_kg),
-    field<&RobotModel::drive>("drive", "", "its wheels").in_format(io::kDriveFormat),
-    field<&RobotModel::max_speed_mps>("max_speed", "m/s", "maximum speed of the robot")
+    field<&RobotModel::drive>("drive", "", "its wheels")
+        .defaults_to("differential")
+        .in_format(io::kDriveFormat),
+    field<&RobotModel::max_speed_mps>(
+        "max_speed", "m/s", "maximum speed of the robot; its motion device has a separate limit")
         .above(0.0, 20.0),
     field<&RobotModel::max_turn_rate_radps>("max_turn_rate_deg", "degrees/s",
                                             "maximum turn rate of the robot")
         .above(0.0, 3600.0),
-    field<&RobotModel::interfaces>("interfaces", "",
-                                   "devices of an interface in the order of their index")
-        .as_read_only()
+    key_of_files<std::map<std::string, std::string>>(
+        "devices", "",
+        "its devices by name, with settings as in worlds, and a `type` unless the name is a type")
+        .in_format(io::kModelDevicesFormat),
+    field<&RobotModel::interfaces>(
+        "interfaces", "",
+        "names of devices of an [interface](world_format.md#interfaces) in the order of their "
+        "index on the robot's port")
+        .in_format(io::kInterfacesFormat)
+        .read_apart()
         .not_identity(),
 };
 

@@ -44,7 +44,8 @@ constexpr Field kForceFields[] = {
 };
 
 constexpr Field kDriveFields[] = {
-    field<&Motion::speed_mps>("speed", "m/s").above(0.0, kMaxObstacleSpeed_mps),
+    field<&Motion::speed_mps>("speed", "m/s", "how fast it moves; a pedestrian by default 1.34")
+        .above(0.0, kMaxObstacleSpeed_mps),
     field<&Motion::turn_rate_radps>("turn_rate_deg", "degrees/s", "how fast it turns")
         .above(0.0, kMaxObstacleTurnRate_radps * 180.0 / std::numbers::pi),
     field<&Motion::faces_way>("facing", "",
@@ -62,13 +63,37 @@ constexpr Field kWaypoints =
         .with_issue("world/out-of-range", "at least one point [x, y]");
 constexpr Field kNeededWaypoints = kWaypoints.needed("a list of points [x, y] to go to, in m");
 constexpr Field kRepeat =
-    field<&Motion::repeat>("repeat", "", "what follows the last point").one_of(kPathRepeats);
-constexpr Field kLeg = field<&Motion::leg_m>("leg", "m", "mean length of a leg")
-                           .within(kLeastLength_m, kGreatestLength_m);
-constexpr Field kWalkArea = field<&Motion::area>("area", "", "it stays in this area");
+    field<&Motion::repeat>(
+        "repeat", "",
+        "what follows the last point: it stays there; or it goes back along the points to its "
+        "start, and again; or it goes to its start and round again; or, for pedestrians, any "
+        "other point follows")
+        .one_of(kPathRepeats);
+constexpr Field kFinalYaw =
+    field<&Motion::final_yaw_rad>("yaw_deg", "degrees", "it turns to this angle at the end")
+        .within(-3600.0, 3600.0);
+constexpr Field kLeg =
+    field<&Motion::leg_m>("leg", "m", "mean length of a leg, from half to one and a half of it")
+        .within(kLeastLength_m, kGreatestLength_m);
+constexpr Field kWalkArea =
+    field<&Motion::area>(
+        "area", "",
+        "it stays in this area, `{\"center\": [x, y], \"size\": [x, y]}` along the "
+        "world's axes")
+        .defaults_to("the whole floor");
 constexpr Field kForce = field<&Motion::force>("force", "", "constants of the social-force model");
 
 constexpr Field kMovePath[] = {kRepeat, kWait};
+constexpr Field kMove[] = {
+    part<kDriveFields>(),
+    key_of_files<bool>("stop", "", "it stops; not with `to`, `path` or `yaw_deg`"),
+    key_of_files<Vec2>("to", "m", "point [x, y] that it moves to")
+        .within(-kFarthest_m, kFarthest_m),
+    kWaypoints.with<&Field::name>("path").with<&Field::meaning>(
+        "points [x, y] that it moves along, from where it is; not with `to`"),
+    part<kMovePath>(),
+    kFinalYaw,
+};
 constexpr Field kPath[] = {part<kDriveFields>(), kWait, kNeededWaypoints, kRepeat};
 constexpr Field kRandomWalk[] = {part<kDriveFields>(), kWait, kLeg, kWalkArea};
 constexpr Field kPedestrian[] = {part<kDriveFields>(), kWait, kNeededWaypoints,
@@ -99,8 +124,7 @@ constexpr Field kMotionFields[] = {
     kWait,
     kWaypoints,
     kRepeat.one_of(kRepeats),
-    field<&Motion::final_yaw_rad>("yaw_deg", "degrees", "it turns to this angle at the end")
-        .within(-3600.0, 3600.0),
+    kFinalYaw,
     kLeg,
     kWalkArea,
     kForce,
@@ -124,6 +148,9 @@ const FieldTable& path_fields() {
   return kTable;
 }
 
-Field waypoints_field(const char* key) { return kWaypoints.with<&Field::name>(key); }
+const FieldTable& move_fields() {
+  static constexpr FieldTable kTable = {kMove};
+  return kTable;
+}
 
 }  // namespace sim

@@ -21,8 +21,7 @@ SIM_HAS_FIELDS(ObstacleMotion)
 /// What a path has that the arena controller begins, besides drive_fields().
 [[nodiscard]] const FieldTable& path_fields();
 
-/// The waypoints of a motion.
-/// @param key  of the list of points.
-[[nodiscard]] Field waypoints_field(const char* key);
+/// All keys of a motion that the arena controller begins.
+[[nodiscard]] const FieldTable& move_fields();
 
 }  // namespace sim

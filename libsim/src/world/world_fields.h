@@ -52,6 +52,14 @@ extern const CustomField kRealPoseFormat;        ///< which device tells its pos
 extern const CustomField kFootprintFormat;       ///< an outline, or a list of them
 extern const CustomField kSuperstructureFormat;  ///< a list of them
 extern const CustomField kDriveFormat;           ///< the kind of drive and its fields
+extern const CustomField kPresetFormat;          ///< a room that is built in
+extern const CustomField kMapsFormat;            ///< a map, or a list of them
+extern const CustomField kSeparatorsFormat;      ///< boxes with few keys
+extern const CustomField kDevicesFormat;         ///< settings of devices by name
+extern const CustomField kModelDevicesFormat;    ///< the same of a model
+extern const CustomField kDriverSettingsFormat;  ///< any keys
+extern const CustomField kProxiesFormat;         ///< an index for each interface
+extern const CustomField kInterfacesFormat;      ///< names of devices for each interface
 /// @}
 
 }  // namespace io

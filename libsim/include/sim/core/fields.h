@@ -125,10 +125,18 @@ struct Kind {
   const char* meaning = "";                ///< a phrase in lower case, in Markdown
   /// The key is also that of the kind's only field, so files need no object: {"message": "hello"}.
   bool is_bare = false;
+  /// Its key stands in the object that has the variant, instead of the variant's own key.
+  bool is_beside = false;
   /// A copy with is_bare.
   [[nodiscard]] constexpr Kind bare() const {
     Kind made = *this;
     made.is_bare = true;
+    return made;
+  }
+  /// A copy with is_beside.
+  [[nodiscard]] constexpr Kind beside() const {
+    Kind made = *this;
+    made.is_beside = true;
     return made;
   }
 };
@@ -160,7 +168,9 @@ struct Field {
   /// Name of the property that clients see; nullptr: the field's name without "_deg".
   const char* property = nullptr;
   bool is_property = true;           ///< clients see it as a property
-  bool read_only = false;            ///< clients see it, but world files cannot set it
+  bool read_only = false;            ///< read_fields() does not read it: clients see it, but world
+                                     ///< files cannot set it
+  bool is_read_apart = false;        ///< read_only, but other code reads it from world files
   bool lists_elements = false;       ///< clients see each element's fields, not only the number of
                                      ///< elements
   bool may_be_left_out = false;      ///< may be missing in messages, and then keeps its default
@@ -186,7 +196,8 @@ struct Field {
   bool first_word = false;  ///< of a bool with words: the value of the first word
   bool is_keyed = false;    ///< a list that files write as an object: its keys are the first,
                           ///< read-only field of the elements, and its values have the other fields
-  bool may_be_null = false;  ///< an optional member: null in a file is the same as no key
+  bool may_be_null = false;       ///< an optional member: null in a file is the same as no key
+  const char* default_text = "";  ///< the default in words, in Markdown, if it depends on others
   std::optional<RealismFigures> realism = {};  ///< of a number that the level of realism changes
   std::optional<double> unlisted_at = {};  ///< clients see no such property while a number has this
                                            ///< value
@@ -273,6 +284,12 @@ struct Field {
   [[nodiscard]] constexpr Field or_default() const { return with<&Field::may_be_left_out>(true); }
   [[nodiscard]] constexpr Field not_property() const { return with<&Field::is_property>(false); }
   [[nodiscard]] constexpr Field as_read_only() const { return with<&Field::read_only>(true); }
+  [[nodiscard]] constexpr Field read_apart() const {
+    return as_read_only().with<&Field::is_read_apart>(true);
+  }
+  [[nodiscard]] constexpr Field defaults_to(const char* text) const {
+    return with<&Field::default_text>(text);
+  }
   [[nodiscard]] constexpr Field listing_elements() const {
     return with<&Field::lists_elements>(true);
   }
@@ -468,6 +485,13 @@ template <auto kFirst, auto... kRest>
   using Value = typename field_detail::ValueOf<Member>::Type;
   return field_detail::with_access<Owner, kFirst, kRest...>(
       field_detail::describe<Value>(name, unit, meaning));
+}
+
+/// A key of world files that is no member. Other code reads it.
+template <typename Value>
+[[nodiscard]] constexpr Field key_of_files(const char* name, const char* unit,
+                                           const char* meaning) {
+  return field_detail::describe<Value>(name, unit, meaning).read_apart().not_identity();
 }
 
 /// A member that occurs only in messages.

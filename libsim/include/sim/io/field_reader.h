@@ -21,11 +21,21 @@ struct ElementType {
 };
 
 /// The format of a field of a world file that its type does not tell. Its functions get the whole
-/// struct.
+/// struct. Its JSON schema is that of the field's type, changed by the other members.
 struct CustomField {
-  void (*read)(io::Reader& settings, const Field& field, void* object);
+  void (*read)(io::Reader& settings, const Field& field, void* object) = nullptr;
   std::string (*text)(const void* object) = nullptr;  ///< as JSON
-  const char* schema = "";  ///< members of its JSON schema, without braces
+  const char* schema = "";         ///< further members of the schema, without braces; null drops
+                                   ///< a member
+  const char* rules = "";          ///< further members of the schema of the struct, e.g. keys
+                                   ///< that exclude one another
+  const char* or_else = "";        ///< schema of another form of the value
+  const char* or_field = nullptr;  ///< the field of the struct that files have as another form
+  bool is_pair = false;            ///< a list of two such values
+  const char* kind_key = nullptr;  ///< under which the value states its kind
+  std::span<const Kind> (*kinds)() = nullptr;   ///< the kinds of kind_key
+  const FieldTable& (*keys)() = nullptr;        ///< keys of the struct, for the value's fields
+  std::span<const char* const> only_keys = {};  ///< of the elements of a list; empty: all
 };
 
 }  // namespace sim
