@@ -13,9 +13,15 @@ namespace playerlike {
 namespace {
 
 // Getters of the headers that are inline: a debugger can call only functions that exist.
-using Getter = double (PlayerCc::LaserProxy::*)(uint32_t) const;
-[[gnu::used]] constexpr Getter kLaserGetters[] = {&PlayerCc::LaserProxy::GetRange,
-                                                  &PlayerCc::LaserProxy::operator[] };
+using LaserProxy = PlayerCc::LaserProxy;
+using Position = PlayerCc::Position2dProxy;
+[[gnu::used]] constexpr double (LaserProxy::*kLaserGetters[])(uint32_t) const = {
+    &LaserProxy::GetRange, &LaserProxy::operator[], &LaserProxy::GetBearing};
+[[gnu::used]] constexpr auto kLaserCount = &LaserProxy::GetCount;
+[[gnu::used]] constexpr double (Position::*kPositionGetters[])() const = {
+    &Position::GetXPos,   &Position::GetYPos,   &Position::GetYaw,
+    &Position::GetXSpeed, &Position::GetYSpeed, &Position::GetYawSpeed};
+[[gnu::used]] constexpr auto kStall = &Position::GetStall;
 [[gnu::used]] constexpr auto kRangerGetter = &PlayerCc::RangerProxy::GetRange;
 [[gnu::used]] constexpr auto kMorseGetter = &CCMorse::MorseLaser::GetRange;
 
