@@ -55,9 +55,11 @@ constexpr Field kCountFields[] = {
     field<&CountCondition::of>("of", "", "name of a timer or trap")
         .needed("the name of a timer or trap"),
     field<&CountCondition::limits, &ArenaLimits::at_least>("at_least", "", "lower limit, included")
-        .within(0.0, 1e9),
+        .within(0.0, 1e9)
+        .defaults_to("no limit"),
     field<&CountCondition::limits, &ArenaLimits::at_most>("at_most", "", "upper limit, included")
-        .within(0.0, 1e9),
+        .within(0.0, 1e9)
+        .defaults_to("no limit"),
 };
 constexpr const char* kPhases[] = {"extended", "retracted", "rising", "sinking"};
 constexpr Field kBlockFields[] = {
@@ -79,9 +81,11 @@ constexpr Field kFiducialFields[] = {
   return {
       robot_field<&Condition::robot>(),
       field<&Condition::limits, &ArenaLimits::at_least>("at_least", unit, "lower limit, included")
-          .within(min, max),
+          .within(min, max)
+          .defaults_to("no limit"),
       field<&Condition::limits, &ArenaLimits::at_most>("at_most", unit, "upper limit, included")
-          .within(min, max)};
+          .within(min, max)
+          .defaults_to("no limit")};
 }
 constexpr auto kCollisionsFields = quantity_fields(0.0, 1e9);
 constexpr auto kSpeedFields = quantity_fields(0.0, 1e9, "m/s");
@@ -274,7 +278,9 @@ constexpr Field kCircleFields[] = {
 };
 constexpr Field kPolygonFields[] = {
     place_field<&PolygonRegion::corners>("polygon", "corners [x, y] of any polygon")
-        .counting(3, kMostParts)};
+        .counting(3, kMostParts)
+        .expecting("at least 3 corners")
+        .needed("a list of corners [x, y], in m")};
 constexpr Field kNearFields[] = {
     extent_field<&NearRegion::distance_m>("distance", "how far from the middle"),
     field<&NearRegion::object>("object", "",

@@ -5,11 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 
 #include "field_pages.h"
 #include "field_values.h"
+#include "io/check_ranges.h"
 #include "io/document.h"
 #include "sim/io/field_reader.h"
 #include "sim/simulation/world_hash.h"
@@ -137,6 +139,63 @@ TEST(WorldFields, WrittenConditionOrAction_IsReadAsWritten) {
   expect_read_as_written<ArenaCondition>(field_named(timer, "if"), "");
   // "move" has a format of its own.
   expect_read_as_written<ArenaAction>(field_named(timer, "do"), "move");
+}
+
+/// Sets each number of each kind above its range, one at a time, and expects an error there.
+/// @return the number of numbers.
+template <typename Variant>
+int expect_checked(const Field& list) {
+  int count = 0;
+  for (const Kind& kind : list.kinds) {
+    Variant variant;
+    for_each_field(kind.table(), kind.make(&variant), [&](const Field& field, void* owner) {
+      if (field.type != FieldType::kNumber || field.set == nullptr) return;
+      const double before = *static_cast<const double*>(field.set(owner));
+      *static_cast<double*>(field.set(owner)) =
+          (2.0 * field.range.max + 1.0) * (field.is_angle ? kDegrees : 1.0);
+      const auto error = io::out_of_range(kind.table(), owner, {field.name});
+      EXPECT_TRUE(error && error->key == std::string("/") + field.name) << kind.word << field.name;
+      *static_cast<double*>(field.set(owner)) = before;
+      EXPECT_FALSE(io::out_of_range(kind.table(), owner, {field.name})) << kind.word << field.name;
+      ++count;
+    });
+  }
+  return count;
+}
+
+TEST(CheckRanges, NumberAboveRange_IsReported) {
+  const FieldTable& timer = fields_of<TimerDescription>();
+  EXPECT_GE(expect_checked<ArenaCondition>(field_named(timer, "if")), 10);
+  EXPECT_GE(expect_checked<ArenaAction>(field_named(timer, "do")), 2);
+  EXPECT_GE(expect_checked<TrapRegion>(field_named(fields_of<TrapDescription>(), "region")), 3);
+}
+
+TEST(CheckRanges, WrongPartsOfController_AreReportedWithTheirPlaces) {
+  ControllerDescription controller;
+  TimerDescription& timer = controller.timers.emplace_back();
+  timer.every_s = 1e-4;
+  timer.at_s = std::numeric_limits<double>::infinity();
+  MoveAction move;
+  move.motion.speed_mps = std::numeric_limits<double>::quiet_NaN();
+  move.motion.points = {{0.0, 2e4}};
+  timer.actions = {MessageAction{std::string(201, 'x')}, move};
+  controller.traps.resize(2);
+  controller.traps[0].region = NearRegion{"r1", 0.0};
+  controller.traps[1].region = PolygonRegion{};
+  std::vector<std::string> found;
+  io::check_ranges(fields_of<ControllerDescription>(), &controller, "/controller",
+                   [&found](const io::SolidError& error) {
+                     found.push_back(error.key + ": " + error.expected);
+                   });
+  EXPECT_THAT(
+      found, testing::ElementsAre(
+                 "/controller/timers/0/every: a number from 0.001 to 100000000 s",
+                 "/controller/timers/0/at: a number from 0 to 100000000 s",
+                 "/controller/timers/0/do/0/message: a text of at most 200 bytes",
+                 "/controller/timers/0/do/1/move/speed: a number greater than 0 and at most 10 m/s",
+                 "/controller/timers/0/do/1/move/path/0/1: a number from -10000 to 10000 m",
+                 "/controller/traps/0/near/distance: a number greater than 0 and at most 10000 m",
+                 "/controller/traps/1/region/polygon: at least 3 corners"));
 }
 
 }  // namespace

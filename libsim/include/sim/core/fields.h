@@ -22,7 +22,8 @@
 /// @file
 /// A struct that is read, written or sent (settings, readings, commands, requests) lists its fields
 /// once, in a FieldTable beside it. Readers, writers, checks, hashes and documentation walk that
-/// table. None of them is a template, so a further struct adds its table and no code.
+/// table. None of them is a template, so a further struct adds its table and no code. Ranges stand
+/// in the tables only: the comments of members do not repeat them, the pages of docs/ list them.
 ///
 ///     constexpr Field kReadingFields[] = {
 ///         field<&LaserReading::ranges_m>("ranges", "m"),
