@@ -171,7 +171,7 @@ void wander_figures() {
 }
 
 // The turn of the README's program: what every student writes.
-[[gnu::noinline]] void readme_turn(const PlayerCc::LaserProxy& laser, PlayerCc::Position2dProxy& position, int turn) {
+void readme_turn(const PlayerCc::LaserProxy& laser, PlayerCc::Position2dProxy& position, int turn) {
   double ahead = 1, right = 1;
   for (unsigned i = 0; i < laser.GetCount(); ++i) {
     const double angle = laser.GetBearing(i);
@@ -186,7 +186,7 @@ void wander_figures() {
 }
 
 // The same turn, by a program that asks for the count once and knows the bearings.
-[[gnu::noinline]] void hoisted_turn(const PlayerCc::LaserProxy& laser, PlayerCc::Position2dProxy& position,
+void hoisted_turn(const PlayerCc::LaserProxy& laser, PlayerCc::Position2dProxy& position,
                   int turn) {
   double ahead = 1, right = 1;
   const unsigned count = laser.GetCount();
