@@ -32,7 +32,8 @@ constexpr const char* kRows =
     "0.200,r1,0.600000,0.500000,0.000000,0.500000,-1.000000,0\n";
 
 std::string report(const std::string& world_file, const std::string& world = "small") {
-  return R"({"run": {"world": ")" + world + R"(", "world_file": ")" + world_file + R"("},
+  return R"({"run": {"world": ")" + world + R"(", "world_file": ")" + world_file +
+         R"(", "sim_time": 0.2}, "robots": [],
     "collisions": [{"time": 0.2, "robot": "r1", "with": "border", "x": 1.9, "y": 0.5}],
     "goals": [{"time": 0.0, "robot": "r1", "x": 1.5, "y": 0.5, "reached": null}]})";
 }

@@ -183,8 +183,8 @@ PLACES = [(re.compile(include), re.compile(path), why) for include, path, why in
     (r"sim/", r"(?!libplayerlike/include/(libplayer|libCCMorse/|libPlayer/|imr-h/))",
      "clients are C++14, libsim's headers are C++20"),
     (r"protocol/", r"(?!libplayerlike/(src|include/playerlike)/host/)"
-                   r"|libplayerlike/src/host/results/run_log\.cpp$",
-     "of a host only the log of a run is written in the protocol's words"),
+                   r"|libplayerlike/src/host/results/(run_log|report_fields)\.cpp$",
+     "of a host only log and report of a run are written in the protocol's words"),
     (r"asio(\.hpp$|/)", r"(?!libplayerlike/)|libplayerlike/src/(server|remote)/",
      "sockets belong in libplayerlike/src/server and libplayerlike/src/remote"),
     (rf"(libsim/(src|include/sim)/)?({'|'.join(SIM)})/", r"(?!apps/)", "programs include public headers only"),
@@ -591,7 +591,7 @@ def self_test():
         includes(f"libplayerlike/src/{folder}/x.cpp", include)
     includes("libplayerlike/src/new/x.cpp", "vector", "no known folder")
     includes("libplayerlike/include/robot_types.h", "vector")
-    includes("libplayerlike/src/host/x.cpp", "protocol/codec.h", "log of a run")
+    includes("libplayerlike/src/host/x.cpp", "protocol/codec.h", "log and report of a run")
     includes("libplayerlike/src/host/x.cpp", "asio/ip/tcp.hpp", "sockets belong")
     includes("libplayerlike/include/playerlike/server/x.h", "asio.hpp", "sockets belong")
     includes("libplayerlike/include/playerlike/host/x.h", "nlohmann/json.hpp", "public headers")

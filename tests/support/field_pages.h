@@ -314,6 +314,80 @@ void for_each_setting(const DeviceKind& kind, const Visit& visit) {
   return "| device | setting | unit | ideal | real |\n|---|---|---|---|---|\n" + rows;
 }
 
+/// The keys of a field in messages: `"x", "y"` if it has no name.
+[[nodiscard]] inline std::string keys_text(const Field& field, const char* quote) {
+  const auto quoted = [quote](const std::string& key) { return quote + key + quote; };
+  if (*field.name != '\0') return quoted(field.name);
+  const std::string yaw = field.type == FieldType::kPose ? ", " + quoted("yaw") : "";
+  return quoted("x") + ", " + quoted("y") + yaw;
+}
+
+/// What messages have as the value of a field.
+[[nodiscard]] inline std::string message_value_text(const Field& field) {
+  const std::string pose = R"(`{"x", "y", "yaw"}`)";
+  std::string list;
+  switch (field.type) {
+    case FieldType::kNumber:
+      return "number";
+    case FieldType::kBool:
+      return "`true`, `false`";
+    case FieldType::kChoice:
+      for (const char* word : field.words) {
+        list += (list.empty() ? "`\"" : ", `\"") + std::string(word) + "\"`";
+      }
+      return list;
+    case FieldType::kText:
+    case FieldType::kColour:
+      return "text";
+    case FieldType::kVec3:
+      return R"(`{"x", "y", "z"}`)";
+    case FieldType::kBytes:
+      return "bytes";
+    case FieldType::kOctets:
+    case FieldType::kNumbers:
+      return "doubles";
+    case FieldType::kTexts:
+      return "list of texts";
+    case FieldType::kVec2:
+      return "numbers";
+    case FieldType::kPose:
+      return *field.name == '\0' ? "numbers" : pose;
+    case FieldType::kPoses:
+      return "list of " + pose;
+    case FieldType::kList:
+      for (const Field& member : field.table().fields) {
+        list += (list.empty() ? "" : ", ") + keys_text(member, "\"");
+      }
+      return "list of `{" + list + "}`";
+    default:
+      return "whole number";
+  }
+}
+
+/// The table of readings in docs/protocol.md. Types with equal readings share their rows.
+[[nodiscard]] inline std::string readings_table() {
+  std::string rows;
+  std::vector<const FieldTable*> shown;
+  for (const DeviceKind& kind : device_kinds()) {
+    const FieldTable* const table = kind.reading.fields;
+    if (table == nullptr || std::find(shown.begin(), shown.end(), table) != shown.end()) continue;
+    shown.push_back(table);
+    std::string types;
+    for (const DeviceKind& other : device_kinds()) {
+      if (other.reading.fields != table) continue;
+      types += (types.empty() ? "`" : ", `") + other.name + "`";
+    }
+    if (table->fields.empty()) rows += "| " + types + " | | | | only the time |\n";
+    for (const Field& field : table->fields) {
+      const std::string unit = field.range.unit;
+      rows += "| " + types + " | " + keys_text(field, "`") + " | " + message_value_text(field) +
+              " | " + (unit.empty() ? "–" : unit) + " | " + field.meaning + " |\n";
+      types.clear();
+    }
+  }
+  return "| type | key | value | unit | meaning |\n|---|---|---|---|---|\n" + rows;
+}
+
 /// Whether the test writes the files instead of comparing them: PLAYPEN_WRITE_PAGES=1.
 [[nodiscard]] inline bool writes_pages() { return std::getenv("PLAYPEN_WRITE_PAGES") != nullptr; }
 

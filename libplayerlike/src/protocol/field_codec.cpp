@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "sim/core/assert.h"
 #include "sim/devices/builtin.h"
@@ -13,6 +14,7 @@
 namespace playerlike::protocol {
 namespace {
 
+using nlohmann::ordered_json;
 using sim::Field;
 using sim::FieldType;
 
@@ -23,17 +25,30 @@ const T& as(const void* value) {
   return *static_cast<const T*>(value);
 }
 
+/// The two fields of the elements of a list that is an object in messages.
+std::pair<const Field&, const Field&> key_and_value(const Field& field) {
+  return {field.table().fields[0], field.table().fields[1]};
+}
+
 bool is_in_place(const Field& field) {
   const std::string_view name = field.name;
   return name.empty() || name.ends_with('_');
 }
 
-json list_of(const Field& field, const void* list, Encoding encoding) {
-  json out = json::array();
+template <typename Json>
+Json written(const Field& field, const void* value, Encoding encoding);
+
+template <typename Json>
+Json list_of(const Field& field, const void* list, Encoding encoding) {
+  Json out = field.is_keyed ? Json::object() : Json::array();
   for (std::size_t i = 0; i < field.list->size(list); ++i) {
-    json element = json::object();
-    write_fields(field.table(), field.list->at(list, i), element, encoding);
-    out.push_back(std::move(element));
+    const void* const element = field.list->at(list, i);
+    if (field.is_keyed) {
+      const auto [key, member] = key_and_value(field);
+      out[as<std::string>(key.get(element))] = written<Json>(member, member.get(element), encoding);
+    } else {
+      write_fields(field.table(), element, out.emplace_back(Json::object()), encoding);
+    }
   }
   return out;
 }
@@ -49,7 +64,8 @@ json octets(const std::vector<std::uint8_t>& numbers, Encoding encoding) {
 }
 
 /// Encodes a field that has a name.
-json written(const Field& field, const void* value, Encoding encoding) {
+template <typename Json>
+Json written(const Field& field, const void* value, Encoding encoding) {
   switch (field.type) {
     case FieldType::kNumber:
       return as<double>(value);
@@ -86,9 +102,9 @@ json written(const Field& field, const void* value, Encoding encoding) {
     case FieldType::kPoses:
       return poses(as<std::vector<sim::Pose>>(value));
     case FieldType::kList:
-      return list_of(field, value, encoding);
+      return list_of<Json>(field, value, encoding);
     case FieldType::kStruct: {
-      json out = json::object();
+      Json out = Json::object();
       write_fields(field.table(), value, out, encoding);
       return out;
     }
@@ -106,7 +122,8 @@ json written(const Field& field, const void* value, Encoding encoding) {
 }
 
 /// Writes the components of a vector or a pose as members of the message itself.
-void write_in_place(const Field& field, const void* value, json& out) {
+template <typename Json>
+void write_in_place(const Field& field, const void* value, Json& out) {
   if (field.type == FieldType::kVec2) {
     out[std::string(field.name) + 'x'] = as<sim::Vec2>(value).x();
     out[std::string(field.name) + 'y'] = as<sim::Vec2>(value).y();
@@ -164,8 +181,9 @@ const char* list_in(const Field& field) {
   return field.issue_expected != nullptr ? field.issue_expected : "a list";
 }
 
-void read_value(const Field& field, const json& in, const char* key, Encoding encoding,
-                void* value) {
+/// Reads a field that is neither a list nor a struct.
+void read_leaf(const Field& field, const json& in, const char* key, Encoding encoding,
+               void* value) {
   switch (field.type) {
     case FieldType::kNumber:
       *static_cast<double*>(value) = require_number(in, key);
@@ -214,22 +232,67 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
         static_cast<std::vector<sim::Pose>*>(value)->push_back(decode_pose(pose));
       }
       return;
-    case FieldType::kList:
-      field.list->clear(value);
-      for (const json& element : require_list(require(in, key), key, list_in(field))) {
-        read_fields(field.table(), element, encoding, field.list->append(value));
-      }
-      return;
-    case FieldType::kStruct:
-      return read_fields(field.table(), require(in, key), encoding, value);
     case FieldType::kForm:
       return field.form->decode(in, key, encoding, value);
+    case FieldType::kList:
+    case FieldType::kStruct:
+      break;  // see read_value()
     case FieldType::kPoints:
     case FieldType::kMap:
     case FieldType::kVariant:
     case FieldType::kInclude:
     case FieldType::kCustom:
-      SIM_ASSERT(false);  // only in world files
+      break;  // only in world files
+  }
+  SIM_ASSERT(false);
+}
+
+/// The member `key`, see require().
+const json& member_of(const json& in, const char* key) { return require(in, key); }
+const ordered_json& member_of(const ordered_json& in, const char* key) {
+  if (!in.is_object() || !in.contains(key)) static_cast<void>(require(json(in), key));  // throws
+  return in.at(key);
+}
+
+/// A message with the members of a field.
+const json& leaf_of(const json& in, const Field& /*field*/, const char* /*key*/) { return in; }
+json leaf_of(const ordered_json& in, const Field& field, const char* key) {
+  if (!is_in_place(field)) return {{key, json(member_of(in, key))}};
+  return in;
+}
+
+template <typename Json>
+void read_value(const Field& field, const Json& in, const char* key, Encoding encoding,
+                void* value);
+
+template <typename Json>
+void read_list(const Field& field, const Json& in, const char* key, Encoding encoding, void* list) {
+  const Json& value = member_of(in, key);
+  if (field.is_keyed ? !value.is_object() : !value.is_array()) {
+    refuse_value(key, list_in(field), json(value));
+  }
+  field.list->clear(list);
+  for (auto at = value.begin(); at != value.end(); ++at) {
+    void* const element = field.list->append(list);
+    if (!field.is_keyed) {
+      read_fields(field.table(), *at, encoding, element);
+      continue;
+    }
+    const auto [name, member] = key_and_value(field);
+    *static_cast<std::string*>(name.set(element)) = at.key();
+    read_value(member, value, at.key().c_str(), encoding, member.set(element));
+  }
+}
+
+template <typename Json>
+void read_value(const Field& field, const Json& in, const char* key, Encoding encoding,
+                void* value) {
+  if (field.type == FieldType::kList) {
+    read_list(field, in, key, encoding, value);
+  } else if (field.type == FieldType::kStruct) {
+    read_fields(field.table(), member_of(in, key), encoding, value);
+  } else {
+    read_leaf(field, leaf_of(in, field, key), key, encoding, value);
   }
 }
 
@@ -237,11 +300,12 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
 const char* dot_in(const Field& field) { return std::strchr(field.name, '.'); }
 
 /// The object that holds a field: "own" for "own.ip".
-const json& require_owner(const Field& field, const char* dot, const json& in) {
+template <typename Json>
+const Json& require_owner(const Field& field, const char* dot, const Json& in) {
   const std::string owner(field.name, dot);
-  const json& object = require(in, owner.c_str());
+  const Json& object = member_of(in, owner.c_str());
   if (!object.is_object()) {
-    refuse_value(owner, "an object {\"" + std::string(dot + 1) + "\"}", object);
+    refuse_value(owner, "an object {\"" + std::string(dot + 1) + "\"}", json(object));
   }
   return object;
 }
@@ -256,7 +320,8 @@ const sim::DeviceKind& kind_with_readings(std::string_view type) {
 
 }  // namespace
 
-void write_fields(const sim::FieldTable& table, const void* object, json& out, Encoding encoding) {
+template <typename Json>
+void write_fields(const sim::FieldTable& table, const void* object, Json& out, Encoding encoding) {
   sim::for_each_field(table, object, [&](const Field& field, const void* owner) {
     const void* value = field.get(owner);
     if (value == nullptr) {
@@ -265,14 +330,15 @@ void write_fields(const sim::FieldTable& table, const void* object, json& out, E
     }
     if (is_in_place(field)) return write_in_place(field, value, out);
     if (const char* dot = dot_in(field)) {
-      out[std::string(field.name, dot)][dot + 1] = written(field, value, encoding);
+      out[std::string(field.name, dot)][dot + 1] = written<Json>(field, value, encoding);
     } else {
-      out[field.name] = written(field, value, encoding);
+      out[field.name] = written<Json>(field, value, encoding);
     }
   });
 }
 
-void read_fields(const sim::FieldTable& table, const json& in, Encoding encoding, void* object) {
+template <typename Json>
+void read_fields(const sim::FieldTable& table, const Json& in, Encoding encoding, void* object) {
   sim::for_each_field(table, object, [&](const Field& field, void* owner) {
     const bool is_optional = field.drop != nullptr;
     const bool may_be_missing = field.may_be_left_out || (is_optional && !field.null_if_empty);
@@ -280,16 +346,21 @@ void read_fields(const sim::FieldTable& table, const json& in, Encoding encoding
       if (is_optional) field.drop(owner);
       return;
     }
-    if (field.null_if_empty && require(in, field.name).is_null()) return field.drop(owner);
+    if (field.null_if_empty && member_of(in, field.name).is_null()) return field.drop(owner);
     const char* dot = dot_in(field);
-    const json& from = dot == nullptr ? in : require_owner(field, dot, in);
+    const Json& from = dot == nullptr ? in : require_owner(field, dot, in);
     read_value(field, from, dot == nullptr ? field.name : dot + 1, encoding, field.set(owner));
   });
   if (table.check == nullptr) return;
   if (const std::optional<sim::FieldError> error = table.check(object)) {
-    refuse_value(error->key, error->expected, require(in, error->key));
+    refuse_value(error->key, error->expected, json(member_of(in, error->key)));
   }
 }
+
+template void write_fields(const sim::FieldTable&, const void*, json&, Encoding);
+template void write_fields(const sim::FieldTable&, const void*, ordered_json&, Encoding);
+template void read_fields(const sim::FieldTable&, const json&, Encoding, void*);
+template void read_fields(const sim::FieldTable&, const ordered_json&, Encoding, void*);
 
 std::vector<std::string> keys_of(const sim::FieldTable& table) {
   std::vector<std::string> keys;

@@ -24,12 +24,16 @@ namespace playerlike::protocol {
 ///
 /// A vector or pose without a name becomes the members "x", "y" (and "yaw") of the message itself.
 /// With a name, it becomes an object of these. A vector with the name "goal_" becomes the members
-/// "goal_x" and "goal_y". "own.ip" is the member "ip" of an object "own".
-void write_fields(const sim::FieldTable& table, const void* object, json& out, Encoding encoding);
+/// "goal_x" and "goal_y". "own.ip" is the member "ip" of an object "own". A keyed list is an object:
+/// its keys are the first field of the elements, its values the second.
+/// @tparam Json  json, or nlohmann::ordered_json, which keeps the order of fields and elements.
+template <typename Json>
+void write_fields(const sim::FieldTable& table, const void* object, Json& out, Encoding encoding);
 
 /// Reads the fields that write_fields() writes; ignores keys that are not in the table. @throws
 /// ProtocolError protocol/bad-value (see codec.h), also if the table's check fails.
-void read_fields(const sim::FieldTable& table, const json& in, Encoding encoding, void* object);
+template <typename Json>
+void read_fields(const sim::FieldTable& table, const Json& in, Encoding encoding, void* object);
 
 /// The keys of a struct's message in the table's order.
 [[nodiscard]] std::vector<std::string> keys_of(const sim::FieldTable& table);

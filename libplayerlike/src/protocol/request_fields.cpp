@@ -11,6 +11,7 @@
 
 #include "protocol/codec.h"
 #include "protocol/field_codec.h"
+#include "protocol/message_table.h"
 
 // --- Values that are not a sim::FieldType
 
@@ -199,18 +200,6 @@ const FieldTable& driver_fields() {
 }
 
 }  // namespace
-
-/// Defines fields_of<Struct>() like SIM_FIELDS, but with the fields themselves. They call the
-/// struct T.
-#define MESSAGE_CHECKED(Struct, check, ...)                \
-  template <>                                              \
-  const FieldTable& fields_of<Struct>() {                  \
-    using T = Struct;                                      \
-    static constexpr Field kFields[] = {__VA_ARGS__};      \
-    static constexpr FieldTable kTable = {kFields, check}; \
-    return kTable;                                         \
-  }
-#define MESSAGE(Struct, ...) MESSAGE_CHECKED(Struct, nullptr, __VA_ARGS__)
 
 MESSAGE_CHECKED(playerlike::CanvasInfo, check_canvas, map_side(field<&T::width>("width")),
                 map_side(field<&T::height>("height")), field<&T::cell_size_m>("cell_size"),

@@ -138,10 +138,10 @@ constexpr Field kLink[] = {
 SIM_FIELDS(WifiReading::Link, kLink)
 
 constexpr Field kWifiReading[] = {
-    field<&WifiReading::links>("links"),
-    field<&WifiReading::own_ip>("own.ip"),
-    field<&WifiReading::floor_dbm>("floor", "dBm"),
-    field<&WifiReading::channel_mhz>("channel", "MHz"),
+    field<&WifiReading::links>("links", "", "`level` in dBm"),
+    field<&WifiReading::own_ip>("own.ip", "", "this robot's own address"),
+    field<&WifiReading::floor_dbm>("floor", "dBm", "noise of the channel"),
+    field<&WifiReading::channel_mhz>("channel", "MHz", "carrier"),
 };
 SIM_FIELDS(WifiReading, kWifiReading)
 

@@ -104,17 +104,9 @@ class Simulation::Impl::Controller {
   [[nodiscard]] bool holds(const FiducialCondition& condition, int robot) const;
   [[nodiscard]] std::optional<double> quantity(RobotQuantity quantity, std::size_t robot) const;
   void act(const std::vector<ArenaAction>& actions, const Cause& cause);
-  void act(const ConfigurationAction& action, const Cause& cause);
-  void act(const BlocksAction& action, const Cause& cause);
-  void act(const PlaceAction& action, const Cause& cause);
-  void act(const MessageAction& action, const Cause& cause);
-  void act(const TextAction& action, const Cause& cause);
-  void act(const CanvasAction& action, const Cause& cause);
-  void act(const RestartAction& action, const Cause& cause);
-  void act(const ScoreAction& action, const Cause& cause);
-  void act(const SwitchAction& action, const Cause& cause);
-  void act(const EndAction& action, const Cause& cause);
-  void act(const MoveAction& action, const Cause& cause);
+  /// Specialised in controller_actions.cpp for each kind of action.
+  template <typename Action>
+  void act(const Action& action, const Cause& cause);
   std::optional<std::string> change_block(const std::string& name, BlocksAction::Change change);
   std::optional<std::string> place(const std::string& name, const Pose& pose);
   bool restart(std::size_t robot);

@@ -100,18 +100,12 @@ bool Simulation::Impl::Controller::holds(const FiducialCondition& condition, int
 
 // --- Actions
 
-void Simulation::Impl::Controller::act(const std::vector<ArenaAction>& actions,
-                                       const Cause& cause) {
-  for (const ArenaAction& action : actions) {
-    if (!may_work(cost_.of(action), cause.name)) return;
-    std::visit([&](const auto& kind) { act(kind, cause); }, action);
-  }
-}
-
+template <>
 void Simulation::Impl::Controller::act(const ConfigurationAction& action, const Cause&) {
   static_cast<void>(configure(action.configuration));  // events tell what was refused
 }
 
+template <>
 void Simulation::Impl::Controller::act(const BlocksAction& action, const Cause&) {
   for (const std::string& block : action.blocks) {
     static_cast<void>(change_block(block, action.change));
@@ -134,6 +128,7 @@ std::optional<std::string> Simulation::Impl::Controller::change_block(const std:
   return impl_.blocks->set(index, extend);  // records what it refuses
 }
 
+template <>
 void Simulation::Impl::Controller::act(const PlaceAction& action, const Cause&) {
   static_cast<void>(place(action.obstacle, action.pose));
 }
@@ -149,10 +144,12 @@ std::optional<std::string> Simulation::Impl::Controller::place(const std::string
   return reason;
 }
 
+template <>
 void Simulation::Impl::Controller::act(const MessageAction& action, const Cause& cause) {
   impl_.record(ArenaEventKind::kMessage, cause.name, {}, action.text);
 }
 
+template <>
 void Simulation::Impl::Controller::act(const TextAction& action, const Cause& cause) {
   const ArenaDescription& arena = impl_.world.arena;
   const Vec2 place = action.place.value_or(arena.origin + 0.5 * arena.size);
@@ -167,6 +164,7 @@ void Simulation::Impl::Controller::act(const TextAction& action, const Cause& ca
   impl_.record(ArenaEventKind::kText, cause.name, {}, action.text, action.duration_s);
 }
 
+template <>
 void Simulation::Impl::Controller::act(const CanvasAction& action, const Cause& cause) {
   impl_.record(ArenaEventKind::kCanvas, cause.name);
   const Colour colour = action.colour.value_or(Colour{0, 0, 0, 0});
@@ -186,6 +184,7 @@ void Simulation::Impl::Controller::act(const CanvasAction& action, const Cause& 
   }
 }
 
+template <>
 void Simulation::Impl::Controller::act(const RestartAction& action, const Cause& cause) {
   const int index = robot_of(action.robot, cause.robot);
   if (index < 0) return;
@@ -208,6 +207,7 @@ bool Simulation::Impl::Controller::restart(std::size_t robot) {
   return true;
 }
 
+template <>
 void Simulation::Impl::Controller::act(const ScoreAction& action, const Cause& cause) {
   const int index = robot_of(action.robot, cause.robot);
   if (index < 0) return;
@@ -217,6 +217,7 @@ void Simulation::Impl::Controller::act(const ScoreAction& action, const Cause& c
                action.points);
 }
 
+template <>
 void Simulation::Impl::Controller::act(const SwitchAction& action, const Cause&) {
   for (const std::string& name : action.names) {
     static_cast<void>(timer_of_.contains(name) ? set_timer_enabled(name, action.on)
@@ -224,15 +225,25 @@ void Simulation::Impl::Controller::act(const SwitchAction& action, const Cause&)
   }
 }
 
+template <>
 void Simulation::Impl::Controller::act(const EndAction& action, const Cause& cause) {
   verdict_ = Verdict{action.passed, action.reason, impl_.now_ns};
   impl_.record(ArenaEventKind::kEnd, cause.name, {}, action.reason, action.passed ? 1.0 : 0.0);
 }
 
+template <>
 void Simulation::Impl::Controller::act(const MoveAction& action, const Cause&) {
   const std::optional<int> obstacle = impl_.find_obstacle(action.obstacle);
   SIM_ASSERT(obstacle.has_value() && impl_.obstacle_motions);
   impl_.obstacle_motions->move(*obstacle, action.motion);
+}
+
+void Simulation::Impl::Controller::act(const std::vector<ArenaAction>& actions,
+                                       const Cause& cause) {
+  for (const ArenaAction& action : actions) {
+    if (!may_work(cost_.of(action), cause.name)) return;
+    std::visit([&](const auto& kind) { act(kind, cause); }, action);
+  }
 }
 
 }  // namespace sim

@@ -177,7 +177,8 @@ class EvaluateTest : public testing::Test {
     other["name"] = "b";
     other["path_length"] = 99.0;
     json report = {{"run", {{"sim_time", sim_time_s}, {"steps", steps_}}},
-                   {"robots", {other, robot}}};
+                   {"robots", {other, robot}},
+                   {"ended", {{"by", "program"}}}};
     report.update(of_controller);
     folder_.write("report.json", playerlike::signed_report(report.dump(), signed_as_));
   }
@@ -513,7 +514,9 @@ TEST_F(EvaluateTest, UnseenFloor_DoesNotCount) {
   EXPECT_THAT(half.faults,
               ElementsAre("coverage 0.500, at least 0.98 needed: the map shows 1.000 of the floor, "
                           "but the robot's own sensors have seen only 0.500 of it"));
-  write_report({{"seen", nullptr}});
+  write_report(
+      {{"seen",
+        {{"cell_size", 0.0}, {"x", 0.0}, {"y", 0.0}, {"width", 0}, {"height", 0}, {"cells", ""}}}});
   EXPECT_FALSE(evaluated().passed());
 }
 

@@ -100,7 +100,7 @@ class MirrorTest : public testing::Test {
     const std::lock_guard lock(real_->mutex);
     return real_->sent;
   }
-  [[nodiscard]] nlohmann::ordered_json report() const { return mirror_->report().at(0); }
+  [[nodiscard]] MirrorReport report() const { return mirror_->report().at(0); }
 
   std::shared_ptr<FakeWorld> real_ = make_real_robot();
   std::optional<sim::Simulation> simulation_;
@@ -244,7 +244,7 @@ TEST_F(MirrorTest, EndOfRun_StopsRealRobot) {
   ASSERT_FALSE(sent().empty());
   EXPECT_EQ(sent().back().first, test::kMotion);
   EXPECT_EQ(std::get<sim::TwistCommand>(sent().back().second).twist, sim::Twist{});
-  EXPECT_TRUE(report()["connected"]) << "the end of the run is no loss";
+  EXPECT_TRUE(report().connected) << "the end of the run is no loss";
 }
 
 TEST_F(MirrorTest, Pause_StopsRealRobot) {
@@ -279,8 +279,8 @@ TEST_F(MirrorTest, LostConnection_ReportedOnceAndEndsCommands) {
   mirror_->stop();
   EXPECT_THAT(sent(), IsEmpty());
   EXPECT_NEAR(pose().x_m, 2.0, 1e-12);
-  EXPECT_FALSE(report()["connected"]);
-  EXPECT_THAT(report()["lost"]["reason"].get<std::string>(), HasSubstr("is lost"));
+  EXPECT_FALSE(report().connected);
+  EXPECT_THAT(report().lost.value().reason, HasSubstr("is lost"));
 }
 
 // --- Who is in charge of the real robot
@@ -353,13 +353,13 @@ TEST_F(MirrorTest, LostConnection_ReconnectsIfWorldAllows) {
   EXPECT_EQ(mirror_->loss_of(device("pose")), "") << "nobody waits in vain";
   EXPECT_THAT(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}),
               testing::Optional(testing::Optional(HasSubstr("is lost"))));
-  EXPECT_FALSE(report()["connected"]);
+  EXPECT_FALSE(report().connected);
   set_closed(false);
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
   EXPECT_FALSE(mirror_->has_lost(0));
   EXPECT_THAT(warnings_, Contains(HasSubstr("is there again")));
-  EXPECT_TRUE(report()["connected"]);
-  EXPECT_EQ(report()["reconnections"], 1);
+  EXPECT_TRUE(report().connected);
+  EXPECT_EQ(report().reconnections, 1U);
   EXPECT_THAT(sent(), IsEmpty()) << "a new command must set it in motion";
 }
 
@@ -425,14 +425,14 @@ TEST_F(MirrorTest, MissingPoseDevice_Error) {
 TEST_F(MirrorTest, Ghost_FollowsSameCommands) {
   open(world_text(R"(, "drive": "both")"));
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
-  EXPECT_EQ(report()["ghost"]["final_distance"], 0.0) << "it starts at the real robot";
+  EXPECT_EQ(report().ghost.value().final_distance_m, 0.0) << "it starts at the real robot";
   EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}));
   step(100);
   measures({{test::kPose, test::pose_reading(2.0, {2.05, 2.0, 0.5})}});
   // Without ramps the ghost drives 0.2 m in a second; the real one says 0.05 m.
-  EXPECT_NEAR(report()["ghost"]["final_distance"].get<double>(), 0.15, 1e-3);
-  EXPECT_NEAR(report()["ghost"]["distance"]["max"].get<double>(), 0.15, 1e-3);
-  EXPECT_NEAR(report()["ghost"]["heading"]["max"].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(report().ghost.value().final_distance_m, 0.15, 1e-3);
+  EXPECT_NEAR(report().ghost.value().distance_m.max, 0.15, 1e-3);
+  EXPECT_NEAR(report().ghost.value().heading_rad.max, 0.5, 1e-9);
   EXPECT_TRUE(eventually([this] { return !sent().empty(); })) << "the real robot drives as well";
   EXPECT_EQ(simulation_->robot_count(), 1) << "nobody else sees the ghost";
 
@@ -549,8 +549,8 @@ TEST_F(MirrorTest, RealScan_DrawnAndCompared) {
   EXPECT_NEAR(scene.robots[0].scan_points[0].x(), 3.035, 1e-9);
   EXPECT_NEAR(scene.robots[0].scan_points[0].y(), 2.0, 1e-9);
   // The predicted beam nearest to 0 is at most half a beam (0.2 degrees) away.
-  EXPECT_NEAR(report()["scan_difference"]["range"]["max"].get<double>(), 0.965, 1e-3);
-  EXPECT_EQ(report()["scan_difference"]["share"]["max"], 1.0);
+  EXPECT_NEAR(report().scan_difference.value().range_m.max, 0.965, 1e-3);
+  EXPECT_EQ(report().scan_difference.value().share.max, 1.0);
 
   const std::vector<sim::LayerInfo> layers = simulation_->layers().layers();
   ASSERT_THAT(layers, SizeIs(2)) << "the canvas, and the layer of the difference";

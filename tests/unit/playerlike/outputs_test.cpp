@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "comma_locale.h"
+#include "host/results/make_report.h"
 #include "host/results/recorder.h"
 #include "playerlike/host/program.h"
 #include "playerlike/host/report_summary.h"
@@ -42,7 +43,8 @@ class Outputs : public testing::Test {
     return simulation_.layers().add(kind, style, owner);
   }
   void write() const {
-    write_report(folder_.path(), report_text(simulation_, Recorder({}, simulation_), {}, {}));
+    write_report(folder_.path(),
+                 text_of_report(make_report(simulation_, Recorder({}, simulation_), {}, {})));
     write_pictures(folder_.path(), simulation_.layers(), simulation_.snapshot());
   }
   [[nodiscard]] std::vector<std::string> layer_files() const {
@@ -180,7 +182,7 @@ std::map<std::string, std::string> all_texts_of_a_run() {
     time.wall_time_s = 12.345;
     time.real_time_factor = 1234.5;
     write_report(settings.output_folder,
-                 report_text(simulation, Recorder({}, simulation), time, {}));
+                 text_of_report(make_report(simulation, Recorder({}, simulation), time, {})));
     write_pictures(settings.output_folder, simulation.layers(), recorder.scene(simulation));
   }
   for (const auto& entry : fs::recursive_directory_iterator(settings.output_folder)) {
@@ -218,7 +220,8 @@ TEST(OutputsOfAnArenaController, EventsScoresAndVerdict_Written) {
         R"({"arena": {"size": [4, 4]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}}])" +
         more + "}"));
     simulation.step();
-    return nlohmann::json::parse(report_text(simulation, Recorder({}, simulation), {}, {}));
+    return nlohmann::json::parse(
+        text_of_report(make_report(simulation, Recorder({}, simulation), {}, {})));
   };
   const nlohmann::json report = report_of(R"(, "controller": {"traps": [
       {"name": "p", "region": {"circle": {"center": [1, 1]}},
@@ -245,8 +248,8 @@ TEST(OutputsOfAnArenaController, DynamicBlocks_StateWritten) {
     "robots": [{"pose": {"x": 1, "y": 1}}],
     "controller": {"timers": [{"at": 0, "do": [{"extend": ["c"]}, {"retract": ["b"]}]}]}})"));
   simulation.step();
-  const auto report =
-      nlohmann::json::parse(report_text(simulation, Recorder({}, simulation), {}, {}));
+  const auto report = nlohmann::json::parse(
+      text_of_report(make_report(simulation, Recorder({}, simulation), {}, {})));
   EXPECT_EQ(report.at("blocks"),
             nlohmann::json::parse(R"({"a": "extended", "b": "sinking", "c": "waiting"})"));
 }

@@ -233,18 +233,46 @@ TEST_P(DevicePage, ExampleWorldSetsEachSetting) {
   EXPECT_EQ(simulation.steps(), 100U);
 }
 
-TEST(RealismPage, TableMatchesFields) {
-  const fs::path file = kRoot / "docs/realism.md";
+/// Compares the table of a page that begins with `head`, or writes it anew.
+void expect_table(const std::string& name, const std::string& head, const std::string& made) {
+  const fs::path file = kRoot / "docs" / name;
   const std::string page = read_bytes(file);
-  const std::size_t first = page.find("| device | setting |");
-  ASSERT_NE(first, std::string::npos);
+  const std::size_t first = page.find(head);
+  ASSERT_NE(first, std::string::npos) << name;
   const std::size_t last = std::min(page.find("\n\n", first) + 1, page.size());
-  const std::string made = test::realism_table();
   if (test::writes_pages()) {
     test::write_page(file.string(), page.substr(0, first) + made + page.substr(last));
   } else {
     EXPECT_EQ(page.substr(first, last - first), made) << "PLAYPEN_WRITE_PAGES=1 writes it anew";
   }
+}
+
+TEST(RealismPage, TableMatchesFields) {
+  expect_table("realism.md", "| device | setting |", test::realism_table());
+}
+
+TEST(ProtocolPage, ReadingsMatchFields) {
+  expect_table("protocol.md", "| type | key | value |", test::readings_table());
+}
+
+/// The first sentence of a device's page, without links.
+std::string first_sentence(const std::string& type) {
+  std::string text = read_bytes(kRoot / "docs/devices" / (type + ".md"));
+  text = text.substr(text.find("\n\n") + 2);
+  text = text.substr(0, text.find("\n\n"));
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  text = text.substr(0, text.find(". "));
+  return std::regex_replace(text, std::regex(R"(\[([^\]]*)\]\([^)]*\))"), "$1");
+}
+
+TEST(IndexPage, ListsDevices) {
+  std::map<std::string, std::string> devices;
+  for (const DeviceKind& kind : device_kinds()) devices[kind.name] = first_sentence(kind.name);
+  std::string table = "| device | what it is |\n|---|---|\n";
+  for (const auto& [type, sentence] : devices) {
+    table += "| [" + type + "](devices/" + type + ".md) | " + sentence + " |\n";
+  }
+  expect_table("index.md", "| device | what it is |", table);
 }
 
 TEST(DevicePages, KnownTypesOnly) {

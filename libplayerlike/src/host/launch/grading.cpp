@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "playerlike/host/report.h"
 #include "sim/core/hash.h"
 #include "sim/core/number_text.h"
 #include "sim/core/time.h"
@@ -12,37 +13,34 @@
 namespace playerlike {
 namespace {
 
-using nlohmann::ordered_json;
-
-constexpr const char* kEntry = "graded";
-constexpr const char* kSignature = "signature";
 constexpr const char* kCourse = "course";  // left out of the entry
-constexpr const char* kRules = "rules";    // left out if they are all defaults
 
-/// The signature of a report that has its entry "graded", but no signature yet.
-std::string signature_of(const ordered_json& report, const std::string& nonce) {
+/// The signature of a report with its entry "graded".
+std::string signature_of(Report report, const std::string& nonce) {
+  report.graded->signature.reset();
   sim::StateHash hash;
   hash.add(nonce);
-  hash.add(report.dump());
+  hash.add(text_of_report(report));
   hash.add(nonce);
   return sim::hexadecimal_text(hash.value(), 16);
 }
 
-ordered_json entry_of(const Grading& grading) {
-  ordered_json entry = {{"nonce", grading.nonce},
-                        {"world_name", grading.world_name},
-                        {"world", sim::hexadecimal_text(grading.world, 16)},
-                        {"seed", grading.seed},
-                        {"duration", nullptr},
-                        {"time", grading.time}};
-  if (grading.duration_s) entry["duration"] = *grading.duration_s;
-  if (grading.realism != kCourse) entry["realism"] = grading.realism;
-  if (const std::string rules = to_text(grading.rules); !rules.empty()) entry[kRules] = rules;
+Report::Graded entry_of(const Grading& grading) {
+  Report::Graded entry;
+  entry.nonce = grading.nonce;
+  entry.world_name = grading.world_name;
+  entry.world = sim::hexadecimal_text(grading.world, 16);
+  entry.seed = grading.seed;
+  entry.duration_s = grading.duration_s;
+  entry.time = grading.time;
+  if (grading.realism != kCourse) entry.realism = grading.realism;
+  // Left out if they are all defaults.
+  if (const std::string rules = to_text(grading.rules); !rules.empty()) entry.rules = rules;
   return entry;
 }
 
-std::string duration_text(const ordered_json& duration) {
-  return duration.is_null() ? "no limit" : sim::shortest_text(duration.get<double>()) + " s";
+std::string duration_text(const std::optional<double>& duration_s) {
+  return duration_s ? sim::shortest_text(*duration_s) + " s" : "no limit";
 }
 
 }  // namespace
@@ -66,57 +64,52 @@ Grading grading_of(const std::string& nonce, const TaskRules& rules,
 
 std::string signed_report(const std::string& report, const Grading& grading) {
   if (grading.nonce.empty()) return report;
-  ordered_json whole = ordered_json::parse(report);
-  whole[kEntry] = entry_of(grading);
-  const std::string signature = signature_of(whole, grading.nonce);
-  whole[kEntry][kSignature] = signature;
-  return whole.dump(2) + '\n';
+  Report whole = report_from(report);
+  whole.graded = entry_of(grading);
+  whole.graded->signature = signature_of(whole, grading.nonce);
+  return text_of_report(whole);
 }
 
 std::optional<std::string> fault_of_graded(const std::string& report, const Grading& expected) {
-  ordered_json whole = ordered_json::parse(report);
-  if (!whole.is_object() || !whole.contains(kEntry)) {
+  const nlohmann::json content = nlohmann::json::parse(report);
+  if (!content.is_object() || !content.contains("graded")) {
     return "the report is not signed by the simulation of this run: the program wrote report.json "
            "itself, or is linked with an older Playpen";
   }
-  ordered_json& entry = whole[kEntry];
-  const auto found = [&entry](const char* key) -> const ordered_json& { return entry.at(key); };
-  if (found("nonce").get<std::string>() != expected.nonce) {
-    return "the report is that of another run";
-  }
-  const ordered_json wanted = entry_of(expected);
-  if (const std::string realism = entry.value("realism", kCourse); realism != expected.realism) {
+  const Report whole = report_from(report);
+  const Report::Graded& found = whole.graded.value();
+  const Report::Graded wanted = entry_of(expected);
+  if (found.nonce != wanted.nonce) return "the report is that of another run";
+  if (const std::string realism = found.realism.value_or(kCourse); realism != expected.realism) {
     return "the program ran with the realism " + realism + ", not with " + expected.realism +
            ": it must leave PLAYPEN_REALISM alone";
   }
-  if (found("world") != wanted.at("world")) {
-    return "the program ran the world \"" + found("world_name").get<std::string>() +
+  if (found.world != wanted.world) {
+    return "the program ran the world \"" + found.world_name +
            "\", which is not that of the task (\"" + expected.world_name +
            "\"): it must connect to \"localhost\", not to \"sim:FILE\", and leave PLAYPEN_WORLD "
            "alone";
   }
-  if (found("seed") != wanted.at("seed")) {
-    return "the program ran with the seed " + found("seed").dump() + ", not with " +
-           wanted.at("seed").dump() + ": it must leave PLAYPEN_SEED alone";
+  if (found.seed != wanted.seed) {
+    return "the program ran with the seed " + std::to_string(found.seed) + ", not with " +
+           std::to_string(wanted.seed) + ": it must leave PLAYPEN_SEED alone";
   }
-  if (found("duration") != wanted.at("duration")) {
-    return "the program ran with a duration of " + duration_text(found("duration")) + ", not of " +
-           duration_text(wanted.at("duration")) + ": it must leave PLAYPEN_DURATION alone";
+  if (found.duration_s != wanted.duration_s) {
+    return "the program ran with a duration of " + duration_text(found.duration_s) + ", not of " +
+           duration_text(wanted.duration_s) + ": it must leave PLAYPEN_DURATION alone";
   }
-  if (found("time") != wanted.at("time")) {
-    return "the program ran with the time " + found("time").get<std::string>() + ", not with " +
-           expected.time + ": it must leave PLAYPEN_TIME alone";
+  if (found.time != wanted.time) {
+    return "the program ran with the time " + found.time + ", not with " + wanted.time +
+           ": it must leave PLAYPEN_TIME alone";
   }
-  if (entry.value(kRules, "") != to_text(expected.rules)) {
+  if (found.rules != wanted.rules) {
     return "the program ran with other rules than those of the task: it must leave PLAYPEN_TASK "
            "alone";
   }
-  const std::string signature = found(kSignature).get<std::string>();
-  entry.erase(kSignature);
-  if (signature != signature_of(whole, expected.nonce)) {
+  if (found.signature != signature_of(whole, expected.nonce)) {
     return "report.json was changed after the run had ended";
   }
-  if (whole.at("run").at("steps").get<std::uint64_t>() == 0) {
+  if (whole.run.steps == 0) {
     return "the simulation never stepped: the program connected, but it has not called Read()";
   }
   return std::nullopt;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <typeinfo>
 
@@ -25,7 +24,6 @@
 namespace playerlike {
 namespace {
 
-using nlohmann::ordered_json;
 using Drive = sim::RealRobotDescription::Drive;
 using OnLost = sim::RealRobotDescription::OnLost;
 
@@ -40,9 +38,9 @@ class Series {
   }
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
   [[nodiscard]] double last() const noexcept { return last_; }
-  [[nodiscard]] ordered_json report() const {
-    if (count_ == 0) return nullptr;
-    return {{"mean", sum_ / static_cast<double>(count_)}, {"max", greatest_}};
+  [[nodiscard]] std::optional<SeriesReport> report() const {
+    if (count_ == 0) return std::nullopt;
+    return SeriesReport{sum_ / static_cast<double>(count_), greatest_};
   }
 
  private:
@@ -101,7 +99,7 @@ class Mirror::Robot {
   void note_scene_shown();
   [[nodiscard]] std::optional<sim::Twist> twist() const noexcept { return twist_; }
   [[nodiscard]] std::string columns() const;
-  [[nodiscard]] ordered_json report() const;
+  [[nodiscard]] MirrorReport report() const;
 
  private:
   /// The devices of the real robot that belong to those of this one.
@@ -563,33 +561,25 @@ std::string Mirror::Robot::columns() const {
   return line;
 }
 
-ordered_json Mirror::Robot::report() const {
-  ordered_json robot = {{"robot", description_.name},
-                        {"server", real_.server},
-                        {"drive", ghost_ ? "both" : "real"},
-                        {"connected", loss_.empty()}};
-  robot["lost"] = nullptr;
-  if (!last_loss_.empty()) {
-    robot["lost"] = {{"time", sim::to_seconds(lost_ns_)}, {"reason", last_loss_}};
-  }
-  robot["reconnections"] = reconnections_;
-  robot["readings"] = readings_;
-  robot["poses"] = poses_;
-  robot["scans"] = scan_mean_.count();
-  robot["latency"] = latency_.report();
-  robot["screen_latency"] = screen_latency_.report();
-  robot["scan_difference"] = nullptr;
-  if (scan_mean_.count() > 0) {
-    robot["scan_difference"] = {{"range", scan_mean_.report()}, {"share", scan_share_.report()}};
-  }
-  if (!ghost_) return robot;
-  robot["ghost"] = nullptr;
+MirrorReport Mirror::Robot::report() const {
+  MirrorReport report;
+  report.robot = description_.name;
+  report.server = real_.server;
+  report.drive = ghost_ ? "both" : "real";
+  report.connected = loss_.empty();
+  if (!last_loss_.empty()) report.lost = {sim::to_seconds(lost_ns_), last_loss_};
+  report.reconnections = reconnections_;
+  report.readings = readings_;
+  report.poses = poses_;
+  report.scans = scan_mean_.count();
+  report.latency_s = latency_.report();
+  report.screen_latency_s = screen_latency_.report();
+  if (scan_mean_.count() > 0)
+    report.scan_difference = {*scan_mean_.report(), *scan_share_.report()};
   if (ghost_distance_.count() > 0) {
-    robot["ghost"] = {{"distance", ghost_distance_.report()},
-                      {"final_distance", ghost_distance_.last()},
-                      {"heading", ghost_heading_.report()}};
+    report.ghost = {*ghost_distance_.report(), ghost_distance_.last(), *ghost_heading_.report()};
   }
-  return robot;
+  return report;
 }
 
 // --- All robots
@@ -689,8 +679,8 @@ std::string Mirror::columns(std::size_t robot) const {
   return robots_[robot] ? robots_[robot]->columns() : ",,,,,,";
 }
 
-nlohmann::ordered_json Mirror::report() const {
-  ordered_json all = ordered_json::array();
+std::vector<MirrorReport> Mirror::report() const {
+  std::vector<MirrorReport> all;
   for (const auto& robot : robots_) {
     if (robot) all.push_back(robot->report());
   }

@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "host/stepping/client.h"
+#include "playerlike/host/report.h"
 #include "playerlike/host/run_settings.h"
 #include "sim/simulation/simulation.h"
 
@@ -99,7 +99,7 @@ class Mirror {
   /// Their values for a robot; empty fields where there are none.
   [[nodiscard]] std::string columns(std::size_t robot) const;
   /// The report's "mirror".
-  [[nodiscard]] nlohmann::ordered_json report() const;
+  [[nodiscard]] std::vector<MirrorReport> report() const;
 
  private:
   class Robot;

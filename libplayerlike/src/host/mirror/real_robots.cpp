@@ -24,7 +24,7 @@ std::vector<RealMotors> kept_motors(const KeptRun& kept) {
   const KeptMemory memory(kept.descriptor());
   const auto* const header = memory.at<KeptHeader>(0);
   if (header == nullptr) return {};
-  const json list = memory.text<json>(header->motors);
+  const json list = memory.json(header->motors);
   std::vector<RealMotors> motors;
   if (!list.is_array() || list.size() > kMostRobots) return motors;
   for (const json& one : list) {

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "host/results/kept_layout.h"
 
@@ -37,12 +39,15 @@ class KeptMemory {
     return reinterpret_cast<const T*>(bytes_ + place);
   }
 
-  /// @return null unless this place holds valid JSON.
-  template <typename Json>
-  [[nodiscard]] Json text(std::uint64_t text) const {
+  /// The text in this place; empty if there is none.
+  [[nodiscard]] std::string_view text(std::uint64_t text) const {
     const char* const bytes = at<char>(place_of_text(text), size_of_text(text));
-    if (text == 0 || bytes == nullptr) return nullptr;
-    return Json::parse(bytes, bytes + size_of_text(text), nullptr, /*allow_exceptions=*/false);
+    if (text == 0 || bytes == nullptr) return {};
+    return {bytes, static_cast<std::size_t>(size_of_text(text))};
+  }
+  /// @return null unless this place holds valid JSON.
+  [[nodiscard]] nlohmann::json json(std::uint64_t place) const {
+    return nlohmann::json::parse(text(place), nullptr, /*allow_exceptions=*/false);
   }
 
  private:

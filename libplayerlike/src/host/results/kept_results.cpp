@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -22,6 +22,7 @@
 #include "host/results/kept_layout.h"
 #include "host/results/kept_memory.h"
 #include "host/results/outputs.h"
+#include "playerlike/host/report.h"
 #include "sim/core/replace_file.h"
 #include "sim/core/time.h"
 #include "sim/simulation/simulation.h"
@@ -32,7 +33,6 @@ namespace playerlike {
 namespace {
 
 using nlohmann::json;
-using nlohmann::ordered_json;
 
 /// The data of the newest step.
 struct LastStep {
@@ -55,50 +55,47 @@ std::optional<LastStep> last_step(const KeptMemory& memory, const KeptHeader& he
   return sound ? std::optional(std::move(last)) : std::nullopt;
 }
 
-/// "ended" of the report of a program with this end.
+/// How the run of a program with this end has ended.
 RunEnd run_end(const ProgramEnd& end) {
-  if (end.request) return {.by = RunEnd::By::kRequest, .signal = end.request};
-  if (end.signal) return {.by = RunEnd::By::kSignal, .signal = end.signal};
+  if (end.request) return {.by = RunEnd::By::kRequest, .signal = signal_name(*end.request)};
+  if (end.signal) return {.by = RunEnd::By::kSignal, .signal = signal_name(*end.signal)};
   return {.by = RunEnd::By::kProgram, .status = end.status};
 }
 
 /// Updates the report's numbers to the last step.
 /// @param conflict  see KeptRun::note_conflict().
-std::string completed_report(ordered_json report, const LastStep& last, const ProgramEnd& end,
+std::string completed_report(Report report, const LastStep& last, const ProgramEnd& end,
                              bool conflict) {
-  ordered_json& run = report.at("run");
   if (conflict) {
-    run["repeatable"] = false;
-    run["repeatable_why"] = {kConflictWhy};
+    report.run.repeatable = false;
+    report.run.repeatable_why = {kConflictWhy};
   }
-  run["steps"] = last.step.steps;
-  run["sim_time"] = sim::to_seconds(last.step.now_ns);
-  run["wall_time"] = last.step.wall_time_s;
-  run["real_time_factor"] = last.step.real_time_factor;
-  ordered_json& robots = report.at("robots");
+  report.run.steps = last.step.steps;
+  report.run.sim_time_s = sim::to_seconds(last.step.now_ns);
+  report.run.wall_time_s = last.step.wall_time_s;
+  report.run.real_time_factor = last.step.real_time_factor;
   for (std::size_t i = 0; i < last.robots.size(); ++i) {
     const KeptRobot& kept = last.robots[i];
-    ordered_json& robot = robots.at(i);
-    robot["path_length"] = kept.path_length_m;
-    robot["collisions"] = kept.collisions;
-    robot["least_clearance"] = kept.least_clearance_m;
-    robot["stalled_time"] = kept.stalled_time_s;
-    robot["driven_time"] = kept.driven_time_s;
-    robot["distance"] = kept.distance_m;
-    robot["visited_area"] = kept.visited_area_m2;
+    Report::Robot& robot = report.robots.at(i);
+    robot.path_length_m = kept.path_length_m;
+    robot.collisions = kept.collisions;
+    robot.least_clearance_m.reset();
+    if (std::isfinite(kept.least_clearance_m)) robot.least_clearance_m = kept.least_clearance_m;
+    robot.stalled_time_s = kept.stalled_time_s;
+    robot.driven_time_s = kept.driven_time_s;
+    robot.distance_m = kept.distance_m;
+    robot.visited_area_m2 = kept.visited_area_m2;
     if (kept.commands > 0) {
-      ordered_json ports = ordered_json::array();
-      for (const std::int32_t port : kept.ports) {
-        if (port != 0) ports.push_back(port);
-      }
-      robot["commanded"] = {{"first", sim::to_seconds(kept.first_command_ns)},
-                            {"commands", kept.commands},
-                            {"ports", ports}};
+      Report::Commanded& commanded = robot.commanded.emplace();
+      commanded.first_s = sim::to_seconds(kept.first_command_ns);
+      commanded.commands = kept.commands;
+      std::copy_if(kept.ports.begin(), kept.ports.end(), std::back_inserter(commanded.ports),
+                   [](std::int32_t port) { return port != 0; });
     }
-    robot["final_pose"] = {{"x", kept.x_m}, {"y", kept.y_m}, {"yaw", kept.yaw_rad}};
+    robot.final_pose = {kept.x_m, kept.y_m, kept.yaw_rad};
   }
-  if (report.value("ended", ordered_json()).is_null()) report["ended"] = to_json(run_end(end));
-  return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+  if (!report.ended) report.ended = run_end(end);
+  return text_of_report(report);
 }
 
 double number(const json& value) {
@@ -222,36 +219,30 @@ void take_obstacles(const json& kept, std::vector<sim::ObstacleDescription>& obs
 }
 
 /// Adds the collisions and goals of the report as marks.
-void take_marks(const ordered_json& report, sim::SceneSnapshot& scene) {
-  const auto robot_of = [&scene](const ordered_json& event) {
-    const auto name = event.at("robot").get<std::string>();
+void take_marks(const Report& report, sim::SceneSnapshot& scene) {
+  const auto robot_of = [&scene](const std::string& name) {
     for (std::size_t i = 0; i < scene.robots.size(); ++i) {
       if (scene.robots[i].name == name) return static_cast<int>(i);
     }
     throw std::runtime_error("there is no robot " + name);
   };
-  const auto place_of = [](const ordered_json& event) {
-    sim::Vec2 place(event.at("x").get<double>(), event.at("y").get<double>());
-    if (!place.allFinite()) throw std::runtime_error("a place is not finite");
-    return place;
-  };
-  for (const ordered_json& c : report.at("collisions")) {
-    scene.collisions.push_back({robot_of(c), place_of(c), c.at("time").get<double>()});
+  for (const Report::Collision& c : report.collisions) {
+    scene.collisions.push_back({robot_of(c.robot), c.place, c.time_s});
   }
-  for (const ordered_json& g : report.at("goals")) {
-    const int robot = robot_of(g);
+  for (const Report::Goal& g : report.goals) {
+    const int robot = robot_of(g.robot);
     for (sim::GoalMark& earlier : scene.goals) {
       if (earlier.robot == robot) earlier.newest = false;
     }
-    scene.goals.push_back({robot, place_of(g), !g.at("reached").is_null(), true});
+    scene.goals.push_back({robot, g.place, g.reached_s.has_value(), true});
   }
 }
 
 /// Draws the pictures from the memory. @throws std::exception for invalid data.
 void complete_pictures(const KeptMemory& memory, const KeptHeader& header, const LastStep& last,
-                       const ordered_json& report, const sim::WorldDescription& world,
+                       const Report& report, const sim::WorldDescription& world,
                        const RunSettings& settings) {
-  const json kept = memory.text<json>(header.scene);
+  const json kept = memory.json(header.scene);
   sim::Simulation simulation(world, {});
   sim::SceneSnapshot scene = simulation.snapshot();
   if (scene.robots.size() != last.robots.size()) {
@@ -301,7 +292,7 @@ bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
   const std::optional<LastStep> last =
       header == nullptr ? std::nullopt : last_step(memory, *header);
   if (!last) throw std::runtime_error("the program has left no results of its run");
-  const ordered_json report = memory.text<ordered_json>(header->report);
+  const std::string report(memory.text(header->report));
   std::string problem;
   const auto attempt = [&problem](const char* what, const auto& action) {
     try {
@@ -314,11 +305,11 @@ bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
   if (phase != KeptRun::Phase::kReported) {
     attempt("no report: ", [&] {
       write_report(settings.output_folder,
-                   completed_report(report, *last, end, header->conflict != 0));
+                   completed_report(report_from(report), *last, end, header->conflict != 0));
     });
   }
   attempt("no pictures: ",
-          [&] { complete_pictures(memory, *header, *last, report, world, settings); });
+          [&] { complete_pictures(memory, *header, *last, report_from(report), world, settings); });
   if (!problem.empty()) throw std::runtime_error(problem);
   return true;
 }

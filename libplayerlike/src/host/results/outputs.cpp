@@ -8,25 +8,19 @@
 #include <filesystem>
 #include <initializer_list>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
-#include "host/mirror/mirror.h"
-#include "host/requests/arena.h"
 #include "host/results/picture_sizes.h"
-#include "host/results/recorder.h"
 #include "playerlike/host/results.h"
+#include "playerlike/messages/messages.h"
 #include "sim/canvas/layers.h"
-#include "sim/core/base64.h"
-#include "sim/core/number_text.h"
 #include "sim/core/replace_file.h"
 #include "sim/io/map_file.h"
 #include "sim/render/render.h"
-#include "sim/world/realism.h"
 
 namespace playerlike {
 namespace {
@@ -129,144 +123,6 @@ void write_layers(const fs::path& folder, const sim::LayerStack& stack) {
   }
 }
 
-// How far a robot has got, what it has seen, and who has commanded it.
-void add_achievements(const Recorder& recorder, std::size_t robot, nlohmann::ordered_json& entry) {
-  if (const TravelMeter* const travel = recorder.travel(robot)) {
-    entry["distance"] = travel->distance_m();
-    entry["visited_area"] = travel->visited_area_m2();
-  }
-  const SeenFloor* const seen = recorder.seen_floor();
-  if (seen != nullptr && static_cast<std::size_t>(seen->robot()) == robot) {
-    entry["seen"] = {{"area", seen->area_m2()},
-                     {"cell_size", seen->cell_size_m()},
-                     {"x", seen->origin().x()},
-                     {"y", seen->origin().y()},
-                     {"width", seen->width()},
-                     {"height", seen->height()},
-                     {"cells", sim::to_base64(seen->bits())}};
-  }
-  if (recorder.commands() == nullptr) return;
-  const CommandBook::Entry& commands = recorder.commands()->of(robot);
-  entry["commanded"] = nullptr;
-  if (!commands.first_ns) return;
-  entry["commanded"] = {{"first", sim::to_seconds(*commands.first_ns)},
-                        {"commands", commands.count},
-                        {"ports", commands.ports}};
-}
-
-// What the task of a graded run has refused to the program.
-void add_refusals(const RefusalBook& refusals, nlohmann::ordered_json& report) {
-  if (refusals.refusals().empty()) return;
-  nlohmann::ordered_json& refused = report["refused"] = nlohmann::ordered_json::array();
-  for (const RefusalBook::Refusal& r : refusals.refusals()) {
-    refused.push_back({{"time", sim::to_seconds(r.time_ns)}, {"what", r.what}});
-  }
-}
-
-// Collisions and goals of the robots, with their times.
-void add_events(const sim::Simulation& simulation, const std::vector<Goal>& goals,
-                nlohmann::ordered_json& report) {
-  const auto name_of = [&](int robot) {
-    return simulation.world().robots[static_cast<std::size_t>(robot)].name;
-  };
-  report["collisions"] = nlohmann::ordered_json::array();
-  for (const sim::Collision& c : simulation.collisions()) {
-    report["collisions"].push_back({{"time", sim::to_seconds(c.time_ns)},
-                                    {"robot", name_of(c.robot)},
-                                    {"with", c.partner},
-                                    {"x", c.place.x()},
-                                    {"y", c.place.y()}});
-  }
-  report["goals"] = nlohmann::ordered_json::array();
-  for (const Goal& g : goals) {
-    nlohmann::ordered_json goal = {{"time", sim::to_seconds(g.set_ns)},
-                                   {"robot", name_of(g.robot)},
-                                   {"x", g.place.x()},
-                                   {"y", g.place.y()}};
-    goal["reached"] = nullptr;
-    if (g.reached_ns) goal["reached"] = sim::to_seconds(*g.reached_ns);
-    report["goals"].push_back(std::move(goal));
-  }
-}
-
-// Events of the arena, its blocks, and the scores and the verdict of its controller.
-void add_arena(const sim::Simulation& simulation, nlohmann::ordered_json& report) {
-  using nlohmann::ordered_json;
-  if (!simulation.records_arena_events()) return;
-  ordered_json& events = report["events"] = ordered_json::array();
-  for (const sim::ArenaEvent& e : simulation.arena_events().newest) {
-    ordered_json event = {{"number", e.number},
-                          {"time", sim::to_seconds(e.time_ns)},
-                          {"kind", to_string(e.kind)},
-                          {"what", e.what}};
-    if (!e.who.empty()) event["who"] = e.who;
-    if (!e.text.empty()) event["text"] = e.text;
-    if (e.value != 0.0 || e.kind == sim::ArenaEventKind::kEnd) event["value"] = e.value;
-    events.push_back(std::move(event));
-  }
-  ordered_json& blocks = report["blocks"] = ordered_json::object();
-  for (const ArenaBlock& block : arena_blocks(simulation)) blocks[block.name] = block.state;
-  if (simulation.world().controller.empty()) return;
-  ordered_json& scores = report["scores"] = ordered_json::object();
-  for (std::size_t i = 0; i < simulation.scores().size(); ++i) {
-    scores[simulation.world().robots[i].name] = simulation.scores()[i];
-  }
-  report["verdict"] = nullptr;
-  if (const auto& verdict = simulation.verdict()) {
-    report["verdict"] = {{"passed", verdict->passed},
-                         {"reason", verdict->reason},
-                         {"time", sim::to_seconds(verdict->time_ns)}};
-  }
-}
-
-nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder& recorder,
-                              const TimeStatistics& time) {
-  nlohmann::ordered_json robots = nlohmann::ordered_json::array();
-  for (int i = 0; i < simulation.robot_count(); ++i) {
-    const sim::RobotStatistics& s = simulation.statistics(i);
-    const sim::Pose& X_WB = simulation.body(i).X_WB;
-    robots.push_back({{"name", simulation.world().robots[static_cast<std::size_t>(i)].name},
-                      {"path_length", s.path_length_m},
-                      {"collisions", s.collisions},
-                      {"least_clearance", s.least_clearance_m},
-                      {"stalled_time", s.stalled_time_s},
-                      {"final_pose", {{"x", X_WB.x_m}, {"y", X_WB.y_m}, {"yaw", X_WB.yaw_rad}}}});
-    if (const auto driven_s = recorder.driven_time_s(static_cast<std::size_t>(i))) {
-      robots.back()["driven_time"] = *driven_s;
-    }
-    add_achievements(recorder, static_cast<std::size_t>(i), robots.back());
-  }
-  nlohmann::ordered_json said = nlohmann::ordered_json::array();
-  for (const sim::SpokenText& u : simulation.spoken_texts()) {
-    said.push_back({{"time", sim::to_seconds(u.time_ns)},
-                    {"robot", simulation.world().robots[static_cast<std::size_t>(u.robot)].name},
-                    {"text", u.text}});
-  }
-  nlohmann::ordered_json whole = {
-      {"run",
-       {{"world", simulation.world().name},
-        {"seed", simulation.world().simulation.seed},
-        {"realism", sim::to_string(simulation.world().simulation.realism)},
-        {"steps", simulation.steps()},
-        {"sim_time", sim::to_seconds(simulation.now_ns())},
-        {"wall_time", time.wall_time_s},
-        {"real_time_factor", time.real_time_factor},
-        {"state_hash", nullptr}}},
-      {"robots", robots},
-      {"said", said}};
-  add_events(simulation, recorder.goals().goals(), whole);
-  add_arena(simulation, whole);
-  add_refusals(recorder.refusals(), whole);
-  if (recorder.mirror() != nullptr) whole["mirror"] = recorder.mirror()->report();
-  // `playpen plot` reads the scene from this file.
-  std::error_code error;
-  const fs::path file = fs::absolute(simulation.world().file, error);
-  if (!error && fs::is_regular_file(file, error)) whole["run"]["world_file"] = file.string();
-  whole["run"]["repeatable"] = time.unrepeatable.empty();
-  if (!time.unrepeatable.empty()) whole["run"]["repeatable_why"] = time.unrepeatable;
-  return whole;
-}
-
 // The path, without ending, of a client's "picture" or "map" in the output folder. The name may
 // include the first ending.
 std::string saved_stem(const std::string& folder, const std::string& what, const std::string& name,
@@ -329,59 +185,6 @@ void remove_results(const std::string& folder) {
     const std::string name = file.filename().string();
     return name.starts_with("view_") && name.ends_with(".png");
   });
-}
-
-nlohmann::ordered_json to_json(const RunEnd& end) {
-  const char* by = nullptr;
-  switch (end.by) {
-    case RunEnd::By::kNothing:
-      return nullptr;
-    case RunEnd::By::kDuration:
-      by = "duration";
-      break;
-    case RunEnd::By::kVerdict:
-      by = "verdict";
-      break;
-    case RunEnd::By::kProgram:
-      by = "program";
-      break;
-    case RunEnd::By::kRequest:
-      by = "request";
-      break;
-    case RunEnd::By::kWindow:
-      by = "window";
-      break;
-    case RunEnd::By::kRealRobot:
-      by = "real robot";
-      break;
-    case RunEnd::By::kSignal:
-      by = "signal";
-      break;
-  }
-  nlohmann::ordered_json ended = {{"by", by}};
-  if (end.status) ended["status"] = *end.status;
-  if (end.signal) {
-    const char* const name = sigabbrev_np(*end.signal);
-    ended["signal"] = name != nullptr ? std::string("SIG") + name : std::to_string(*end.signal);
-  }
-  return ended;
-}
-
-nlohmann::ordered_json report_json(const sim::Simulation& simulation, const Recorder& recorder,
-                                   const TimeStatistics& time, const RunEnd& end) {
-  nlohmann::ordered_json whole = report(simulation, recorder, time);
-  whole["ended"] = to_json(end);
-  return whole;
-}
-
-// Texts of robots may be invalid UTF-8.
-std::string text_of_report(const nlohmann::ordered_json& report) {
-  return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
-}
-
-std::string report_text(const sim::Simulation& simulation, const Recorder& recorder,
-                        const TimeStatistics& time, const RunEnd& end) {
-  return text_of_report(report_json(simulation, recorder, time, end));
 }
 
 void write_report(const std::string& folder, const std::string& text) {

@@ -3,22 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "playerlike/messages/messages.h"
 #include "sim/canvas/layers.h"
 #include "sim/io/map_file.h"
 #include "sim/render/render.h"
 #include "sim/simulation/scene_snapshot.h"
-#include "sim/simulation/simulation.h"
 #include "sim/world/occupancy_map.h"
 
 namespace playerlike {
-
-class Recorder;
 
 /// Folder of the pictures that are made while a run goes on, in its output folder.
 inline constexpr const char* kSnapshotFolder = "snapshots";
@@ -27,37 +21,6 @@ inline constexpr const char* kSnapshotFolder = "snapshots";
 /// std::runtime_error with the file that can't be removed and the reason.
 void remove_snapshots(const std::string& folder);
 
-/// How a run ended, for its report.
-struct RunEnd {
-  enum class By {
-    kNothing,    ///< the run continues; in reports that are written during the run
-    kDuration,   ///< the simulated duration is over
-    kVerdict,    ///< the arena controller ended the run
-    kProgram,    ///< the program ended, or stopped using the simulation
-    kRequest,    ///< a signal requested the end
-    kWindow,     ///< the user closed the window
-    kRealRobot,  ///< the connection to a real robot was lost
-    kSignal,     ///< a signal ended the program: it crashed or was killed
-  };
-  By by = By::kNothing;
-  std::optional<int> status = {};  ///< exit status of the program, if that ended the run
-  std::optional<int> signal = {};  ///< number of the signal of kRequest and kSignal
-};
-
-/// The report's "ended": null, or an object with "by" and, if known, "status" and "signal" (its
-/// name, such as "SIGINT").
-[[nodiscard]] nlohmann::ordered_json to_json(const RunEnd& end);
-
-/// The content of report.json. The hash of the state is left null: it takes long for a large
-/// canvas.
-[[nodiscard]] nlohmann::ordered_json report_json(const sim::Simulation& simulation,
-                                                 const Recorder& recorder,
-                                                 const TimeStatistics& time, const RunEnd& end);
-/// The text of report.json.
-[[nodiscard]] std::string text_of_report(const nlohmann::ordered_json& report);
-/// The text of report.json without the hash of the state.
-[[nodiscard]] std::string report_text(const sim::Simulation& simulation, const Recorder& recorder,
-                                      const TimeStatistics& time, const RunEnd& end);
 /// Writes report.json into `folder`; see sim::replace_file().
 /// @throws std::runtime_error naming the file if it could not be written.
 void write_report(const std::string& folder, const std::string& text);

@@ -3,10 +3,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "host/results/file_limit_errors.h"
+#include "host/results/make_report.h"
 #include "process/end_of_program.h"
 #include "sim/core/number_text.h"
 
@@ -36,7 +36,7 @@ Results::Results(const RunSettings& settings, sim::Simulation& simulation,
   kept_ = KeptWriter::open(settings.kept_run);
   if (kept_ && mirror != nullptr) kept_->keep_motors(mirror->motors());
   if (kept_ && !settings.output_folder.empty()) {
-    kept_->keep_looks(report_text(simulation_, *recorder_, {}, RunEnd{}), simulation_);
+    kept_->keep_looks(text_of_report(make_report(simulation_, *recorder_, {}, {})), simulation_);
     kept_->keep_step({}, *recorder_, simulation_);
   }
   if (!settings.output_folder.empty()) hold_room_for({});
@@ -87,7 +87,7 @@ void Results::keep_report(WallClock::time_point now) {
 
 /// What is written into the output folder at the end: a copy of all that the mutex guards.
 struct Results::Last {
-  nlohmann::ordered_json report;
+  Report report;
   sim::StateParts state;
   sim::LayerStack layers;
   sim::SceneSnapshot scene;
@@ -118,7 +118,7 @@ std::function<void()> Results::prepare(std::optional<sim::LayerStack> layers) {
   std::shared_ptr<Last> last;
   if (!settings_.output_folder.empty()) {
     const TimeStatistics time = time_();
-    last = std::make_shared<Last>(Last{report_json(simulation_, *recorder_, time, reason_of_end()),
+    last = std::make_shared<Last>(Last{make_report(simulation_, *recorder_, time, reason_of_end()),
                                        simulation_.state_parts(), std::move(layers.value()),
                                        recorder_->scene(simulation_, /*with_canvas=*/false)});
     if (kept_) {
@@ -136,7 +136,7 @@ void Results::write(Last* last) {
   const std::string& folder = settings_.output_folder;
   if (last != nullptr) {
     attempt(warn_, kMissingResults, [&] {
-      last->report["run"]["state_hash"] = sim::hexadecimal_text(last->state.hash(last->layers), 16);
+      last->report.run.state_hash = sim::hexadecimal_text(last->state.hash(last->layers), 16);
       report_room_.release();
       write_report(folder, signed_report(text_of_report(last->report), settings_.grading));
     });
@@ -159,7 +159,7 @@ void Results::hold_room_for(const std::string& report) {
 }
 
 std::string Results::report_now() const {
-  return report_text(simulation_, *recorder_, time_(), RunEnd{});
+  return text_of_report(make_report(simulation_, *recorder_, time_(), {}));
 }
 
 RunEnd Results::reason_of_end() const {
@@ -167,7 +167,7 @@ RunEnd Results::reason_of_end() const {
   if (simulation_.finished()) return {.by = RunEnd::By::kDuration};
   const int noted = end_request_;
   const int request = noted != 0 ? noted : settings_.quiet_end ? interrupted() : 0;
-  if (request != 0) return {.by = RunEnd::By::kRequest, .signal = request};
+  if (request != 0) return {.by = RunEnd::By::kRequest, .signal = signal_name(request)};
   if (real_robot_lost) return {.by = RunEnd::By::kRealRobot};
   if (window_closed) return {.by = RunEnd::By::kWindow};
   return {.by = RunEnd::By::kProgram, .status = program_status};

@@ -15,6 +15,7 @@
 #include "host/results/recorder.h"
 #include "host/results/run_log.h"
 #include "host/stepping/client.h"
+#include "playerlike/host/report.h"
 
 namespace playerlike {
 
