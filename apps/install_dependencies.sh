@@ -14,10 +14,9 @@ or newer). Does nothing, and needs no rights, when all of it is there.
 
 Groups (default: build):
   build   compiler, CMake, make and pkg-config, and the libraries that Playpen links
-  test    GoogleTest, Google Benchmark, ffprobe, which looks at films, gdb, a display without a
-          screen for the live window, Python, locales with a decimal comma, and, where they can
-          be had, MORSE's client library
-          and Boost.Program_options
+  test    GoogleTest, Google Benchmark, ffprobe, which looks at films, gdb, valgrind, a display
+          without a screen for the live window, Python, locales with a decimal comma, and, where
+          they can be had, MORSE's client library and Boost.Program_options
   lint    clang, its formatter and linter, shellcheck
   doc     Doxygen
   package what the target `package` needs to make and check Debian packages
@@ -38,7 +37,7 @@ build_packages=(
 )
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev locales ffmpeg=ffprobe gdb=gdb xvfb=Xvfb xdotool=xdotool
-  python3=python3)
+  valgrind=valgrind python3=python3)
 # If the system has no such package (Ubuntu 24.04 lacks the first), the tests that need it are
 # skipped.
 optional_test_packages=(python3-morse-simulator libboost-program-options-dev)

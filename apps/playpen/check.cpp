@@ -127,7 +127,7 @@ int check(const std::vector<std::string>& names) {
         std::cout << name << ": ok (" << what << ")\n";
       } catch (const sim::ConfigError& error) {
         std::cerr << error.what() << '\n'
-                  << name << ": not sound, as a " << to_string(file.kind) << " file\n";
+                  << name << ": invalid as a " << to_string(file.kind) << " file\n";
         status = kBadInput;
       }
     }

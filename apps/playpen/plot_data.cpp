@@ -14,6 +14,7 @@
 #include <string_view>
 #include <utility>
 
+#include "playerlike/host/report.h"
 #include "sim/core/file.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/outline.h"
@@ -131,26 +132,21 @@ std::optional<int> index_of(const RunData& run, const std::string& robot) {
   return std::nullopt;
 }
 
-void read_marks(const json& report, RunData& run) {
-  const auto each = [&](const char* key, auto action) {
-    for (const json& event : report.value(key, json::array())) {
-      const auto robot = index_of(run, event.at("robot").get<std::string>());
-      const Vec2 place(event.at("x").get<double>(), event.at("y").get<double>());
-      if (robot && place.allFinite()) action(event, *robot, place);
+void read_marks(const playerlike::Report& report, RunData& run) {
+  for (const playerlike::Report::Collision& c : report.collisions) {
+    if (const auto robot = index_of(run, c.robot)) {
+      run.collisions.push_back({*robot, c.place, c.time_s});
     }
-  };
-  each("collisions", [&](const json& event, int robot, const Vec2& place) {
-    run.collisions.push_back({robot, place, event.at("time").get<double>()});
-  });
-  each("goals", [&](const json& event, int robot, const Vec2& place) {
+  }
+  for (const playerlike::Report::Goal& g : report.goals) {
+    const auto robot = index_of(run, g.robot);
+    if (!robot) continue;
     for (sim::GoalMark& earlier : run.goals) {
-      if (earlier.robot == robot) earlier.newest = false;
+      if (earlier.robot == *robot) earlier.newest = false;
     }
-    run.goals.push_back({robot, place, !event.at("reached").is_null(), true});
-    if (!event.at("reached").is_null()) {
-      run.reached.push_back({robot, event.at("reached").get<double>()});
-    }
-  });
+    run.goals.push_back({*robot, g.place, g.reached_s.has_value(), true});
+    if (g.reached_s) run.reached.push_back({*robot, *g.reached_s});
+  }
 }
 
 // Adds the goal of a graded run's task. It is reached when the robot is first within the tolerance.
@@ -208,11 +204,11 @@ void read_report(const fs::path& file, RunData& run) {
   const std::string text = text_of(file);
   std::string world_file;
   try {
-    const json report = json::parse(text);
-    run.world_name = report.at("run").at("world").get<std::string>();
-    world_file = report.at("run").value("world_file", std::string());
+    const playerlike::Report report = playerlike::report_from(text);
+    run.world_name = report.run.world;
+    world_file = report.run.world_file.value_or("");
     read_marks(report, run);
-  } catch (const json::exception& error) {
+  } catch (const std::exception& error) {
     throw std::runtime_error(
         file.string() + ": expected the report of a run, found something else: " + error.what());
   }

@@ -80,9 +80,8 @@ void end_without(playerlike::Host& host, const playerlike::KeptRun& kept,
                    "complete step\n";
     } else {
       // They are being written, the report first. Pictures of a large canvas take too long.
-      bool is_small = false;
-      host.with_simulation([&](sim::Simulation& simulation) {
-        is_small = simulation.layers().cell_count() <= kSmallCanvas;
+      const bool is_small = host.with_simulation([](const sim::Simulation& simulation) {
+        return simulation.layers().cell_count() <= kSmallCanvas;
       });
       // The report of the last second exists, but it does not say the end.
       const auto is_reported = [&kept] {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Cost of client programs relative to the simulation: 13 clients that wander by laser, the getter
-// of one beam, and 1000 clients at once.
+// Cost of client programs relative to the simulation: 13 clients that wander by laser, the README's
+// program, the getter of one beam, and 1000 clients at once.
 #include <benchmark/benchmark.h>
 #include <libplayerc++/playerc++.h>
 
@@ -119,6 +119,15 @@ class Clients {
   void read() {
     for (const auto& robot : robots_) robot->client.Read();
   }
+  // So many turns of a program for each robot.
+  void drive(const auto& turn, int turns) {
+    for (int i = 0; i < turns; ++i, ++turn_) {
+      for (const auto& robot : robots_) {
+        robot->client.Read();
+        turn(robot->laser, robot->position, turn_);
+      }
+    }
+  }
 
  private:
   struct Robot {
@@ -129,6 +138,7 @@ class Clients {
     PlayerCc::LaserProxy laser;
   };
   std::vector<std::unique_ptr<Robot>> robots_;
+  int turn_ = 0;
 };
 
 // Compares the same robots without and with clients. The two take turns, so that a slow moment of
@@ -158,6 +168,60 @@ void compare(const WorldDescription& world, int turns, int rounds, const auto& g
 void wander_figures() {
   compare(
       endless(kThirteen), 40, 200, [](auto& robots) { robots.wander(); }, "13");
+}
+
+// The turn of the README's program: what every student writes.
+void readme_turn(const PlayerCc::LaserProxy& laser, PlayerCc::Position2dProxy& position, int turn) {
+  double ahead = 1, right = 1;
+  for (unsigned i = 0; i < laser.GetCount(); ++i) {
+    const double angle = laser.GetBearing(i);
+    if (angle > -0.6 && angle < 0.6) ahead = std::min(ahead, laser[i]);
+    if (angle > -1.2 && angle < -0.4) right = std::min(right, laser[i]);
+  }
+  if (ahead < 0.25) {
+    position.SetSpeed(0, 2);
+  } else {
+    position.SetSpeed(0.4, turn % 300 < 30 ? 0 : PlayerCc::limit(6 * (0.2 - right), -2.0, 1.5));
+  }
+}
+
+// The same turn, by a program that asks for the count once and knows the bearings.
+void hoisted_turn(const PlayerCc::LaserProxy& laser, PlayerCc::Position2dProxy& position,
+                  int turn) {
+  double ahead = 1, right = 1;
+  const unsigned count = laser.GetCount();
+  const double first = laser.GetMinAngle();
+  const double step = laser.GetScanRes();
+  for (unsigned i = 0; i < count; ++i) {
+    const double angle = first + i * step;
+    if (angle > -0.6 && angle < 0.6) ahead = std::min(ahead, laser[i]);
+    if (angle > -1.2 && angle < -0.4) right = std::min(right, laser[i]);
+  }
+  if (ahead < 0.25) {
+    position.SetSpeed(0, 2);
+  } else {
+    position.SetSpeed(0.4, turn % 300 < 30 ? 0 : PlayerCc::limit(6 * (0.2 - right), -2.0, 1.5));
+  }
+}
+
+// Simulated seconds a processor second of 13 of the README's programs, each with a robot of its own
+// in the arena, in one thread; and of the same programs with hoisted getters.
+void readme_figures() {
+  const auto host_a = playerlike::Host::create(endless(kThirteen));
+  const auto host_b = playerlike::Host::create(endless(kThirteen));
+  Clients readme(host_a);
+  Clients hoisted(host_b);
+  constexpr int kRounds = 200;
+  double readme_us = 1e30;
+  double hoisted_us = 1e30;
+  for (int turn = 0; turn < 40; ++turn) {
+    readme_us = std::min(readme_us, used_us([&] { readme.drive(readme_turn, kRounds); }));
+    hoisted_us = std::min(hoisted_us, used_us([&] { hoisted.drive(hoisted_turn, kRounds); }));
+  }
+  const double seconds = 0.1 * kRounds;
+  figure("readme_program_13", seconds * 1e6 / readme_us);
+  figure("hoisted_program_13", seconds * 1e6 / hoisted_us);
+  figure("readme_over_hoisted_13", hoisted_us / readme_us);
 }
 
 // A separate function, as in programs.
@@ -240,5 +304,6 @@ int main(int argc, char** argv) {
   benchmark::RunSpecifiedBenchmarks();
   sim::bench::getter_figure();
   sim::bench::wander_figures();
+  sim::bench::readme_figures();
   sim::bench::thousand_figures();
 }

@@ -75,7 +75,7 @@ class ArenaTasks : public testing::Test {
   std::string out_ = folder_ / "out";
 };
 
-TEST_F(ArenaTasks, TheSolutionLearnsWhereTheTrapsAre) {
+TEST_F(ArenaTasks, Solution_LearnsPlacesOfTraps) {
   const ProcessResult graded = grade("par_traps", {}, TRAPS_PROGRAM);
   EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
   EXPECT_THAT(graded.out, HasSubstr("par_traps: 5 of 5 runs passed"));
@@ -94,7 +94,7 @@ TEST_F(ArenaTasks, TheSolutionLearnsWhereTheTrapsAre) {
   }
 }
 
-TEST_F(ArenaTasks, TheTemplateLosesItsPointsInATrap) {
+TEST_F(ArenaTasks, Template_LosesPointsInTrap) {
   const ProcessResult graded = grade("par_traps", {"--seeds", "2"}, TRAPS_TEMPLATE);
   EXPECT_EQ(graded.status, 1) << graded.out << graded.err;
   EXPECT_THAT(graded.out,
@@ -103,7 +103,7 @@ TEST_F(ArenaTasks, TheTemplateLosesItsPointsInATrap) {
   EXPECT_EQ(named("par_traps_seed1", "trap"), std::set<std::string>{"pit"});
 }
 
-TEST_F(ArenaTasks, TheSolutionLooksAgainWhereTheArenaHasChanged) {
+TEST_F(ArenaTasks, Solution_ExploresChangedAreaAgain) {
   const ProcessResult graded = grade("par_exploration_changing", with_seeds(), CHANGING_PROGRAM);
   EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
   EXPECT_THAT(graded.out, HasSubstr(passed("par_exploration_changing")));
@@ -115,7 +115,7 @@ TEST_F(ArenaTasks, TheSolutionLooksAgainWhereTheArenaHasChanged) {
   EXPECT_GT(ends.size(), 1U) << "the arena is the same in the end, whatever the seed";
 }
 
-TEST_F(ArenaTasks, ExplorersWhichIgnoreTheChangesFail) {
+TEST_F(ArenaTasks, ExplorersThatIgnoreChanges_Fail) {
   const ProcessResult still =
       grade("par_exploration_changing", {"--seeds", "1,"}, CHANGING_TEMPLATE);
   EXPECT_EQ(still.status, 1) << still.err;
@@ -127,7 +127,7 @@ TEST_F(ArenaTasks, ExplorersWhichIgnoreTheChangesFail) {
   EXPECT_THAT(early.out, HasSubstr("score 0, at least 1 needed"));
 }
 
-TEST_F(ArenaTasks, TheSolutionCatchesTheFox) {
+TEST_F(ArenaTasks, Solution_CatchesFox) {
   const ProcessResult graded = grade("par_chase", {}, CHASE_PROGRAM);
   EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
   EXPECT_THAT(graded.out, HasSubstr("par_chase: 5 of 5 runs passed"));
@@ -139,14 +139,14 @@ TEST_F(ArenaTasks, TheSolutionCatchesTheFox) {
   EXPECT_GT(times.size(), 1U) << "the fox does the same with each seed";
 }
 
-TEST_F(ArenaTasks, TheFoxGetsAwayFromTheTemplate) {
+TEST_F(ArenaTasks, Template_LosesFox) {
   const ProcessResult graded = grade("par_chase", with_seeds(), CHASE_TEMPLATE);
   EXPECT_EQ(graded.status, 1) << graded.out << graded.err;
   for (const json& run : runs()) EXPECT_EQ(run.at("verdict_reason"), "the fox got away");
   EXPECT_THAT(graded.out, HasSubstr(": verdict: failed: the fox got away"));
 }
 
-TEST_F(ArenaTasks, TheParticleFilterFindsTheRobotAndTheGoal) {
+TEST_F(ArenaTasks, ParticleFilter_FindsRobotAndGoal) {
   const ProcessResult graded = grade("par_localization", with_seeds(), PARTICLES_PROGRAM);
   EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
   EXPECT_THAT(graded.out, HasSubstr(passed("par_localization", 2)));
@@ -155,13 +155,13 @@ TEST_F(ArenaTasks, TheParticleFilterFindsTheRobotAndTheGoal) {
   EXPECT_GT(times.size(), 2U) << "the seeds make no difference";
 }
 
-TEST_F(ArenaTasks, AmclFindsTheRobotAndTheGoal) {
+TEST_F(ArenaTasks, Amcl_FindsRobotAndGoal) {
   const ProcessResult graded = grade("par_localization", with_seeds(), AMCL_PROGRAM);
   EXPECT_EQ(graded.status, 0) << graded.out << graded.err;
   EXPECT_THAT(graded.out, HasSubstr(passed("par_localization", 2)));
 }
 
-TEST_F(ArenaTasks, TheTemplateWandersWithoutACollision) {
+TEST_F(ArenaTasks, Template_WandersWithoutCollision) {
   // The task with a shorter duration per merge, because the template drives until the end.
   const std::string tasks = PLAYPEN_SOURCE_DIR "/worlds/tasks/";
   json task = json::parse(read_bytes(tasks + "par_localization.task.json"), nullptr, true, true);

@@ -84,11 +84,11 @@ void expect_late_end(void (*work)()) {
   EXPECT_EQ(WEXITSTATUS(status), kLate);
 }
 
-TEST(EndSignals, TheFirstEndsAServerThatComputesForEver) { expect_late_end(compute_for_ever); }
+TEST(EndSignals, FirstSignal_EndsComputingServer) { expect_late_end(compute_for_ever); }
 
-TEST(EndSignals, TheFirstEndsAServerThatWaitsForEver) { expect_late_end(wait_for_ever); }
+TEST(EndSignals, FirstSignal_EndsWaitingServer) { expect_late_end(wait_for_ever); }
 
-TEST(EndSignals, TheSecondKills) {
+TEST(EndSignals, SecondSignal_Kills) {
   Server server(wait_for_ever);
   ASSERT_EQ(server.told(), 'r');
   server.send(SIGTERM);

@@ -145,7 +145,7 @@ struct Case {
 
 class ExplorationOf : public Exploration, public testing::WithParamInterface<Case> {};
 
-TEST_P(ExplorationOf, IsCompleteAndTwiceTheSameToTheBit) {
+TEST_P(ExplorationOf, CompleteAndRepeatable) {
   const auto [program, world] = GetParam();
   expect_explored(run(world_file(world), {}, {program}, "first"), world);
   const Files first = files_of_run(out_);
@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
                                                 {GAIN_PROGRAM, "par_exploration"},
                                                 {GAIN_PROGRAM, "par_exploration_2"}})));
 
-TEST_F(Exploration, IsCompleteWithOtherSeeds) {
+TEST_F(Exploration, OtherSeeds_Complete) {
   for (const std::string& seed : cases<std::vector<std::string>>({"2"}, {"2", "3", "4", "5"})) {
     SCOPED_TRACE(seed);
     expect_explored(run(world_file("par_exploration"), {"--seed", seed}, {NEAREST_PROGRAM}),
@@ -180,7 +180,7 @@ TEST_F(Exploration, IsCompleteWithOtherSeeds) {
 
 // The robot starts at the open end of a dead end and looks out of it. It sees the closed end only
 // briefly, and nothing on its path brings it back there.
-TEST_F(Exploration, LooksAgainAtWhatItHasOnlyGlancedAt) {
+TEST_F(Exploration, BrieflySeenArea_IsExploredAgain) {
   const std::string file = folder_.write("glance.json", R"({
     "arena": {"preset": "syrotek", "extended": ["d1", "d2", "d3", "d4", "d7"]},
     "simulation": {"duration": 300}, "canvas": {"size": [172, 186]},
@@ -194,7 +194,7 @@ TEST_F(Exploration, LooksAgainAtWhatItHasOnlyGlancedAt) {
   }
 }
 
-TEST_F(Exploration, BeginsCloseToWallsWithoutTouchingThem) {
+TEST_F(Exploration, StartNearWalls_TouchesNothing) {
   struct Start {
     double x, y, yaw_deg;
   };
@@ -221,7 +221,7 @@ TEST_F(Exploration, BeginsCloseToWallsWithoutTouchingThem) {
 }
 
 // A cage that leaves the robot 15 mm on each side: every cell is too close to its walls.
-TEST_F(Exploration, ARobotThatIsShutInHasNotExploredAnything) {
+TEST_F(Exploration, EnclosedRobot_ExploresNothing) {
   const std::string file = folder_.write("cage.json", R"({
     "arena": {"size": [3, 3], "obstacles": [
       {"center": [1.5, 1.612], "size": [0.3, 0.02]}, {"center": [1.5, 1.388], "size": [0.3, 0.02]},
@@ -234,7 +234,7 @@ TEST_F(Exploration, ARobotThatIsShutInHasNotExploredAnything) {
   EXPECT_THAT(result.out, Not(HasSubstr("Explored")));
 }
 
-TEST_F(Exploration, ByOdometryNeedsNoLocalisationWhereTheWheelsTellTheTruth) {
+TEST_F(Exploration, ExactOdometry_NeedsNoLocalisation) {
   // Without noise the odometry is exact, so the map is as good; the start pose gives its position.
   const std::string file = folder_.write("exact.json", R"({
     "arena": {"preset": "syrotek", "extended": ["d2", "d6"]}, "simulation": {"duration": 300},
@@ -243,14 +243,14 @@ TEST_F(Exploration, ByOdometryNeedsNoLocalisationWhereTheWheelsTellTheTruth) {
   expect_explored(run(file, {}, {GAIN_PROGRAM, "--position2d-index", "1"}), "par_exploration");
 }
 
-TEST_F(Exploration, ByOdometryThatDriftsStillTouchesNothing) {
+TEST_F(Exploration, DriftingOdometry_TouchesNothing) {
   const ProcessResult result = run(world_file("par_exploration_2"), {"--duration", "120"},
                                    {NEAREST_PROGRAM, "--position2d-index", "1"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(robot().at("collisions").get<int>(), 0);
 }
 
-TEST_F(Exploration, EndsAtItsTimeLimit) {
+TEST_F(Exploration, TimeLimit_EndsExploration) {
   const ProcessResult result =
       run(world_file("par_exploration"), {}, {NEAREST_PROGRAM, "--time-limit", "5"});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -259,7 +259,7 @@ TEST_F(Exploration, EndsAtItsTimeLimit) {
   EXPECT_NEAR(report().at("run").at("sim_time").get<double>(), 5.3, 0.31);
 }
 
-TEST_F(Exploration, EndsWellWithPicturesOfItsWay) {
+TEST_F(Exploration, End_WritesPicturesOfPath) {
   // The program ends before the run does, so an exit handler writes the last pictures.
   const ProcessResult result = run(world_file("par_exploration"), {"--snapshot-every", "2"},
                                    {NEAREST_PROGRAM, "--time-limit", "5"});
@@ -268,7 +268,7 @@ TEST_F(Exploration, EndsWellWithPicturesOfItsWay) {
   EXPECT_TRUE(fs::exists(fs::path(out_) / "scene.png"));
 }
 
-TEST_F(Exploration, EndsWellWhenTheRunDoes) {
+TEST_F(Exploration, EndOfRun_ExitsWithoutError) {
   const ProcessResult result =
       run(world_file("par_exploration"), {"--duration", "5"}, {GAIN_PROGRAM});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -276,14 +276,14 @@ TEST_F(Exploration, EndsWellWhenTheRunDoes) {
   EXPECT_THAT(result.err, Not(HasSubstr("ERROR")));
 }
 
-TEST_F(Exploration, RefusesSettingsThatMakeNoSense) {
+TEST_F(Exploration, InvalidSettings_Refused) {
   EXPECT_EQ(run(world_file("par_exploration"), {}, {GAIN_PROGRAM, "--lambda", "-1"}).status, 1);
   EXPECT_EQ(run(world_file("par_exploration"), {}, {GAIN_PROGRAM, "--gain-range", "0"}).status, 1);
   EXPECT_EQ(run(world_file("par_exploration"), {}, {NEAREST_PROGRAM, "--time-limit", "-1"}).status,
             1);
 }
 
-TEST_F(Exploration, TheTemplateStandsStillAndKnowsNothing) {
+TEST_F(Exploration, Template_StandsStillWithEmptyMap) {
   const ProcessResult result =
       run(world_file("par_exploration"), {"--duration", "10"}, {TEMPLATE_PROGRAM});
   ASSERT_EQ(result.status, 0) << result.err;

@@ -125,7 +125,7 @@ class FirstPrograms : public testing::Test {
   double last_move_s_ = 0.0;
 };
 
-TEST_F(FirstPrograms, RoamTheArena) {
+TEST_F(FirstPrograms, RoamArena) {
   struct Case {
     std::string world;
     std::vector<int> seeds;
@@ -163,7 +163,7 @@ TEST_F(FirstPrograms, RoamTheArena) {
   }
 }
 
-TEST_F(FirstPrograms, WanderRoamsWhereOldProgramsLive) {
+TEST_F(FirstPrograms, Wander_RunsInStageWorld) {
   for (const char* world : {"cave", "office", "examples/pioneer"}) {
     SCOPED_TRACE(world);
     run(WANDER_PROGRAM, world, 1, 0.5);

@@ -98,7 +98,7 @@ TEST_P(AttacksWithoutRules, Pass) {
   for (const json& run : runs) EXPECT_EQ(run.at("passed"), true) << run << said_;
 }
 
-constexpr const char* kOnTheSpot = "distance driven, without movements on the spot, ";
+constexpr const char* kOnTheSpot = "distance driven (movements on the spot excluded) ";
 constexpr const char* kSeen = "the robot's own sensors have seen only";
 constexpr const char* kNoMap = "does not let a program use the map of the world";
 constexpr const char* kNoObjects = "does not let a program use poses and properties of objects";

@@ -26,26 +26,26 @@ std::vector<par::Point> both(std::vector<par::Point> a, const std::vector<par::P
 }
 
 // The S1R's outline extends 0.087 m ahead and 0.081 m to the sides.
-TEST(Guard, ClearanceIsMeasuredFromTheRobotsOutline) {
+TEST(Guard, Clearance_MeasuredFromOutline) {
   EXPECT_NEAR(clearance({{0.187, 0.0}}), 0.1, 1e-12);
   EXPECT_NEAR(clearance({{0.0, -0.131}, {1.0, 1.0}}), 0.05, 1e-12);
   EXPECT_NEAR(clearance({{0.0, 0.0}}), -0.081, 1e-12);
   EXPECT_EQ(clearance({}), std::numeric_limits<double>::infinity());
 }
 
-TEST(Guard, LeavesACommandAloneWhereThereIsRoom) {
+TEST(Guard, FreeSpace_PassesCommand) {
   const par::Velocity command = CGuard().check({0.4, 1.0}, {wall(1.0, -1.0, 1.0, 1.0), {}});
   EXPECT_DOUBLE_EQ(command.forward_mps, 0.4);
   EXPECT_DOUBLE_EQ(command.turn_radps, 1.0);
 }
 
-TEST(Guard, LetsStandWhatIsToStand) {
+TEST(Guard, ZeroCommand_StaysZero) {
   const par::Velocity command = CGuard().check({0.0, 0.0}, {wall(0.09, -0.1, 0.09, 0.1), {}});
   EXPECT_EQ(command.forward_mps, 0.0);
   EXPECT_EQ(command.turn_radps, 0.0);
 }
 
-TEST(Guard, DrivesUpToAWallSlowerAndSlowerAndNeverNearerThanItsMargin) {
+TEST(Guard, WallAhead_SlowsDownAndKeepsMargin) {
   CGuard guard;
   double x = 0.0;  // the wall is at 1 m
   double before = 1.0;
@@ -62,7 +62,7 @@ TEST(Guard, DrivesUpToAWallSlowerAndSlowerAndNeverNearerThanItsMargin) {
   EXPECT_GT(x, 0.8);
 }
 
-TEST(Guard, DoesNotTurnOnTheSpotBesideAWallThatTheCornersWouldTouch) {
+TEST(Guard, WallBesideCorners_PreventsTurn) {
   // The wall is 5 mm beside it; the corners extend to 0.098 m, which is 17 mm more than the side.
   const std::vector<par::Point> beside = wall(-0.5, 0.086, 0.5, 0.086);
   const par::Velocity command = CGuard().check({0.0, 2.0}, {beside, {}});
@@ -70,7 +70,7 @@ TEST(Guard, DoesNotTurnOnTheSpotBesideAWallThatTheCornersWouldTouch) {
   EXPECT_LT(command.turn_radps * command.forward_mps, 0.0) << "away from the wall on its left";
 }
 
-TEST(Guard, BacksOutOfANarrowDeadEndThatItCannotTurnIn) {
+TEST(Guard, NarrowDeadEnd_BacksOut) {
   // 13 mm of room on both sides and 5 mm ahead.
   const std::vector<par::Point> end =
       both(wall(0.092, -0.094, 0.092, 0.094),
@@ -79,7 +79,7 @@ TEST(Guard, BacksOutOfANarrowDeadEndThatItCannotTurnIn) {
   EXPECT_LT(command.forward_mps, 0.0);
 }
 
-TEST(Guard, PrefersTheSeenToTheUnseen) {
+TEST(Guard, PrefersSeenSpaceToUnseen) {
   // It wants to turn, but the space behind it is unknown: it first drives ahead.
   const std::vector<par::Point> behind = wall(-0.095, -0.1, -0.095, 0.1);
   const par::Velocity blind = CGuard().check({0.0, 2.0}, {{}, behind});

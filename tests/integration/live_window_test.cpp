@@ -241,7 +241,7 @@ class LiveWindow : public testing::Test {
     const ProcessResult result = run->finish();
     EXPECT_FALSE(result.timed_out);
     EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_THAT(result.err, Not(HasSubstr("goes on without")));
+    EXPECT_THAT(result.err, Not(HasSubstr("continues without")));
     // The process has ended, but the X server may not have noticed yet.
     wait_until("the window has gone", [&] { return !display.find("Playpen: window"); });
     return read_report(folder / "out");
@@ -258,7 +258,7 @@ class LiveWindow : public testing::Test {
 std::unique_ptr<XServer> LiveWindow::server;
 bool LiveWindow::waited_in_vain = false;
 
-TEST_F(LiveWindow, ShowsTheArenaWithItsCanvasAndRobots) {
+TEST_F(LiveWindow, ShowsArenaCanvasAndRobots) {
   open();
   // On a screen of 900 x 900, the picture is square like the arena: at most 900 - 90 - 74.
   const Screenshot all = shot();
@@ -274,7 +274,7 @@ TEST_F(LiveWindow, ShowsTheArenaWithItsCanvasAndRobots) {
   finished_run();
 }
 
-TEST_F(LiveWindow, InLockstepShowsTheRunThatWouldBeWithoutIt) {
+TEST_F(LiveWindow, Lockstep_SameRunAsWithoutWindow) {
   const std::string world = folder.write("window.json", two_robots());
   const ProcessOptions options{
       .environment = {{"DISPLAY", server->name()}, {"ASAN_OPTIONS", "detect_leaks=0"}},
@@ -292,7 +292,7 @@ TEST_F(LiveWindow, InLockstepShowsTheRunThatWouldBeWithoutIt) {
                                    files("plain", {}));
 }
 
-TEST_F(LiveWindow, SpaceStopsTimeAndSSavesWhatIsShown) {
+TEST_F(LiveWindow, Keys_SpacePausesAndSSavesPicture) {
   folder.write("out/view_000001.png", "of an earlier run, which makes room for ours");
   open();
   pause();
@@ -323,7 +323,7 @@ TEST_F(LiveWindow, SpaceStopsTimeAndSSavesWhatIsShown) {
   finished_run();
 }
 
-TEST_F(LiveWindow, CtrlAndArrowsChangeTheViewMode) {
+TEST_F(LiveWindow, CtrlArrows_ChangeViewMode) {
   open();
   const double on_the_floor = green();
   press("ctrl+Down");
@@ -343,7 +343,7 @@ TEST_F(LiveWindow, CtrlAndArrowsChangeTheViewMode) {
   finished_run();
 }
 
-TEST_F(LiveWindow, AWorldThatLocksItsViewModeKeepsIt) {
+TEST_F(LiveWindow, LockedViewMode_Stays) {
   open(two_robots("full-screen", true));
   pause();
   const Screenshot before = shot();
@@ -353,7 +353,7 @@ TEST_F(LiveWindow, AWorldThatLocksItsViewModeKeepsIt) {
   finished_run();
 }
 
-TEST_F(LiveWindow, TheRobotIsDrivenWhileAKeyIsHeld) {
+TEST_F(LiveWindow, HeldKey_DrivesRobot) {
   open();
   const double start_px = orange_x();
   xdotool({"keydown", "w"});
@@ -377,7 +377,7 @@ TEST_F(LiveWindow, TheRobotIsDrivenWhileAKeyIsHeld) {
   EXPECT_EQ(report["robots"][1]["path_length"], 0.0);
 }
 
-TEST_F(LiveWindow, TabChoosesTheRobotAndTheArrowsDriveIt) {
+TEST_F(LiveWindow, Tab_SelectsRobotThatArrowsDrive) {
   open();
   EXPECT_EQ(robot_dot(), kOrange);
   // The middle fifth of the picture: it contains r1, but neither r2 nor the clock in the footer.
@@ -405,7 +405,7 @@ TEST_F(LiveWindow, TabChoosesTheRobotAndTheArrowsDriveIt) {
   EXPECT_GT(report["robots"][1]["path_length"].get<double>(), 0.0);
 }
 
-TEST_F(LiveWindow, PlusAndMinusChangeTheSpeedThatIsShown) {
+TEST_F(LiveWindow, PlusMinus_ChangeShownSpeed) {
   open();
   pause();
   const Screenshot once = status_line();
@@ -425,7 +425,7 @@ TEST_F(LiveWindow, PlusAndMinusChangeTheSpeedThatIsShown) {
   finished_run();
 }
 
-TEST_F(LiveWindow, HelpCanBeHidden) {
+TEST_F(LiveWindow, Help_CanBeHidden) {
   open();
   const auto help = [&] {
     const Screenshot all = shot();
@@ -442,7 +442,7 @@ TEST_F(LiveWindow, HelpCanBeHidden) {
   finished_run();
 }
 
-TEST_F(LiveWindow, ClosingItEndsTheRunWithItsResults) {
+TEST_F(LiveWindow, ClosedWindow_EndsRunWithResults) {
   open();
   display.ask_to_close(window);
   const json report = finished_run();
@@ -450,7 +450,7 @@ TEST_F(LiveWindow, ClosingItEndsTheRunWithItsResults) {
   EXPECT_TRUE(fs::exists(folder / "out/scene.png"));
 }
 
-TEST_F(LiveWindow, CtrlCEndsARunThatIsPaused) {
+TEST_F(LiveWindow, PausedRun_EndsOnCtrlC) {
   open();
   pause();
   run->send_signal(SIGINT);
@@ -481,28 +481,28 @@ class NoWindow : public testing::Test {
   const TemporaryFolder folder;
 };
 
-TEST_F(NoWindow, WithoutADisplayIsAnErrorThatTellsOfFilms) {
+TEST_F(NoWindow, NoDisplay_ErrorSuggestsFilm) {
   const ProcessResult result =
       run({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY"}, PLAYPEN_COMMAND);
   expect_not_started(result);
   EXPECT_THAT(result.err, AllOf(HasSubstr("DISPLAY"), HasSubstr("--record film.mp4")));
 }
 
-TEST_F(NoWindow, UnderWaylandAloneSaysThatXIsNeeded) {
+TEST_F(NoWindow, WaylandOnly_ErrorSaysThatXIsNeeded) {
   const ProcessResult result =
       run({"env", "-u", "DISPLAY", "WAYLAND_DISPLAY=wayland-0"}, PLAYPEN_COMMAND);
   expect_not_started(result);
   EXPECT_THAT(result.err, AllOf(HasSubstr("Xwayland"), HasSubstr("--record film.mp4")));
 }
 
-TEST_F(NoWindow, OnADisplayThatDoesNotAnswerIsAnError) {
+TEST_F(NoWindow, UnreachableDisplay_Error) {
   // No server can have this number: X's port would be above 65535.
   const ProcessResult result = run({"env", "DISPLAY=:60000"}, PLAYPEN_COMMAND);
   expect_not_started(result);
   EXPECT_THAT(result.err, AllOf(HasSubstr(":60000"), HasSubstr("--record film.mp4")));
 }
 
-TEST_F(NoWindow, WithoutItsProgramIsAnError) {
+TEST_F(NoWindow, MissingViewer_Error) {
   const std::string command = folder.write("bin/playpen", "");
   fs::copy_file(PLAYPEN_COMMAND, command, fs::copy_options::overwrite_existing);
   fs::permissions(command, fs::perms::owner_all);
@@ -514,7 +514,7 @@ TEST_F(NoWindow, WithoutItsProgramIsAnError) {
 // --- What programs load
 // -------------------------------------------------------------------------
 
-TEST(WindowToolkit, IsLoadedByTheWindowsProcessAlone) {
+TEST(WindowToolkit, LoadedByViewerProcessOnly) {
   const auto libraries = [](const std::string& program) {
     const ProcessResult result = test_support::run_process({"ldd", program});
     EXPECT_EQ(result.status, 0) << result.err;

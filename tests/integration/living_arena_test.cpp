@@ -105,7 +105,7 @@ class LivingArena : public testing::Test {
   }
 };
 
-TEST_F(LivingArena, GivesTheSameReportsAndFilmsEverywhereAndUnderLoad) {
+TEST_F(LivingArena, ReportsAndFilms_SameInEveryModeAndUnderLoad) {
   const Files expected = run();
 
   // The run does what it is for: everything happens that this world can do.

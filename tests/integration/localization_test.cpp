@@ -193,7 +193,7 @@ double median(std::vector<double> numbers) {
   return numbers[numbers.size() / 2];
 }
 
-TEST(Localization, TracksInTheArenaWithNoisyOdometry) {
+TEST(Localization, NoisyOdometry_TracksInArena) {
   std::vector<double> errors_m;
   std::vector<double> errors_rad;
   const int seeds = test_support::cases(5, 20);
@@ -233,8 +233,8 @@ void expect_found(const Place& place, int seconds) {
   EXPECT_GE(found, test_support::cases(7, 18));
 }
 
-TEST(Localization, FindsTheRobotInTheOffice) { expect_found(office(), 60); }
-TEST(Localization, FindsTheRobotInTheCave) { expect_found(cave(), 40); }
+TEST(Localization, Office_FindsRobot) { expect_found(office(), 60); }
+TEST(Localization, Cave_FindsRobot) { expect_found(cave(), 40); }
 
 void expect_recovery(const Place& place, int seconds, int least) {
   constexpr int kRuns = 10;
@@ -251,12 +251,12 @@ void expect_recovery(const Place& place, int seconds, int least) {
   EXPECT_GE(found, least);
 }
 
-TEST(Localization, FindsAKidnappedRobotInTheArena) { expect_recovery(arena(), 40, 9); }
+TEST(Localization, Arena_FindsKidnappedRobot) { expect_recovery(arena(), 40, 9); }
 // Rooms of the office are alike: a robot that never leaves its room may be found in the wrong one.
-TEST(Localization, FindsAKidnappedRobotInTheOffice) { expect_recovery(office(), 100, 7); }
-TEST(Localization, FindsAKidnappedRobotInTheCave) { expect_recovery(cave(), 40, 9); }
+TEST(Localization, Office_FindsKidnappedRobot) { expect_recovery(office(), 100, 7); }
+TEST(Localization, Cave_FindsKidnappedRobot) { expect_recovery(cave(), 40, 9); }
 
-TEST(Localization, RepeatsToTheBit) {
+TEST(Localization, Repeatable) {
   const auto result = [] {
     Trial run(arena(), 3, false);
     run.drive(15, nullptr);

@@ -76,7 +76,7 @@ class Mirror : public testing::Test {
 
 class MirrorByProtocol : public Mirror, public testing::WithParamInterface<bool> {};
 
-TEST_P(MirrorByProtocol, AProgramDrivesTheRealRobotAndTheSimulationFollows) {
+TEST_P(MirrorByProtocol, Program_DrivesRealRobotAndSimulationFollows) {
   start_real_robot();
   const std::string server = GetParam() ? player_name_ : server_name_;
   const std::string world = world_with({{"server", server}, {"drive", "both"}});
@@ -215,7 +215,7 @@ class RealRobotStops : public Mirror, public testing::WithParamInterface<std::tu
   double now_s_ = 0.0;  ///< time of the real robot, with its last position
 };
 
-TEST_P(RealRobotStops, WhenItsCommanderIsGone) {
+TEST_P(RealRobotStops, CommanderLeaves_Stops) {
   drive_by_mirror();
   if (HasFatalFailure()) return;
   const End& end = std::get<1>(GetParam());
@@ -254,7 +254,7 @@ INSTANTIATE_TEST_SUITE_P(Ends, RealRobotStops,
 
 class TwoMirrors : public Mirror, public testing::WithParamInterface<bool> {};
 
-TEST_P(TwoMirrors, TheSecondIsRefusedUnlessItTakesOver) {
+TEST_P(TwoMirrors, SecondMirror_RefusedUnlessItTakesOver) {
   start_real_robot();
   const std::string server = GetParam() ? player_name_ : server_name_;
   const std::string world = world_with({{"server", server}, {"watchdog", 5.0}});
@@ -278,7 +278,7 @@ INSTANTIATE_TEST_SUITE_P(Protocols, TwoMirrors, testing::Bool(), [](const auto& 
   return protocol.param ? "Player" : "Playpen";
 });
 
-TEST_F(Mirror, ACutLinkIsNoticedAndMadeAgainIfTheWorldSaysSo) {
+TEST_F(Mirror, LostLink_ReconnectsIfWorldAllows) {
   start_real_robot();
   test::Relay relay(std::stoi(server_name_.substr(server_name_.rfind(':') + 1)));
   const std::string world =
@@ -288,7 +288,7 @@ TEST_F(Mirror, ACutLinkIsNoticedAndMadeAgainIfTheWorldSaysSo) {
   Process run({PLAYPEN_COMMAND, "run", world, "--out", out(), "--quiet", "--", PROGRAM, "forever"});
   ASSERT_TRUE(run.read_until("drove from")) << run.finish().err;
   relay.freeze();
-  ASSERT_TRUE(run.read_error_until("it is made again as soon as possible"));
+  ASSERT_TRUE(run.read_error_until("the mirror reconnects as soon as possible"));
   relay.freeze(false);
   ASSERT_TRUE(run.read_error_until("is there again")) << run.errors();
   run.send_signal(SIGTERM);
@@ -297,7 +297,7 @@ TEST_F(Mirror, ACutLinkIsNoticedAndMadeAgainIfTheWorldSaysSo) {
   EXPECT_GE(report().at("mirror").at(0).at("reconnections"), 1);
 }
 
-TEST_F(Mirror, AProgramIsToldWhenTheRealRobotIsLost) {
+TEST_F(Mirror, LostRobot_ReportedToProgram) {
   start_real_robot();
   const std::string world = world_with({{"server", server_name_}, {"on_lost", "continue"}});
   Process run({PLAYPEN_COMMAND, "run", world, "--out", out(), "--quiet", "--", PROGRAM, "forever"});
@@ -311,7 +311,7 @@ TEST_F(Mirror, AProgramIsToldWhenTheRealRobotIsLost) {
   EXPECT_EQ(report().at("mirror").at(0).at("connected"), false);
 }
 
-TEST_F(Mirror, TheRunEndsWhenTheRealRobotIsLostIfTheWorldSaysSo) {
+TEST_F(Mirror, LostRobot_EndsRunIfWorldSaysSo) {
   start_real_robot();
   const std::string world = world_with({{"server", server_name_}, {"on_lost", "end"}});
   Process run({PLAYPEN_COMMAND, "run", world, "--out", out(), "--quiet", "--", PROGRAM, "forever"});
@@ -321,7 +321,7 @@ TEST_F(Mirror, TheRunEndsWhenTheRealRobotIsLostIfTheWorldSaysSo) {
   EXPECT_EQ(report().at("ended").at("by"), "real robot");
 }
 
-TEST_F(Mirror, ARobotThatDoesNotAnswerIsAnErrorBeforeTheRun) {
+TEST_F(Mirror, UnreachableRobot_ErrorBeforeRun) {
   const std::string world = folder_.write("room.json", room_world());
   // Port 1 of this machine: nobody listens there.
   const ProcessResult run = playpen(
@@ -331,7 +331,7 @@ TEST_F(Mirror, ARobotThatDoesNotAnswerIsAnErrorBeforeTheRun) {
                              HasSubstr("[run/real-robot]")));
 }
 
-TEST_F(Mirror, WrongChoicesAreErrors) {
+TEST_F(Mirror, InvalidOptions_Errors) {
   const std::string world = folder_.write("room.json", room_world());
   const auto error_of = [&](const std::vector<std::string>& options) {
     std::vector<std::string> call = {"run", world, "--out", out()};

@@ -81,7 +81,7 @@ class Onlookers : public testing::Test {
 };
 
 // In virtual time, where the program's threads take turns, and with real sleeps.
-TEST_F(Onlookers, SeeTheRunAndDoNotChangeIt) {
+TEST_F(Onlookers, ReadRunWithoutChangingIt) {
   for (const Words& options : {Words{}, Words{"--real-sleep"}}) {
     const Files alone = files_alone(options);
 
@@ -140,7 +140,7 @@ TEST_F(Onlookers, SeeTheRunAndDoNotChangeIt) {
 
 // The driver's thread looks on, too. Otherwise it would let time pass while the program waits for
 // its input.
-TEST_F(Onlookers, OpenDriversThatDoNotChangeTheRun) {
+TEST_F(Onlookers, OpenDrivers_DoNotChangeRun) {
   world_ = PLAYPEN_SOURCE_DIR "/worlds/examples/snd_driver.json";
   const Files alone = files_alone({});
   Process run(arguments({"--player-port", "0"}));
@@ -158,7 +158,7 @@ TEST_F(Onlookers, OpenDriversThatDoNotChangeTheRun) {
   expect_equal_files(files_of_run(out_), alone);
 }
 
-TEST_F(Onlookers, ThatCommandDoSoAndAreReported) {
+TEST_F(Onlookers, Commands_ChangeRunAndAreReported) {
   const Files alone = files_alone({});
   const json pose = read_report(out_).at("robots").at(0).at("final_pose");
   Process run(arguments({"--player-port", "0"}));
@@ -179,7 +179,7 @@ TEST_F(Onlookers, ThatCommandDoSoAndAreReported) {
   EXPECT_THAT(report.at("run").at("repeatable_why").dump(), HasSubstr("on a Player port"));
 }
 
-TEST_F(Onlookers, HavePortsForEachRobotWithTheDistancesOfTheWorld) {
+TEST_F(Onlookers, Ports_KeepDistancesOfWorld) {
   json world = json::parse(room_world());
   json second = world["robots"][0];
   second["name"] = "r2";
@@ -195,7 +195,7 @@ TEST_F(Onlookers, HavePortsForEachRobotWithTheDistancesOfTheWorld) {
   EXPECT_EQ(run.finish().status, 0);
 }
 
-TEST_F(Onlookers, APortThatIsTakenIsToldBeforeResultsAreRemoved) {
+TEST_F(Onlookers, PortInUse_ErrorBeforeResultsAreRemoved) {
   static_cast<void>(files_alone({}));
   const std::string out = std::exchange(out_, folder_ / "other");
   Process other(arguments({"--player-port", "0"}));
@@ -210,7 +210,7 @@ TEST_F(Onlookers, APortThatIsTakenIsToldBeforeResultsAreRemoved) {
   EXPECT_EQ(other.finish().status, 0);
 }
 
-TEST_F(Onlookers, BadPortsAreRefusedByNameAndValue) {
+TEST_F(Onlookers, InvalidPorts_RefusedByNameAndValue) {
   for (const std::string port : {"70000", "-1", "x", ""}) {
     const ProcessResult refused = test_support::run_process(arguments({"--player-port", port}));
     EXPECT_EQ(refused.status, 2) << port;
@@ -227,7 +227,7 @@ TEST_F(Onlookers, BadPortsAreRefusedByNameAndValue) {
 }
 
 // The simulation in a program that was started without the command reads the variable itself.
-TEST_F(Onlookers, AreLetInByTheEnvironmentToo) {
+TEST_F(Onlookers, EnvironmentVariable_AdmitsThem) {
   test_support::ProcessOptions options;
   options.environment = {{"PLAYPEN_WORLD", world_}, {"PLAYPEN_PLAYER_PORT", "0"}};
   Process run({PROGRAM}, options);

@@ -55,7 +55,7 @@ class ParPlanning : public testing::Test {
   std::string out_ = folder_ / "out";
 };
 
-TEST_F(ParPlanning, BothSolutionsReachTheGoalInBothWorldsWithoutCollisions) {
+TEST_F(ParPlanning, Solutions_ReachGoalWithoutCollision) {
   for (const std::string& world : kWorlds) {
     for (const std::string& program : kSolutions) {
       const ProcessResult result = run(world, {program});
@@ -75,14 +75,14 @@ TEST_F(ParPlanning, BothSolutionsReachTheGoalInBothWorldsWithoutCollisions) {
   }
 }
 
-TEST_F(ParPlanning, OtherGoalsAreOptions) {
+TEST_F(ParPlanning, Goals_AreOptions) {
   const ProcessResult result = run(kWorlds[0], {THETA_PROGRAM, "--goal-x=0.5", "--goal-y=3.4"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_LT(distance_m(0.5, 3.4), 0.04);  // the cell's centre, and the tolerance
   EXPECT_EQ(robot().at("collisions").get<int>(), 0);
 }
 
-TEST_F(ParPlanning, RunsAreRepeatableByteForByte) {
+TEST_F(ParPlanning, Repeatable) {
   for (const std::string& program : kSolutions) {
     ASSERT_EQ(run(kWorlds[1], {program}).status, 0);
     const std::vector<std::string> names = {"scene.png", "canvas.png", "trajectory.csv"};
@@ -98,7 +98,7 @@ TEST_F(ParPlanning, RunsAreRepeatableByteForByte) {
   }
 }
 
-TEST_F(ParPlanning, SaysSoIfThereIsNoWay) {
+TEST_F(ParPlanning, NoPath_Reported) {
   for (const std::string& program : kSolutions) {
     // Goals outside the map and in a closed room.
     const ProcessResult outside = run(kWorlds[0], {program, "--goal-x", "5"});
@@ -115,14 +115,14 @@ TEST_F(ParPlanning, SaysSoIfThereIsNoWay) {
   }
 }
 
-TEST_F(ParPlanning, AMapOfTheWorldsSizeIsDrivenBy) {
+TEST_F(ParPlanning, MapOfWorldSize_Driven) {
   const ProcessResult result = run(
       kWorlds[0], {DIJKSTRA_PROGRAM, "--map", PLAYPEN_SOURCE_DIR "/worlds/maps/par_planning.txt"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_LT(distance_m(3.1, 3.3), 0.05);
 }
 
-TEST_F(ParPlanning, AMapOfAnotherSizeIsPlannedForOnly) {
+TEST_F(ParPlanning, MapOfOtherSize_OnlyPlanned) {
   const std::string map = PLAYPEN_SOURCE_DIR "/worlds/maps/two_rooms.txt";
   for (const std::string& program : kSolutions) {
     const ProcessResult result =
@@ -141,7 +141,7 @@ TEST_F(ParPlanning, AMapOfAnotherSizeIsPlannedForOnly) {
   EXPECT_THAT(shrunk.err, HasSubstr("6 cells a pixel"));  // 1000 / 172 = 5.8
 }
 
-TEST_F(ParPlanning, RefusesABadMapWithFileAndLine) {
+TEST_F(ParPlanning, InvalidMap_RefusedWithFileAndLine) {
   const std::string map = folder_.write("bad.txt", "3\n...\n.x.\n...\n");
   const ProcessResult result = run(kWorlds[0], {THETA_PROGRAM, "--map", map});
   EXPECT_EQ(result.status, 1);
@@ -151,7 +151,7 @@ TEST_F(ParPlanning, RefusesABadMapWithFileAndLine) {
   EXPECT_THAT(none.err, AllOf(HasSubstr("none.txt"), HasSubstr("cannot be read")));
 }
 
-TEST_F(ParPlanning, TheGoalIsMarkedWhereItIs) {
+TEST_F(ParPlanning, Goal_MarkedAtItsPlace) {
   std::string first_mark;
   for (const char* program : {TEMPLATE_PROGRAM, DIJKSTRA_PROGRAM}) {
     std::vector<std::string> marks;
@@ -167,7 +167,7 @@ TEST_F(ParPlanning, TheGoalIsMarkedWhereItIs) {
   }
 }
 
-TEST_F(ParPlanning, TheTemplateStandsStillAndEndsWell) {
+TEST_F(ParPlanning, Template_StandsStillAndExits) {
   for (const std::string& world : kWorlds) {
     const ProcessResult result = run(world, {TEMPLATE_PROGRAM}, {"--duration", "5"});
     ASSERT_EQ(result.status, 0) << result.err;

@@ -48,7 +48,7 @@ class PlaypenAdvice : public testing::Test {
 
 constexpr const char* kDebuggerHint = "to see where it happened: ";
 
-TEST_F(PlaypenAdvice, AfterACrashRepeatsTheRunWithAllOptions) {
+TEST_F(PlaypenAdvice, Crash_SuggestsSameRunWithAllOptions) {
   const std::vector<std::string> options = {
       "--seed", "7",      "--duration",  "60",     "--clients", "1",           "--realism",
       "real",   "--hide", "fans,labels", "--time", "lockstep",  "--interface", "laser:0=laser"};
@@ -62,7 +62,7 @@ TEST_F(PlaypenAdvice, AfterACrashRepeatsTheRunWithAllOptions) {
                 out_ + " -- gdb -ex run --args " ENDS_PROGRAM " null 20 'it'\\''s an argument'");
 }
 
-TEST_F(PlaypenAdvice, InTheDebuggerTheSameStepCrashesAndGettersCanBeCalled) {
+TEST_F(PlaypenAdvice, Debugger_SameStepCrashesAndGettersWork) {
   if (test_support::run_process({"gdb", "--version"}).status != 0) GTEST_SKIP() << "gdb is missing";
   const ProcessResult end =
       test_support::run_process(command({"--seed", "7", "--quiet"}, {"null", "20"}));
@@ -88,7 +88,7 @@ TEST_F(PlaypenAdvice, InTheDebuggerTheSameStepCrashesAndGettersCanBeCalled) {
   EXPECT_EQ(read_bytes(out_ + "/trajectory.csv"), trajectory);
 }
 
-TEST_F(PlaypenAdvice, AnEndlessLoopAfterTheFirstReadIsToldOf) {
+TEST_F(PlaypenAdvice, EndlessLoopAfterFirstRead_Reported) {
   ProcessOptions options;
   options.environment = {{"PLAYPEN_SILENCE_LIMIT", "0.2"}};
   Process process(command({"--quiet"}, {"compute", "20"}), options);
@@ -100,7 +100,7 @@ TEST_F(PlaypenAdvice, AnEndlessLoopAfterTheFirstReadIsToldOf) {
                              HasSubstr("had been asked to end, and did not")));
 }
 
-TEST_F(PlaypenAdvice, AProgramAloneIsToldOfItsEndlessLoop) {
+TEST_F(PlaypenAdvice, ProgramWithoutCommand_EndlessLoopReported) {
   ProcessOptions options;
   options.environment = {{"PLAYPEN_SILENCE_LIMIT", "0.2"}, {"PLAYPEN_WORLD", world_}};
   Process process({ENDS_PROGRAM, "compute", "20"}, options);
@@ -108,7 +108,7 @@ TEST_F(PlaypenAdvice, AProgramAloneIsToldOfItsEndlessLoop) {
       "without calling Read(), and simulated time stands still at 2.10 s. If this is an endless"));
 }
 
-TEST_F(PlaypenAdvice, AProgramAloneIsToldThatItsRunHasNoEnd) {
+TEST_F(PlaypenAdvice, ProgramWithoutCommand_MissingEndReported) {
   ProcessOptions options;
   options.environment = {{"PLAYPEN_SILENCE_LIMIT", "0.1"}, {"PLAYPEN_WORLD", world_}};
   Process process({ENDS_PROGRAM, "drive", "-1"}, options);
@@ -118,7 +118,7 @@ TEST_F(PlaypenAdvice, AProgramAloneIsToldThatItsRunHasNoEnd) {
   EXPECT_THAT(limited.err, Not(HasSubstr("this goes on")));
 }
 
-TEST_F(PlaypenAdvice, AFolderThatCannotBeWrittenNamesTheOption) {
+TEST_F(PlaypenAdvice, UnwritableFolder_ErrorNamesOption) {
   const std::string file = folder_.write("file", "");
   for (const std::string& out : {std::string("/proc/out"), file}) {
     out_ = out;
@@ -129,7 +129,7 @@ TEST_F(PlaypenAdvice, AFolderThatCannotBeWrittenNamesTheOption) {
   }
 }
 
-TEST_F(PlaypenAdvice, MessagesAreValidUtf8WhateverTheNamesAre) {
+TEST_F(PlaypenAdvice, Messages_AreValidUtf8ForAnyName) {
   const std::string program = folder_ / "caf\xe9";
   const ProcessResult none =
       test_support::run_process({PLAYPEN_COMMAND, "run", world_, "--", program});

@@ -26,7 +26,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-TEST(PlaypenCommand, HelpNamesTheCommandsAndExitStatuses) {
+TEST(PlaypenCommand, Help_ListsCommandsAndExitStatuses) {
   const ProcessResult result = playpen({"--help"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, AllOf(HasSubstr("run"), HasSubstr("serve"), HasSubstr("grade"),
@@ -34,19 +34,19 @@ TEST(PlaypenCommand, HelpNamesTheCommandsAndExitStatuses) {
   EXPECT_THAT(result.err, IsEmpty());
 }
 
-TEST(PlaypenCommand, WithoutACommandPrintsItsHelp) {
+TEST(PlaypenCommand, NoCommand_PrintsHelp) {
   const ProcessResult result = playpen({});
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.out, playpen({"--help"}).out);
 }
 
-TEST(PlaypenCommand, VersionIsTheProjects) {
+TEST(PlaypenCommand, Version_MatchesProject) {
   const ProcessResult result = playpen({"--version"});
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.out, "playpen " PLAYPEN_VERSION "\n");
 }
 
-TEST(PlaypenCommand, EachCommandHasHelp) {
+TEST(PlaypenCommand, Help_ExistsForEachCommand) {
   for (const char* command :
        {"run", "serve", "grade", "check", "render", "list", "new", "token", "doctor"}) {
     const ProcessResult result = playpen({command, "--help"});
@@ -55,7 +55,7 @@ TEST(PlaypenCommand, EachCommandHasHelp) {
   }
 }
 
-TEST(PlaypenCommand, UnknownCommandsAndMissingArgumentsAreBadInput) {
+TEST(PlaypenCommand, UnknownCommandsAndMissingArguments_Refused) {
   const std::vector<std::vector<std::string>> calls = {
       {"fly"}, {"--fly"}, {"check"}, {"run"}, {"serve"}, {"run", "x.json"}, {"render", "x.json"},
   };
@@ -66,7 +66,7 @@ TEST(PlaypenCommand, UnknownCommandsAndMissingArgumentsAreBadInput) {
   }
 }
 
-TEST(PlaypenCommand, SettingsOfAFilmThatNobodyRecordsAreRefused) {
+TEST(PlaypenCommand, FilmSettingsWithoutFilm_Refused) {
   const TemporaryFolder folder;
   const std::string world = folder.write("room.json", room_world());
   for (const char* option : {"--record-fps", "--record-speed"}) {
@@ -76,7 +76,7 @@ TEST(PlaypenCommand, SettingsOfAFilmThatNobodyRecordsAreRefused) {
   }
 }
 
-TEST(PlaypenCommand, BadOptionValuesAreRefusedByNameAndValue) {
+TEST(PlaypenCommand, InvalidOptionValues_RefusedByNameAndValue) {
   struct Case {
     const char* option;
     const char* value;
@@ -120,7 +120,7 @@ TEST(PlaypenCommand, BadOptionValuesAreRefusedByNameAndValue) {
   EXPECT_FALSE(fs::exists(folder / "a.png"));
 }
 
-TEST(PlaypenCheck, SaysWhatASoundWorldHolds) {
+TEST(PlaypenCheck, ValidWorld_Summarized) {
   const TemporaryFolder folder;
   const std::string world = folder.write("room.json", room_world());
   const ProcessResult result = playpen({"check", world});
@@ -129,7 +129,7 @@ TEST(PlaypenCheck, SaysWhatASoundWorldHolds) {
   EXPECT_THAT(result.err, IsEmpty());
 }
 
-TEST(PlaypenCheck, TakesPipesThatTheCommandLineNames) {
+TEST(PlaypenCheck, Pipes_AcceptedOnCommandLine) {
   const TemporaryFolder folder;
   const std::string world = folder.write("room.json", room_world());
   const std::string command = PLAYPEN_COMMAND;
@@ -147,7 +147,7 @@ TEST(PlaypenCheck, TakesPipesThatTheCommandLineNames) {
               AllOf(HasSubstr("found a device"), HasSubstr("[file/not-a-file]")));
 }
 
-TEST(PlaypenCheck, ReportsEveryIssueOfEveryBadWorldAndStillTheGoodOnes) {
+TEST(PlaypenCheck, InvalidWorlds_EveryIssueReported) {
   const TemporaryFolder folder;
   const std::string good = folder.write("good.json", room_world());
   // Two faults: a key that does not exist, and a seed of the wrong type.
@@ -161,7 +161,7 @@ TEST(PlaypenCheck, ReportsEveryIssueOfEveryBadWorldAndStillTheGoodOnes) {
                     HasSubstr("/simulation/seed"), HasSubstr("seven"), HasSubstr("none.json")));
 }
 
-TEST(PlaypenCheck, FindsTheWorldsThatAreInstalledBesideIt) {
+TEST(PlaypenCheck, InstalledWorlds_Found) {
   const TemporaryFolder prefix;
   const std::string command = prefix.write("bin/playpen", "");
   fs::copy_file(PLAYPEN_COMMAND, command, fs::copy_options::overwrite_existing);
@@ -174,7 +174,7 @@ TEST(PlaypenCheck, FindsTheWorldsThatAreInstalledBesideIt) {
   EXPECT_EQ(test_support::run_process({command, "check", "tasks/rooms"}).status, 2);
 }
 
-TEST(PlaypenRender, DrawsAWorldInTheSizeAskedFor) {
+TEST(PlaypenRender, DrawsWorldInRequestedSize) {
   const TemporaryFolder folder;
   const std::string world = folder.write("room.json", room_world());
   const ProcessResult result =
@@ -194,7 +194,7 @@ TEST(PlaypenRender, DrawsAWorldInTheSizeAskedFor) {
   EXPECT_EQ(std::max(number_at(16), number_at(20)), 300);
 }
 
-TEST(PlaypenRender, DrawsTheCanvasAloneAndTheTrueMapAndMapsOfFiles) {
+TEST(PlaypenRender, DrawsCanvasTrueMapAndMapFiles) {
   const TemporaryFolder folder;
   const std::string world = folder.write("room.json", room_world());
   const auto render = [&](const std::string& from, const std::string& out,
@@ -218,7 +218,7 @@ TEST(PlaypenRender, DrawsTheCanvasAloneAndTheTrueMapAndMapsOfFiles) {
   EXPECT_GT(read_bytes(folder / "full.png").size(), 1000U);
 }
 
-TEST(PlaypenRender, RefusesWhatDoesNotGoTogether) {
+TEST(PlaypenRender, ConflictingOptions_Refused) {
   const TemporaryFolder folder;
   const std::string world = folder.write("room.json", room_world());
   for (const std::vector<std::string>& options :
@@ -232,7 +232,7 @@ TEST(PlaypenRender, RefusesWhatDoesNotGoTogether) {
   }
 }
 
-TEST(PlaypenRender, RefusesABadWorldAndAFileItCannotWrite) {
+TEST(PlaypenRender, InvalidWorldAndUnwritableFile_Refused) {
   const TemporaryFolder folder;
   const std::string world = folder.write("room.json", room_world());
   EXPECT_EQ(playpen({"render", folder / "none.json", "--out", folder / "a.png"}).status, 2);

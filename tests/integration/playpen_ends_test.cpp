@@ -67,7 +67,7 @@ class PlaypenEnds : public testing::Test {
   std::string out_ = folder_ / "out";
 };
 
-TEST_F(PlaypenEnds, OneSignalHoweverOftenItComesEndsTheRunCleanly) {
+TEST_F(PlaypenEnds, RepeatedSignal_EndsRunOnce) {
   for (const char* time : {"lockstep", "20"}) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
       SCOPED_TRACE(std::string(time) + ", signal " + std::to_string(signal));
@@ -87,7 +87,7 @@ TEST_F(PlaypenEnds, OneSignalHoweverOftenItComesEndsTheRunCleanly) {
   }
 }
 
-TEST_F(PlaypenEnds, AProgramsOwnHandlerGetsTheSignalOnce) {
+TEST_F(PlaypenEnds, ProgramHandler_GetsSignalOnce) {
   Process process(command({"--real-sleep"}, {"handler"}));
   ASSERT_TRUE(process.read_until("ready"));
   process.send_signal(SIGTERM);
@@ -98,7 +98,7 @@ TEST_F(PlaypenEnds, AProgramsOwnHandlerGetsTheSignalOnce) {
   EXPECT_EQ(report().at("ended").at("by"), "program");
 }
 
-TEST_F(PlaypenEnds, SignalsThatAreIgnoredFromTheStartStayIgnored) {
+TEST_F(PlaypenEnds, IgnoredSignals_StayIgnored) {
   ProcessOptions options;
   options.ignored_signals = {SIGHUP};  // as under nohup
   Process process(command({"--time", "20"}, {"drive"}), options);
@@ -109,7 +109,7 @@ TEST_F(PlaypenEnds, SignalsThatAreIgnoredFromTheStartStayIgnored) {
   EXPECT_EQ(report().at("ended").at("signal"), "SIGTERM");
 }
 
-TEST_F(PlaypenEnds, NothingThatTheProgramHasStartedOutlivesTheRun) {
+TEST_F(PlaypenEnds, Descendants_EndWithRun) {
   Process process(command({}, {"child"}));
   // Returns when the last process that holds the output has ended.
   const ProcessResult end = process.finish();
@@ -119,7 +119,7 @@ TEST_F(PlaypenEnds, NothingThatTheProgramHasStartedOutlivesTheRun) {
   EXPECT_EQ(report().at("ended"), json({{"by", "program"}, {"status", 0}}));
 }
 
-TEST_F(PlaypenEnds, KillingTheCommandEndsTheProgramAndWhatItHasStarted) {
+TEST_F(PlaypenEnds, KilledCommand_EndsProgramAndDescendants) {
   for (const char* what : {"drive", "compute"}) {
     for (const bool group : {false, true}) {
       SCOPED_TRACE(std::string(what) + (group ? ", the group" : ""));
@@ -136,7 +136,7 @@ TEST_F(PlaypenEnds, KillingTheCommandEndsTheProgramAndWhatItHasStarted) {
   }
 }
 
-TEST_F(PlaypenEnds, AProgramThatNeverLooksIsEndedAllTheSame) {
+TEST_F(PlaypenEnds, ProgramWithoutReads_IsEnded) {
   for (const char* whom : {"command", "group", "program"}) {
     SCOPED_TRACE(whom);
     fs::remove_all(out_);
@@ -155,7 +155,7 @@ TEST_F(PlaypenEnds, AProgramThatNeverLooksIsEndedAllTheSame) {
   }
 }
 
-TEST_F(PlaypenEnds, ACrashLeavesTheResultsOfItsLastStep) {
+TEST_F(PlaypenEnds, Crash_KeepsResultsOfLastStep) {
   // The results of a run that ends normally at the same moment.
   const std::string crashed = out_;
   out_ = folder_ / "whole";
@@ -191,7 +191,7 @@ TEST_F(PlaypenEnds, ACrashLeavesTheResultsOfItsLastStep) {
   }
 }
 
-TEST_F(PlaypenEnds, AVerdictEndsTheRunAndACrashLosesNoEvent) {
+TEST_F(PlaypenEnds, Verdict_EndsRunAndCrashKeepsEvents) {
   world_ = folder_.write("arena.json", R"({"arena": {"size": [4, 4]},
     "robots": [{"name": "r1", "pose": {"x": 2, "y": 2}}],
     "controller": {"timers": [{"name": "tick", "every": 0.1, "do": [{"score": {"robot": "r1"}}]},
@@ -217,7 +217,7 @@ TEST_F(PlaypenEnds, AVerdictEndsTheRunAndACrashLosesNoEvent) {
   EXPECT_EQ(report().at("verdict"), nullptr);
 }
 
-TEST_F(PlaypenEnds, AProgramThatKillsWhoeverStartedItEndsToo) {
+TEST_F(PlaypenEnds, ProgramThatKillsItsParent_Ends) {
   Process process(command({}, {"killer"}));
   const ProcessResult end = process.finish();
   EXPECT_FALSE(end.timed_out) << "something goes on";
@@ -226,7 +226,7 @@ TEST_F(PlaypenEnds, AProgramThatKillsWhoeverStartedItEndsToo) {
   expect_all_results();
 }
 
-TEST_F(PlaypenEnds, AProgramThatStopsItselfIsToldOfAndEndsWhenAskedTo) {
+TEST_F(PlaypenEnds, StoppedProgram_ReportedAndEnded) {
   for (const int signal : {SIGTERM, SIGKILL}) {
     SCOPED_TRACE(signal);
     fs::remove_all(out_);
@@ -240,7 +240,7 @@ TEST_F(PlaypenEnds, AProgramThatStopsItselfIsToldOfAndEndsWhenAskedTo) {
   }
 }
 
-TEST_F(PlaypenEnds, AFileThatReachesItsLimitKeepsTheReport) {
+TEST_F(PlaypenEnds, FileSizeLimit_KeepsReport) {
   ProcessOptions options;
   options.file_limit = 4096;  // enough for the report, but not for a picture
   const ProcessResult end =
@@ -253,7 +253,7 @@ TEST_F(PlaypenEnds, AFileThatReachesItsLimitKeepsTheReport) {
 }
 
 // Trajectory and pictures take all the room, but not that of the report.
-TEST_F(PlaypenEnds, AFullDiskKeepsTheReportWithTheEnd) {
+TEST_F(PlaypenEnds, FullDisk_KeepsReport) {
   // A disk of its own, in a mount namespace; without privileges, also in a user namespace.
   const std::string disk = folder_ / "disk";
   fs::create_directories(disk);
@@ -371,7 +371,7 @@ class OnTerminal {
   std::string output_;
 };
 
-TEST_F(PlaypenEnds, AClosedTerminalEndsTheRun) {
+TEST_F(PlaypenEnds, ClosedTerminal_EndsRun) {
   for (const char* program : {"start", "drive", "compute"}) {
     SCOPED_TRACE(program);
     fs::remove_all(out_);

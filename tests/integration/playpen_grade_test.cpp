@@ -73,7 +73,7 @@ class PlaypenGrade : public testing::Test {
   std::string out_ = folder_ / "out";
 };
 
-TEST_F(PlaypenGrade, TheIntroductionsSolutionsPass) {
+TEST_F(PlaypenGrade, SolutionsOfIntroduction_Pass) {
   task_ = kIntroTask;
   for (const char* program : {WALL_PROGRAM, AVOID_PROGRAM}) {
     const ProcessResult run = grade({"--seeds", "2"}, {program});
@@ -92,7 +92,7 @@ TEST_F(PlaypenGrade, TheIntroductionsSolutionsPass) {
   }
 }
 
-TEST_F(PlaypenGrade, TheIntroductionsSolutionsPassWithRealDevices) {
+TEST_F(PlaypenGrade, SolutionsOfIntroduction_PassWithRealism) {
   task_ = kIntroTask;
   for (const char* program : {WALL_PROGRAM, AVOID_PROGRAM}) {
     const ProcessResult run = grade({"--seeds", "2", "--realism", "real"}, {program});
@@ -102,18 +102,18 @@ TEST_F(PlaypenGrade, TheIntroductionsSolutionsPassWithRealDevices) {
   }
 }
 
-TEST_F(PlaypenGrade, TheTemplateFailsWithoutCrashing) {
+TEST_F(PlaypenGrade, Template_FailsWithoutCrash) {
   task_ = kIntroTask;
   const ProcessResult run = grade({"--seeds", "1,"}, {TEMPLATE_PROGRAM});
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(
       run.out,
-      HasSubstr("par_intro seed 1: distance driven, without movements on the spot, 0.00 m, at "
+      HasSubstr("par_intro seed 1: distance driven (movements on the spot excluded) 0.00 m, at "
                 "least 12 m needed"));
   EXPECT_EQ(result().at("runs").at(0).at("end"), json({{"kind", "time-over"}}));
 }
 
-TEST_F(PlaypenGrade, WhatProgramsDoIsAResult) {
+TEST_F(PlaypenGrade, FailingPrograms_AreResults) {
   const std::string script =
       "echo seed $PLAYPEN_SEED; echo error >&2\n"
       "case $PLAYPEN_SEED in\n"
@@ -141,7 +141,7 @@ TEST_F(PlaypenGrade, WhatProgramsDoIsAResult) {
   EXPECT_EQ(log("room_seed2"), "seed 2\nerror\n");
 }
 
-TEST_F(PlaypenGrade, ARunThatDiesKeepsItsResultsAsAfterRun) {
+TEST_F(PlaypenGrade, FailedRun_KeepsResults) {
   struct Case {
     const char* how;
     const char* fault;
@@ -190,7 +190,7 @@ TEST_F(PlaypenGrade, ARunThatDiesKeepsItsResultsAsAfterRun) {
   }
 }
 
-TEST_F(PlaypenGrade, SaysOnceWhatAllSeedsHaveInCommon) {
+TEST_F(PlaypenGrade, CommonFaults_PrintedOnce) {
   // It drives in a circle of 0.8 m and meets the wall of the room at y = 2 m.
   json world = json::parse(room_world());
   world["robots"][0]["pose"]["y"] = 1.6;
@@ -207,7 +207,7 @@ TEST_F(PlaypenGrade, SaysOnceWhatAllSeedsHaveInCommon) {
   EXPECT_THAT(graded.out, HasSubstr("picture: " + out_ + "/room_seed1/scene.png\n"));
 }
 
-TEST_F(PlaypenGrade, AProgramThatHangsIsEnded) {
+TEST_F(PlaypenGrade, HangingProgram_IsEnded) {
   const ProcessResult run =
       grade({"--seeds", "1,", "--timeout", "0.2"}, {"sh", "-c", "sleep 1000"});
   EXPECT_EQ(run.status, 1);
@@ -227,7 +227,7 @@ void drop_wall_times(json& value) {
   }
 }
 
-TEST_F(PlaypenGrade, SideBySideGivesTheSameAsOneAfterTheOther) {
+TEST_F(PlaypenGrade, ParallelRuns_SameAsSequential) {
   folder_.write("room.json", room_world(0.01));  // with noise, so that seeds matter
   std::vector<json> results;
   for (const char* jobs : {"1", "4"}) {
@@ -241,7 +241,7 @@ TEST_F(PlaypenGrade, SideBySideGivesTheSameAsOneAfterTheOther) {
   EXPECT_FALSE(runs.at(0).contains("wall_time"));
 }
 
-TEST_F(PlaypenGrade, TakesWorldsSeedsAndArgumentsFromTheTaskAndTheCommandLine) {
+TEST_F(PlaypenGrade, WorldsSeedsAndArguments_FromTaskAndCommandLine) {
   folder_.write("other.json", room_world());
   folder_.write("try.task.json", R"({
     "worlds": [{"world": "room.json", "arguments": ["--in", "a room"]}, "other.json"],
@@ -259,7 +259,7 @@ TEST_F(PlaypenGrade, TakesWorldsSeedsAndArgumentsFromTheTaskAndTheCommandLine) {
   EXPECT_EQ(log("default_seed18446744073709551615"), "[x,y] --always\n");
 }
 
-TEST_F(PlaypenGrade, ReachingTheGoalIsMeasuredAgainstTheShortestWay) {
+TEST_F(PlaypenGrade, PathRatio_ComparesWithShortestPath) {
   folder_.write("try.task.json", R"({
     "worlds": [{"world": "room.json", "goal": {"x": 1.5, "y": 1, "tolerance": 0.05}}],
     "seeds": 1, "duration": 1, "thresholds": {"must_reach": true}})");
@@ -271,7 +271,7 @@ TEST_F(PlaypenGrade, ReachingTheGoalIsMeasuredAgainstTheShortestWay) {
   EXPECT_NEAR(run.at("shortest_path").get<double>(), 1.0, 1e-4);
 }
 
-TEST_F(PlaypenGrade, AReportThatTheProgramWritesItselfIsRefused) {
+TEST_F(PlaypenGrade, ForgedReport_Refused) {
   folder_.write("try.task.json", R"({
     "worlds": [{"world": "room.json", "goal": {"x": 1.5, "y": 1}}], "seeds": 1,
     "thresholds": {"must_reach": true, "must_end": true, "max_path_ratio": 1.5}})");
@@ -291,7 +291,7 @@ TEST_F(PlaypenGrade, AReportThatTheProgramWritesItselfIsRefused) {
               ElementsAre("the report is that of another run"));
 }
 
-TEST_F(PlaypenGrade, ARunOfAnotherWorldOrWithOtherSettingsDoesNotCount) {
+TEST_F(PlaypenGrade, ReportOfOtherWorldOrSettings_Refused) {
   folder_.write("try.task.json", R"({"worlds": ["room.json"], "seeds": 1, "duration": 1})");
   json other = json::parse(room_world());
   other["name"] = "easy";
@@ -332,20 +332,20 @@ TEST_F(PlaypenGrade, ARunOfAnotherWorldOrWithOtherSettingsDoesNotCount) {
   }
 }
 
-TEST_F(PlaypenGrade, ResultsOfAnEarlierGradingDoNotHideThatThereAreNone) {
+TEST_F(PlaypenGrade, MissingReport_NotHiddenByEarlierResults) {
   ASSERT_EQ(grade({}, {TEMPLATE_PROGRAM}).status, 0);
   ASSERT_EQ(grade({}, {"true"}).status, 1);
   EXPECT_FALSE(fs::exists(fs::path(out_) / "room_seed1/report.json"));
 }
 
-TEST_F(PlaypenGrade, WritesTheJsonFileWhereToldTo) {
+TEST_F(PlaypenGrade, JsonFile_WrittenToRequestedPath) {
   const std::string file = folder_ / "marks/robot.json";
   EXPECT_EQ(grade({"--json", file}, {TEMPLATE_PROGRAM}).status, 0);
   EXPECT_EQ(json::parse(read_bytes(file)).at("task"), "try");
   EXPECT_FALSE(fs::exists(fs::path(out_) / "grade.json"));
 }
 
-TEST_F(PlaypenGrade, TheJsonFileIsWholeAfterEachRun) {
+TEST_F(PlaypenGrade, JsonFile_CompleteAfterEachRun) {
   const std::string fifo = folder_ / "fifo";
   ASSERT_EQ(std::system(("mkfifo " + fifo).c_str()), 0);
   std::vector<std::string> command = arguments(
@@ -365,7 +365,7 @@ TEST_F(PlaypenGrade, TheJsonFileIsWholeAfterEachRun) {
   EXPECT_EQ(result(), present);
 }
 
-TEST_F(PlaypenGrade, AProgramCannotReachResultsThatAreJudged) {
+TEST_F(PlaypenGrade, JudgedResults_NotReachableByProgram) {
   // The program writes to the place of its results, and into those of the first run.
   const ProcessResult run = grade({"--seeds", "2", "--jobs", "1"},
                                   {"sh", "-c",
@@ -379,7 +379,7 @@ TEST_F(PlaypenGrade, AProgramCannotReachResultsThatAreJudged) {
   }
 }
 
-TEST_F(PlaypenGrade, InterruptedItEndsAllProgramsAndWritesWhatThereIs) {
+TEST_F(PlaypenGrade, Interrupt_EndsProgramsAndWritesResults) {
   const std::string fifo = folder_ / "fifo";
   ASSERT_EQ(std::system(("mkfifo " + fifo).c_str()), 0);
   std::vector<std::string> command =
@@ -403,7 +403,7 @@ TEST_F(PlaypenGrade, InterruptedItEndsAllProgramsAndWritesWhatThereIs) {
   EXPECT_THAT(run.out, HasSubstr("not run: the grader was interrupted"));
 }
 
-TEST_F(PlaypenGrade, BadInputIsExplainedBeforeAnythingRuns) {
+TEST_F(PlaypenGrade, InvalidInput_ExplainedBeforeRuns) {
   const std::string text = folder_.write("text.txt", "no program");
   const std::string bad_task = folder_.write("bad.task.json", R"({"worlds": ["none.json"]})");
   const std::string bad_world = folder_.write("bad.json", R"({"robotz": []})");
@@ -441,7 +441,7 @@ TEST_F(PlaypenGrade, BadInputIsExplainedBeforeAnythingRuns) {
   }
 }
 
-TEST_F(PlaypenGrade, FindsTheTasksThatAreInstalledBesideIt) {
+TEST_F(PlaypenGrade, InstalledTasks_Found) {
   const std::string command = folder_.write("bin/playpen", "");
   fs::copy_file(PLAYPEN_COMMAND, command, fs::copy_options::overwrite_existing);
   fs::permissions(command, fs::perms::owner_all);

@@ -44,7 +44,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 // `doctor` reports a variable that is not listed as misspelt.
-TEST(PlaypenHelp, TheManualPageListsTheVariablesOfStartHere) {
+TEST(PlaypenHelp, ManualPage_ListsVariablesOfStartHere) {
   const std::string page = test_support::read_bytes(PLAYPEN_SOURCE_DIR "/docs/start_here.md");
   const std::string manual = playpen({"help", "--man"}).out;
   const std::regex variable("`(PLAYPEN_[A-Z_]+)`");
@@ -55,7 +55,7 @@ TEST(PlaypenHelp, TheManualPageListsTheVariablesOfStartHere) {
   EXPECT_GT(count, 15);
 }
 
-TEST(PlaypenHelp, OfACommandIsThatOfItsOption) {
+TEST(PlaypenHelp, HelpCommand_SameAsOption) {
   EXPECT_EQ(playpen({"help"}).out, playpen({"--help"}).out);
   for (const std::string& command : kCommands) {
     const ProcessResult result = playpen({"help", command});
@@ -67,12 +67,12 @@ TEST(PlaypenHelp, OfACommandIsThatOfItsOption) {
   EXPECT_THAT(playpen({"help", "run"}).out, HasSubstr("-- PROGRAM [ARGUMENT...]"));
 }
 
-TEST(PlaypenHelp, VersionHasAShortOption) {
+TEST(PlaypenHelp, Version_HasShortOption) {
   EXPECT_EQ(playpen({"-V"}).status, 0);
   EXPECT_EQ(playpen({"-V"}).out, playpen({"--version"}).out);
 }
 
-TEST(PlaypenHelp, UnknownWordsGetTheNearestOne) {
+TEST(PlaypenHelp, UnknownWord_SuggestsNearest) {
   struct Case {
     std::vector<std::string> call;
     const char* unknown;
@@ -99,13 +99,13 @@ TEST(PlaypenHelp, UnknownWordsGetTheNearestOne) {
   EXPECT_THAT(playpen({"xyzzy"}).err, Not(HasSubstr("did you mean")));
 }
 
-TEST(PlaypenHelp, AProgramWithoutTheDashesIsToldAboutThem) {
+TEST(PlaypenHelp, ProgramWithoutDashes_Explained) {
   const ProcessResult result = playpen({"run", "cave", "./wander"});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("-- ./wander"));
 }
 
-TEST(PlaypenManPage, TellsOfEachCommandAndOption) {
+TEST(PlaypenManPage, DocumentsEachCommandAndOption) {
   const ProcessResult man = playpen({"help", "--man"});
   ASSERT_EQ(man.status, 0) << man.err;
   EXPECT_THAT(man.out, AllOf(HasSubstr(".TH PLAYPEN 1"), HasSubstr(".SH SYNOPSIS"),
@@ -144,7 +144,7 @@ std::vector<std::string> completed(const std::vector<std::string>& words) {
   return lines;
 }
 
-TEST(PlaypenCompletion, OfBashKnowsCommandsOptionsValuesAndNames) {
+TEST(PlaypenCompletion, Bash_CompletesCommandsOptionsValuesAndNames) {
   EXPECT_THAT(completed({"ru"}), ElementsAre("run"));
   EXPECT_THAT(completed({"co"}), ElementsAre("completion"));
   EXPECT_THAT(completed({"--v"}), ElementsAre("--version"));
@@ -169,7 +169,7 @@ TEST(PlaypenCompletion, OfBashKnowsCommandsOptionsValuesAndNames) {
   EXPECT_THAT(completed({"run", "cave", "--", "./x", "no"}), ElementsAre("notes.txt"));
 }
 
-TEST(PlaypenCompletion, OfZshAndFishNameEachCommandAndOption) {
+TEST(PlaypenCompletion, ZshAndFish_CompleteCommandsAndOptions) {
   for (const char* shell : {"zsh", "fish"}) {
     const ProcessResult script = playpen({"completion", shell});
     ASSERT_EQ(script.status, 0) << shell;
@@ -217,7 +217,7 @@ class PseudoTerminal {
   int terminal_ = -1;
 };
 
-TEST(PlaypenDoc, ListsEachPageOfTheSourceTreeWithItsTitle) {
+TEST(PlaypenDoc, List_HasEachPageWithTitle) {
   const std::string list = playpen({"doc"}).out;
   EXPECT_THAT(list, HasSubstr("start_here  "));
   const std::regex line("devices/laser +\\S");
@@ -233,7 +233,7 @@ TEST(PlaypenDoc, ListsEachPageOfTheSourceTreeWithItsTitle) {
   EXPECT_EQ(names.size(), pages.size());
 }
 
-TEST(PlaypenDoc, PrintsAPageByEachOfItsNames) {
+TEST(PlaypenDoc, Page_FoundByEachName) {
   const std::string laser = test_support::read_bytes(PLAYPEN_SOURCE_DIR "/docs/devices/laser.md");
   for (const char* name : {"devices/laser", "laser", "laser.md", "docs/devices/laser.md"}) {
     const ProcessResult result = playpen({"doc", name});
@@ -245,7 +245,7 @@ TEST(PlaypenDoc, PrintsAPageByEachOfItsNames) {
             test_support::read_bytes(PLAYPEN_SOURCE_DIR "/docs/arena_controller.md"));
 }
 
-TEST(PlaypenDoc, AnUnknownPageIsAnErrorWithTheNearestName) {
+TEST(PlaypenDoc, UnknownPage_SuggestsNearest) {
   const ProcessResult result = playpen({"doc", "strat_here"});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.out, IsEmpty());
@@ -260,7 +260,7 @@ TEST(PlaypenDoc, AnUnknownPageIsAnErrorWithTheNearestName) {
   EXPECT_EQ(playpen({"doc", "laser", "--names"}).status, 2);
 }
 
-TEST(PlaypenDoc, OfAnInstallationReadsItsOwnPages) {
+TEST(PlaypenDoc, Installation_ReadsItsOwnPages) {
   const TemporaryFolder prefix;
   const std::string command = prefix.write("bin/playpen", "");
   std::filesystem::copy_file(PLAYPEN_COMMAND, command,
@@ -276,7 +276,7 @@ TEST(PlaypenDoc, OfAnInstallationReadsItsOwnPages) {
   EXPECT_EQ(run_process({command, "doc", "laser"}).out, "# A laser\n");
 }
 
-TEST(Terminal, TellsItsColumnsAndEverythingElseHas80) {
+TEST(Terminal, Columns_AreThoseOfTerminalOr80) {
   EXPECT_EQ(playpen::terminal_columns(PseudoTerminal(132).descriptor()), 132U);
   EXPECT_EQ(playpen::terminal_columns(PseudoTerminal(0).descriptor()), 80U);
   const int file = open("/dev/null", O_WRONLY);
@@ -285,7 +285,7 @@ TEST(Terminal, TellsItsColumnsAndEverythingElseHas80) {
   close(file);
 }
 
-TEST(PlaypenDoc, OnATerminalThePagerShowsThePage) {
+TEST(PlaypenDoc, Terminal_ShowsPageInPager) {
   const TemporaryFolder folder;
   const PseudoTerminal terminal(80);
   const std::string shell = std::string("'" PLAYPEN_COMMAND "' doc start_here >/dev/fd/") +
@@ -297,7 +297,7 @@ TEST(PlaypenDoc, OnATerminalThePagerShowsThePage) {
             test_support::read_bytes(PLAYPEN_SOURCE_DIR "/docs/start_here.md"));
 }
 
-TEST(Terminal, ShowsColourUnlessTheUserOrTheTerminalObjects) {
+TEST(Terminal, Colour_ShownUnlessDisabled) {
   const PseudoTerminal terminal(80);
   setenv("TERM", "xterm", 1);
   unsetenv("NO_COLOR");
@@ -311,7 +311,7 @@ TEST(Terminal, ShowsColourUnlessTheUserOrTheTerminalObjects) {
   unsetenv("NO_COLOR");
 }
 
-TEST(Wrapped, BreaksAtBlanksAndIndentsWhatFollows) {
+TEST(Wrapped, BreaksAtBlanksAndIndentsFollowingLines) {
   // 26 columns minus an indent of 3: 23 characters per line.
   EXPECT_EQ(playpen::wrapped("one two three four five six", 26, 3),
             "one two three four five\n   six");
@@ -320,7 +320,7 @@ TEST(Wrapped, BreaksAtBlanksAndIndentsWhatFollows) {
   EXPECT_EQ(playpen::wrapped("a " + word + " b", 30, 2), "a\n  " + word + "\n  b");
 }
 
-TEST(ShellWord, IsQuotedOnlyIfItMustBe) {
+TEST(ShellWord, QuotedOnlyIfNeeded) {
   EXPECT_EQ(playpen::shell_word("/a/b-c_1.json"), "/a/b-c_1.json");
   EXPECT_EQ(playpen::shell_word("my robot"), "'my robot'");
   EXPECT_EQ(playpen::shell_word("it's"), "'it'\\''s'");

@@ -41,7 +41,7 @@ ProcessOptions in(const TemporaryFolder& folder) {
   return options;
 }
 
-TEST(PlaypenNames, AllCommandsFindAWorldByEachOfItsNames) {
+TEST(PlaypenNames, AllCommands_FindWorldByEachName) {
   const TemporaryFolder folder;
   for (const char* name : {"par_intro", "tasks/par_intro", "tasks/par_intro.json", "cave",
                            "cave.json", "default", "thirteen_robots", "devices/laser"}) {
@@ -61,7 +61,7 @@ TEST(PlaypenNames, AllCommandsFindAWorldByEachOfItsNames) {
   }
 }
 
-TEST(PlaypenNames, WhatGradeFindsRunFindsAndTheOtherWayRound) {
+TEST(PlaypenNames, GradeAndRun_FindSameNames) {
   const TemporaryFolder folder;
   for (const char* name :
        {"par_intro", "tasks/par_intro", "par_intro.task.json", "tasks/par_intro.json"}) {
@@ -75,7 +75,7 @@ TEST(PlaypenNames, WhatGradeFindsRunFindsAndTheOtherWayRound) {
   }
 }
 
-TEST(PlaypenNames, FilesOfTheFolderComeFirstAndNeedNoEnding) {
+TEST(PlaypenNames, FilesOfFolder_FirstAndWithoutExtension) {
   const TemporaryFolder folder;
   folder.write("cave.json", room_world());  // a cave of its own, 2 m wide
   folder.write("mine.json", room_world());
@@ -91,7 +91,7 @@ TEST(PlaypenNames, FilesOfTheFolderComeFirstAndNeedNoEnding) {
       0);
 }
 
-TEST(PlaypenNames, AnUnknownNameGetsTheNearestOnes) {
+TEST(PlaypenNames, UnknownName_SuggestsNearest) {
   const TemporaryFolder folder;
   folder.write("my_room.json", room_world());
   struct Case {
@@ -125,7 +125,7 @@ TEST(PlaypenNames, AnUnknownNameGetsTheNearestOnes) {
   EXPECT_THAT(playpen({"check", "xyzzyxyzzy"}, in(folder)).err, Not(HasSubstr("did you mean")));
 }
 
-TEST(PlaypenNames, AFileOfAnotherKindIsSaidToBeOne) {
+TEST(PlaypenNames, FileOfOtherKind_ErrorNamesKind) {
   const TemporaryFolder folder;
   const std::string worlds = std::string(PLAYPEN_SOURCE_DIR) + "/worlds/";
   const auto error_of = [](const std::vector<std::string>& call) {
@@ -144,7 +144,7 @@ TEST(PlaypenNames, AFileOfAnotherKindIsSaidToBeOne) {
               AllOf(HasSubstr("found a world file"), HasSubstr("playpen doc grading")));
 }
 
-TEST(PlaypenList, TellsOfEachWorldTaskAndModelInLinesThatFit) {
+TEST(PlaypenList, ListsWorldsTasksAndModelsInShortLines) {
   const ProcessResult all = playpen({"list"});
   ASSERT_EQ(all.status, 0) << all.err;
   for (const std::string& line : lines_of(all.out)) EXPECT_LE(line.size(), 80U) << line;
@@ -179,13 +179,13 @@ TEST(PlaypenList, TellsOfEachWorldTaskAndModelInLinesThatFit) {
   }
 }
 
-TEST(PlaypenList, RefusesWhatItDoesNotList) {
+TEST(PlaypenList, UnknownKind_Refused) {
   const ProcessResult result = playpen({"list", "robots"});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, AllOf(HasSubstr("worlds, tasks or models"), HasSubstr("'robots'")));
 }
 
-TEST(PlaypenCheck, TakesFilesForWhatTheyHoldAndSaysSo) {
+TEST(PlaypenCheck, KindOfFile_FoundByContent) {
   const TemporaryFolder folder;
   const std::string model = R"({"name": "box", "footprint": [[0, 0], [1, 0], [1, 1], [0, 1]]})";
   folder.write("room.json", room_world());
@@ -207,7 +207,7 @@ TEST(PlaypenCheck, TakesFilesForWhatTheyHoldAndSaysSo) {
   EXPECT_THAT(bad.out, IsEmpty());
 }
 
-TEST(PlaypenCheck, ATaskIsCheckedWithItsWorlds) {
+TEST(PlaypenCheck, Task_CheckedWithItsWorlds) {
   const TemporaryFolder folder;
   folder.write("room.json", room_world());
   folder.write("bad.json", R"({"robotz": []})");
@@ -218,7 +218,7 @@ TEST(PlaypenCheck, ATaskIsCheckedWithItsWorlds) {
   EXPECT_THAT(playpen({"check", bad_world}).err, HasSubstr("robotz"));
 }
 
-TEST(PlaypenCheck, ANameOfSeveralFilesMeansAllOfThem) {
+TEST(PlaypenCheck, AmbiguousName_ChecksAllFiles) {
   const TemporaryFolder folder;
   const ProcessResult result = playpen({"check", "par_intro"}, in(folder));
   EXPECT_EQ(result.status, 0) << result.err;

@@ -76,7 +76,7 @@ void build_and_run(const std::string& kind, const std::string& result) {
 }
 
 // Each project, without its build, which takes a compiler some seconds.
-TEST(PlaypenNew, MakesProjectsOfEachKind) {
+TEST(PlaypenNew, MakesEachKindOfProject) {
   for (const std::string task : {"intro", "planning", "exploration", "traps",
                                  "exploration_changing", "chase", "localization"}) {
     SCOPED_TRACE(task);
@@ -89,13 +89,13 @@ TEST(PlaypenNew, MakesProjectsOfEachKind) {
   }
 }
 
-TEST(PlaypenNew, TheIntroTemplateBuildsAndRuns) {
+TEST(PlaypenNew, IntroTemplate_BuildsAndRuns) {
   build_and_run("intro", "out/par_intro/report.json");
 }
 
 // The templates of the tasks differ in their sources only, which the tests ..._template_filled
 // compile. So a merge builds one of them, and the client.
-TEST(PlaypenNew, ThePlanningTemplateBuildsAndRuns) {
+TEST(PlaypenNew, PlanningTemplate_BuildsAndRuns) {
   if (!nightly()) GTEST_SKIP() << kOnlyNightly;
   // The template plans nothing and therefore fails; the test only checks that it was built.
   const TemporaryFolder folder;
@@ -107,26 +107,26 @@ TEST(PlaypenNew, ThePlanningTemplateBuildsAndRuns) {
   EXPECT_TRUE(fs::exists(folder / "p/build/par_planning_template"));
 }
 
-TEST(PlaypenNew, TheExplorationTemplateBuildsAndRuns) {
+TEST(PlaypenNew, ExplorationTemplate_BuildsAndRuns) {
   if (!nightly()) GTEST_SKIP() << kOnlyNightly;
   build_and_run("exploration", "out/par_exploration/report.json");
 }
 
-TEST(PlaypenNew, TheTrapsTemplateBuildsAndRuns) {
+TEST(PlaypenNew, TrapsTemplate_BuildsAndRuns) {
   if (!nightly()) GTEST_SKIP() << kOnlyNightly;
   build_and_run("traps", "out/par_traps/report.json");
 }
 
-TEST(PlaypenNew, TheTemplatesOfChangingArenasBuildAndRun) {
+TEST(PlaypenNew, ChangingArenaTemplates_BuildAndRun) {
   if (!nightly()) GTEST_SKIP() << kOnlyNightly;
   build_and_run("exploration_changing", "out/par_exploration_changing/report.json");
   build_and_run("chase", "out/par_chase/report.json");
   build_and_run("localization", "out/par_localization/report.json");
 }
 
-TEST(PlaypenNew, TheClientBuildsAndDrives) { build_and_run("client", "out/cave/report.json"); }
+TEST(PlaypenNew, Client_BuildsAndDrives) { build_and_run("client", "out/cave/report.json"); }
 
-TEST(PlaypenNew, PrintsTheNextCommandsForTheTask) {
+TEST(PlaypenNew, PrintsNextCommandsForTask) {
   const TemporaryFolder folder;
   const ProcessResult made = playpen({"new", "planning", "p"}, in(folder / "."));
   EXPECT_EQ(made.status, 0) << made.err;
@@ -138,7 +138,7 @@ TEST(PlaypenNew, PrintsTheNextCommandsForTheTask) {
   EXPECT_FALSE(fs::exists(folder / "p/build"));
 }
 
-TEST(PlaypenNew, KeepsWhatIsThereAlready) {
+TEST(PlaypenNew, ExistingFiles_Kept) {
   const TemporaryFolder folder;
   const std::string mine = folder.write("full/robot.cc", "int mine;");
   const ProcessResult full = playpen({"new", "intro", folder / "full"});
@@ -156,7 +156,7 @@ TEST(PlaypenNew, KeepsWhatIsThereAlready) {
   EXPECT_EQ(playpen({"new", "intro", folder / "a/b/c"}).status, 0);
 }
 
-TEST(PlaypenNew, OfACommandWithoutTemplatesSaysWhatIsMissing) {
+TEST(PlaypenNew, MissingTemplates_ErrorSaysWhatIsMissing) {
   const TemporaryFolder prefix;
   const std::string command = prefix.write("bin/playpen", "");
   fs::copy_file(PLAYPEN_COMMAND, command, fs::copy_options::overwrite_existing);
@@ -167,7 +167,7 @@ TEST(PlaypenNew, OfACommandWithoutTemplatesSaysWhatIsMissing) {
               AllOf(HasSubstr("share/playpen/templates/client"), HasSubstr("install Playpen")));
 }
 
-TEST(PlaypenDoctor, FindsThatRunsWorkAndProgramsCanBeBuilt) {
+TEST(PlaypenDoctor, WorkingSystem_Passes) {
   const TemporaryFolder folder;
   ProcessOptions options = in(folder / ".");
   options.environment["DISPLAY"] = "";
@@ -197,7 +197,7 @@ ProcessResult doctor_with(const std::map<std::string, std::string>& environment)
   return playpen({"doctor"}, options);
 }
 
-TEST(PlaypenDoctor, TellsOfVariablesAndOfABadDisplay) {
+TEST(PlaypenDoctor, VariablesAndInvalidDisplay_Reported) {
   const ProcessResult result = doctor_with({{"DISPLAY", ":4321"},
                                             {"PLAYPEN_SEED", "seven"},
                                             {"PLAYPEN_WROLD", "cave.json"},
@@ -212,7 +212,7 @@ TEST(PlaypenDoctor, TellsOfVariablesAndOfABadDisplay) {
                                 HasSubstr("sudo apt install g++")));
 }
 
-TEST(PlaypenDoctor, FailsWhereRunsCannotWork) {
+TEST(PlaypenDoctor, BrokenSystem_Fails) {
   const TemporaryFolder prefix;
   const std::string command = prefix.write("bin/playpen", "");
   fs::copy_file(PLAYPEN_COMMAND, command, fs::copy_options::overwrite_existing);

@@ -32,7 +32,8 @@ constexpr const char* kRows =
     "0.200,r1,0.600000,0.500000,0.000000,0.500000,-1.000000,0\n";
 
 std::string report(const std::string& world_file, const std::string& world = "small") {
-  return R"({"run": {"world": ")" + world + R"(", "world_file": ")" + world_file + R"("},
+  return R"({"run": {"world": ")" + world + R"(", "world_file": ")" + world_file +
+         R"(", "sim_time": 0.2}, "robots": [],
     "collisions": [{"time": 0.2, "robot": "r1", "with": "border", "x": 1.9, "y": 0.5}],
     "goals": [{"time": 0.0, "robot": "r1", "x": 1.5, "y": 0.5, "reached": null}]})";
 }
@@ -51,7 +52,7 @@ ProcessResult plot(const TemporaryFolder& folder, const std::vector<std::string>
   return playpen(call);
 }
 
-TEST(PlaypenPlot, DrawsARunAsPngAndAsSvg) {
+TEST(PlaypenPlot, Run_DrawnAsPngAndSvg) {
   const TemporaryFolder folder;
   write_run(folder, "one");
   const ProcessResult result = plot(folder, {"one"}, "a.png");
@@ -72,7 +73,7 @@ TEST(PlaypenPlot, DrawsARunAsPngAndAsSvg) {
   EXPECT_EQ(read_bytes(folder / "b.svg"), svg);
 }
 
-TEST(PlaypenPlot, ASecondRunIsDashedAndNamedByItsFolder) {
+TEST(PlaypenPlot, SecondRun_DashedAndNamedByFolder) {
   const TemporaryFolder folder;
   write_run(folder, "one");
   write_run(folder, "two");
@@ -82,7 +83,7 @@ TEST(PlaypenPlot, ASecondRunIsDashedAndNamedByItsFolder) {
                     HasSubstr("2 collisions")));
 }
 
-TEST(PlaypenPlot, WithoutTheWorldItSaysSoAndDrawsTheRest) {
+TEST(PlaypenPlot, MissingWorld_ReportedAndRestDrawn) {
   const TemporaryFolder folder;
   write_run(folder, "one");
   folder.write("one/report.json", report(folder / "gone.json"));
@@ -100,7 +101,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
-TEST(PlaypenPlot, MarksCollisionsAndReachedGoalsInTheCharts) {
+TEST(PlaypenPlot, Charts_MarkCollisionsAndReachedGoals) {
   const TemporaryFolder folder;
   write_run(folder, "one");
   ASSERT_EQ(plot(folder, {"one"}, "a.svg").status, 0);
@@ -115,7 +116,7 @@ TEST(PlaypenPlot, MarksCollisionsAndReachedGoalsInTheCharts) {
   EXPECT_EQ(count_of(read_bytes(folder / "a.svg"), "#1c8a3c"), 4U + 1U);
 }
 
-TEST(PlaypenPlot, EachWorldHasItsOwnScene) {
+TEST(PlaypenPlot, Scenes_OnePerWorld) {
   const TemporaryFolder folder;
   write_run(folder, "one");
   write_run(folder, "again");
@@ -132,7 +133,7 @@ TEST(PlaypenPlot, EachWorldHasItsOwnScene) {
                          HasSubstr("2 collisions"), HasSubstr("1 collision<")));
 }
 
-TEST(PlaypenPlot, TakesTheFolderOfAGrade) {
+TEST(PlaypenPlot, GradeFolder_Accepted) {
   const TemporaryFolder folder;
   write_run(folder, "grade/small_seed1");
   write_run(folder, "grade/small_seed2");
@@ -154,7 +155,7 @@ TEST(PlaypenPlot, TakesTheFolderOfAGrade) {
   EXPECT_THAT(plot(folder, {"grade"}, "a.svg").err, HasSubstr("expected the grade of a program"));
 }
 
-TEST(PlaypenPlot, SaysWhatIsWrongWithAFolder) {
+TEST(PlaypenPlot, InvalidFolder_ErrorNamesCause) {
   const TemporaryFolder folder;
   write_run(folder, "one");
   const auto complaint = [&](const std::string& run) {

@@ -71,7 +71,7 @@ class PlaypenRun : public testing::Test {
 };
 
 // The command reads the world to check it, and the program reads it once more.
-TEST_F(PlaypenRun, TakesAWorldFromAPipe) {
+TEST_F(PlaypenRun, World_ReadFromPipe) {
   const std::string line = std::string(PLAYPEN_COMMAND) + " run <(cat " + kIntroWorld +
                            ") --duration 1 --out " + out_ + " -- " + WALL_PROGRAM;
   const ProcessResult result = test_support::run_process({"bash", "-c", line});
@@ -79,7 +79,7 @@ TEST_F(PlaypenRun, TakesAWorldFromAPipe) {
   EXPECT_EQ(report().at("run").at("steps"), 100);
 }
 
-TEST_F(PlaypenRun, LeavesReportPicturesAndTrajectory) {
+TEST_F(PlaypenRun, WritesReportPicturesAndTrajectory) {
   world_ = kIntroWorld;
   const ProcessResult result = run({"--duration", "20"}, {WALL_PROGRAM});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -106,7 +106,7 @@ TEST_F(PlaypenRun, LeavesReportPicturesAndTrajectory) {
                                 HasSubstr("scene.png"), HasSubstr("canvas.png")));
 }
 
-TEST_F(PlaypenRun, TwiceGivesTheSameToTheBitButForWallTime) {
+TEST_F(PlaypenRun, FilesRepeatable_ExceptWallTime) {
   world_ = kIntroWorld;
   ASSERT_EQ(run({"--duration", "20"}, {WALL_PROGRAM}).status, 0);
   json first = report();
@@ -127,7 +127,7 @@ TEST_F(PlaypenRun, TwiceGivesTheSameToTheBitButForWallTime) {
   }
 }
 
-TEST_F(PlaypenRun, PortIsThatOfTheFirstRobot) {
+TEST_F(PlaypenRun, Port_SetsThatOfFirstRobot) {
   const std::vector<std::string> program = {WALL_PROGRAM, "--port", "7000"};
   const ProcessResult result = run({"--duration", "1", "--port", "7000"}, program);
   EXPECT_EQ(result.status, 0) << result.err;
@@ -144,7 +144,7 @@ TEST_F(PlaypenRun, PortIsThatOfTheFirstRobot) {
   }
 }
 
-TEST_F(PlaypenRun, AnotherSeedGivesAnotherWayIfThereIsNoise) {
+TEST_F(PlaypenRun, Seed_ChangesNoisyTrajectory) {
   world_ = folder_.write("noisy.json", room_world(0.01));
   ASSERT_EQ(run({"--duration", "10", "--seed", "1"}, {WALL_PROGRAM}).status, 0);
   const std::string first = output("trajectory.csv");
@@ -154,14 +154,14 @@ TEST_F(PlaypenRun, AnotherSeedGivesAnotherWayIfThereIsNoise) {
   EXPECT_TRUE(first != output("trajectory.csv"));
 }
 
-TEST_F(PlaypenRun, TheTemplateStandsStillAndEndsWell) {
+TEST_F(PlaypenRun, Template_StandsStillAndExits) {
   const ProcessResult result = run({"--duration", "5"}, {TEMPLATE_PROGRAM});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_DOUBLE_EQ(report().at("robots").at(0).at("path_length").get<double>(), 0.0);
   EXPECT_THAT(result.err, Not(HasSubstr("ERROR")));
 }
 
-TEST_F(PlaypenRun, TheSolutionsDriveFarWithoutCollisions) {
+TEST_F(PlaypenRun, Solutions_DriveFarWithoutCollision) {
   world_ = kIntroWorld;
   for (const char* program : {WALL_PROGRAM, AVOID_PROGRAM}) {
     const ProcessResult result = run({"--duration", "120"}, {program});
@@ -174,7 +174,7 @@ TEST_F(PlaypenRun, TheSolutionsDriveFarWithoutCollisions) {
   }
 }
 
-TEST_F(PlaypenRun, TheWallFollowerTakesEitherHandAndRefusesAThird) {
+TEST_F(PlaypenRun, WallFollower_AcceptsLeftOrRightHandOnly) {
   world_ = kIntroWorld;
   const ProcessResult right = run({"--duration", "60"}, {WALL_PROGRAM, "--side", "right"});
   ASSERT_EQ(right.status, 0) << right.err;
@@ -183,7 +183,7 @@ TEST_F(PlaypenRun, TheWallFollowerTakesEitherHandAndRefusesAThird) {
   EXPECT_EQ(run({"--duration", "1"}, {WALL_PROGRAM, "--side", "middle"}).status, 1);
 }
 
-TEST_F(PlaypenRun, RefusesABadWorldBeforeTheProgramStarts) {
+TEST_F(PlaypenRun, InvalidWorld_RefusedBeforeProgramStarts) {
   world_ = folder_.write("bad.json", R"({"robotz": []})");
   const ProcessResult result = run({}, {"/bin/echo", "started"});
   EXPECT_EQ(result.status, 2);
@@ -191,7 +191,7 @@ TEST_F(PlaypenRun, RefusesABadWorldBeforeTheProgramStarts) {
   EXPECT_THAT(result.out, Not(HasSubstr("started")));
 }
 
-TEST_F(PlaypenRun, SaysWhyAProgramCannotBeStarted) {
+TEST_F(PlaypenRun, ProgramThatCannotStart_Explained) {
   const std::string text = folder_.write("text.txt", "no program");
   const std::string script = folder_.write("here", "#!/bin/sh\n");
   fs::permissions(script, fs::perms::owner_all);
@@ -213,19 +213,19 @@ TEST_F(PlaypenRun, SaysWhyAProgramCannotBeStarted) {
   EXPECT_FALSE(fs::exists(out_)) << "nothing ran, so nothing should be left";
 }
 
-TEST_F(PlaypenRun, AProgramThatFailsIsReportedWithItsStatus) {
+TEST_F(PlaypenRun, FailedProgram_ReportedWithStatus) {
   const ProcessResult result = run({}, {"sh", "-c", "exit 3"});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.err, HasSubstr("ended with status 3"));
 }
 
-TEST_F(PlaypenRun, AProgramEndedByASignalIsReportedWithItsName) {
+TEST_F(PlaypenRun, SignalledProgram_ReportedWithSignalName) {
   const ProcessResult result = run({}, {"sh", "-c", "kill -KILL $$"});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.err, HasSubstr("was ended by signal 9 (Killed)"));
 }
 
-TEST_F(PlaypenRun, AProgramThatNeverConnectsIsAFailureAndOldResultsDoNotHideIt) {
+TEST_F(PlaypenRun, ProgramWithoutClient_FailsDespiteOldResults) {
   folder_.write("out/report.json", "{}");
   folder_.write("out/scene.png", "old");
   folder_.write("out/mine.txt", "kept");
@@ -237,7 +237,7 @@ TEST_F(PlaypenRun, AProgramThatNeverConnectsIsAFailureAndOldResultsDoNotHideIt) 
   EXPECT_EQ(output("mine.txt"), "kept");
 }
 
-TEST_F(PlaypenRun, PicturesThatCannotBeWrittenAreAFailureThatSaysSo) {
+TEST_F(PlaypenRun, UnwritablePictures_Fail) {
   // A folder at the place of a picture. The program's shell creates it, because earlier results are
   // removed before the run.
   const ProcessResult result =
@@ -250,7 +250,7 @@ TEST_F(PlaypenRun, PicturesThatCannotBeWrittenAreAFailureThatSaysSo) {
   EXPECT_TRUE(fs::is_regular_file(fs::path(out_) / "report.json")) << "it waits for no picture";
 }
 
-TEST_F(PlaypenRun, PassesSignalsOnToTheProgram) {
+TEST_F(PlaypenRun, Signals_PassedToProgram) {
   std::vector<std::string> command = arguments({}, {"sh", "-c", "echo ready; exec cat"});
   command.insert(command.begin(), PLAYPEN_COMMAND);
   for (const int signal : {SIGTERM, SIGINT}) {
@@ -264,7 +264,7 @@ TEST_F(PlaypenRun, PassesSignalsOnToTheProgram) {
   }
 }
 
-TEST_F(PlaypenRun, TellsTheProgramOfItsRunByTheEnvironment) {
+TEST_F(PlaypenRun, Environment_DescribesRunToProgram) {
   ProcessOptions options;
   options.folder = folder_.path();
   // The shell's variables are of other runs.
@@ -283,20 +283,20 @@ TEST_F(PlaypenRun, TellsTheProgramOfItsRunByTheEnvironment) {
                     Not(HasSubstr("PLAYPEN_TIME")), Not(HasSubstr("PLAYPEN_RECORD"))));
 }
 
-TEST_F(PlaypenRun, HandsOverTheProgramsArgumentsUntouched) {
+TEST_F(PlaypenRun, Arguments_PassedUnchanged) {
   const ProcessResult result =
       run({}, {"printf", "[%s]", "--seed", "-1", "--", "run", "a b", "[c,d]"});
   EXPECT_THAT(result.out, HasSubstr("[--seed][-1][--][run][a b][[c,d]]"));
 }
 
-TEST_F(PlaypenRun, QuietPrintsNothingOfItsOwn) {
+TEST_F(PlaypenRun, Quiet_PrintsNothing) {
   const ProcessResult result = run({"--quiet", "--duration", "1"}, {TEMPLATE_PROGRAM});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, IsEmpty());
   EXPECT_THAT(result.err, Not(HasSubstr("playpen")));
 }
 
-TEST_F(PlaypenRun, PutsResultsInAFolderOfTheWorldsNameByDefault) {
+TEST_F(PlaypenRun, DefaultFolder_NamedAfterWorld) {
   ProcessOptions options;
   options.folder = folder_.path();
   const ProcessResult result =
@@ -305,13 +305,13 @@ TEST_F(PlaypenRun, PutsResultsInAFolderOfTheWorldsNameByDefault) {
   EXPECT_TRUE(fs::exists(folder_ / "out/room/report.json"));
 }
 
-TEST_F(PlaypenRun, TheDefaultWorldNeedsNoFile) {
+TEST_F(PlaypenRun, DefaultWorld_NeedsNoFile) {
   world_ = "default";
   ASSERT_EQ(run({"--duration", "1"}, {TEMPLATE_PROGRAM}).status, 0);
   EXPECT_DOUBLE_EQ(report().at("run").at("sim_time").get<double>(), 1.0);
 }
 
-TEST_F(PlaypenRun, RecordsAFilm) {
+TEST_F(PlaypenRun, RecordsFilm) {
   const std::string film = folder_ / "film.mp4";
   const ProcessResult result = run({"--duration", "1", "--record", film}, {WALL_PROGRAM});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -321,7 +321,7 @@ TEST_F(PlaypenRun, RecordsAFilm) {
   EXPECT_EQ(run({"--record", folder_ / "none/film.mp4"}, {WALL_PROGRAM}).status, 2);
 }
 
-TEST_F(PlaypenRun, FilmsHaveTheFramesTheSizeAndTheRateAskedFor) {
+TEST_F(PlaypenRun, Film_HasRequestedFramesSizeAndRate) {
   for (const char* name : {"film.mp4", "film.avi"}) {
     const std::string film = folder_ / name;
     const ProcessResult result =
@@ -339,7 +339,7 @@ TEST_F(PlaypenRun, FilmsHaveTheFramesTheSizeAndTheRateAskedFor) {
   }
 }
 
-TEST_F(PlaypenRun, FilmsIntoAFolderAndTakesPicturesOnTheWay) {
+TEST_F(PlaypenRun, FilmFolderAndSnapshots_Written) {
   folder_.write("out/snapshots/scene_000077.000s.png", "old");
   folder_.write("out/layers/old.png", "old");
   const ProcessResult result =
@@ -358,7 +358,7 @@ TEST_F(PlaypenRun, FilmsIntoAFolderAndTakesPicturesOnTheWay) {
   EXPECT_TRUE(output("scene.png") == output("snapshots/scene_000002.000s.png"));
 }
 
-TEST_F(PlaypenRun, HasTheLevelOfRealismOfItsOptionOrOfItsWorld) {
+TEST_F(PlaypenRun, Realism_FromOptionOrWorld) {
   json hashes;
   for (const char* level : {"ideal", "course", "real"}) {
     const ProcessResult result = run({"--duration", "3", "--realism", level}, {WALL_PROGRAM});
@@ -378,7 +378,7 @@ TEST_F(PlaypenRun, HasTheLevelOfRealismOfItsOptionOrOfItsWorld) {
   EXPECT_EQ(report().at("run").at("state_hash"), hashes["course"]);
 }
 
-TEST_F(PlaypenRun, RefusesAViewModeThatTheWorldDoesNotAllowBeforeTheProgramStarts) {
+TEST_F(PlaypenRun, ForbiddenViewMode_RefusedBeforeProgramStarts) {
   json world = json::parse(room_world());
   world["canvas"]["view_mode"] = "full-screen";
   world["canvas"]["lock_view_mode"] = true;

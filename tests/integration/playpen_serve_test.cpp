@@ -70,7 +70,7 @@ class PlaypenServe : public testing::Test {
   int port_ = 0;
 };
 
-TEST_F(PlaypenServe, AnswersUntilASignalThenWritesReportAndPictures) {
+TEST_F(PlaypenServe, Signal_WritesReportAndPictures) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     start({"--time", "lockstep"});
     RawClient client = connect();
@@ -95,7 +95,7 @@ TEST_F(PlaypenServe, AnswersUntilASignalThenWritesReportAndPictures) {
   }
 }
 
-TEST_F(PlaypenServe, TakesTheClockOnTheWallUnlessTheWorldSaysOtherwise) {
+TEST_F(PlaypenServe, TimeMode_PacedUnlessWorldSetsIt) {
   const auto mode = [&] {
     RawClient client = connect();
     client.send("1 time statistics\n");
@@ -117,7 +117,7 @@ TEST_F(PlaypenServe, TakesTheClockOnTheWallUnlessTheWorldSaysOtherwise) {
   EXPECT_EQ(mode(), "paced");
 }
 
-TEST_F(PlaypenServe, TellsClientsOfTheEndAndEndsWhenTheyHaveLeft) {
+TEST_F(PlaypenServe, EndOfRun_SentToClientsThenExits) {
   start({"--time", "lockstep", "--duration", "0.5", "--record", folder_ / "film/",
          "--snapshot-every", "0.25", "--quiet"});
   RawClient client = connect();
@@ -211,7 +211,7 @@ TEST_F(PlaypenServe, SignalDuringMuchWork_EndsWithResults) {
   EXPECT_TRUE(report().at("run").at("state_hash").is_string());
 }
 
-TEST_F(PlaypenServe, EndsAlthoughAClientStaysWhenTheRunIsOver) {
+TEST_F(PlaypenServe, EndOfRun_ExitsDespiteConnectedClient) {
   start({"--time", "lockstep", "--duration", "0.5"});
   RawClient client = connect();
   client.send("1 time sleep [10]\n");
@@ -219,7 +219,7 @@ TEST_F(PlaypenServe, EndsAlthoughAClientStaysWhenTheRunIsOver) {
   EXPECT_EQ(server_->finish().status, 0);
 }
 
-TEST_F(PlaypenServe, APortThatIsTakenIsToldBeforeResultsAreRemoved) {
+TEST_F(PlaypenServe, PortInUse_ErrorBeforeResultsAreRemoved) {
   start({"--time", "lockstep"});
   ASSERT_TRUE(fs::exists(result("trajectory.csv")));
   const ProcessResult second = playpen(arguments({"--tcp-port", std::to_string(port_)}));
@@ -231,7 +231,7 @@ TEST_F(PlaypenServe, APortThatIsTakenIsToldBeforeResultsAreRemoved) {
   EXPECT_FALSE(fs::exists(result("report.json")));
 }
 
-TEST_F(PlaypenServe, HoldsTimeUntilTheClientsAreThere) {
+TEST_F(PlaypenServe, StartGate_HoldsTimeUntilClientsJoin) {
   start({"--time", "lockstep", "--clients", "2"});
   const std::string hello = "1 playpen hello [{\"version\": 1, \"process\": \"P\"}]\n";
   const std::string sleep = R"({"id": 2, "do": "read", "wait": "sleep", "timeout": 1})"
@@ -246,14 +246,14 @@ TEST_F(PlaypenServe, HoldsTimeUntilTheClientsAreThere) {
   EXPECT_EQ(json::parse(two.line()).at("t"), 1'000'000'000);
 }
 
-TEST_F(PlaypenServe, StartsWithoutClientsIfItIsToWaitForNone) {
+TEST_F(PlaypenServe, StartGateOfZero_StartsWithoutClients) {
   start({"--time", "1000", "--clients", "0", "--duration", "1"});
   const ProcessResult end = server_->finish();
   EXPECT_EQ(end.status, 0) << end.err;
   EXPECT_EQ(report().at("run").at("steps"), 100);
 }
 
-TEST_F(PlaypenServe, WithATokenFileTheRobotObeysItsHolder) {
+TEST_F(PlaypenServe, TokenFile_RobotObeysHolderOnly) {
   const std::string tokens = folder_.write("tokens.json", R"({"robots": {"r1": "only alice"}})");
   const ProcessResult blank = playpen(arguments({"--token-file", tokens}));
   EXPECT_EQ(blank.status, 2);
@@ -275,7 +275,7 @@ TEST_F(PlaypenServe, WithATokenFileTheRobotObeysItsHolder) {
   EXPECT_EQ(client.line(), "3 SUCCESS");
 }
 
-TEST_F(PlaypenServe, OtherMachinesNeedATokenOrAnOpenDoor) {
+TEST_F(PlaypenServe, OtherMachines_NeedTokenOrOpenOption) {
   const ProcessResult refused = playpen(arguments({"--bind", "0.0.0.0", "--tcp-port", "0"}));
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, AllOf(HasSubstr("server/token-needed"), HasSubstr("--open")));
@@ -285,7 +285,7 @@ TEST_F(PlaypenServe, OtherMachinesNeedATokenOrAnOpenDoor) {
   EXPECT_THAT(client.line(), testing::StartsWith("1 SUCCESS"));
 }
 
-TEST_F(PlaypenServe, LimitsAreOptions) {
+TEST_F(PlaypenServe, Limits_AreOptions) {
   start({"--max-message", "300", "--first-request-timeout", "0.3", "--sync-port", "0"});
   EXPECT_THAT(server_->output(), HasSubstr(", clock synchronisation on "));
   RawClient silent = connect();
@@ -299,7 +299,7 @@ TEST_F(PlaypenServe, LimitsAreOptions) {
   EXPECT_THAT(answer, HasSubstr("protocol/too-long"));
 }
 
-TEST_F(PlaypenServe, PlayersClientsFindEachRobotOnItsOwnPort) {
+TEST_F(PlaypenServe, PlayerClients_FindEachRobotOnItsPort) {
   start({"--player-port", "0"});
   const std::string start_of_line = "Player's protocol on 127.0.0.1:";
   ASSERT_TRUE(server_->read_until(start_of_line));
@@ -311,7 +311,7 @@ TEST_F(PlaypenServe, PlayersClientsFindEachRobotOnItsOwnPort) {
 }
 
 // A free port may be taken again before the server opens it.
-TEST_F(PlaypenServe, PortIsThatOfTheFirstRobotInBothProtocols) {
+TEST_F(PlaypenServe, Port_SetsFirstRobotInBothProtocols) {
   for (int attempt = 0; attempt < 20; ++attempt) {
     const std::string port = std::to_string(20'000 + (getpid() * 7 + attempt * 1009) % 30'000);
     server_.emplace(std::vector<std::string>{PLAYPEN_COMMAND, "serve", world_, "--out", out_,
@@ -331,7 +331,7 @@ TEST_F(PlaypenServe, PortIsThatOfTheFirstRobotInBothProtocols) {
   FAIL() << "no free port";
 }
 
-TEST_F(PlaypenServe, TheShellsSettingsOfRunsDoNotCount) {
+TEST_F(PlaypenServe, RunVariablesOfShell_Ignored) {
   ProcessOptions process;
   process.environment = {{"PLAYPEN_SEED", "no number"}, {"PLAYPEN_DURATION", "1"}};
   start({"--time", "lockstep"}, process);
@@ -340,7 +340,7 @@ TEST_F(PlaypenServe, TheShellsSettingsOfRunsDoNotCount) {
   EXPECT_EQ(client.line(), "1 SUCCESS");
 }
 
-TEST_F(PlaypenServe, BadOptionsAreRefusedByNameAndValue) {
+TEST_F(PlaypenServe, InvalidOptions_RefusedByNameAndValue) {
   struct Case {
     const char* option;
     const char* value;

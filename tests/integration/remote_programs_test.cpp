@@ -103,36 +103,36 @@ class RemotePrograms : public testing::Test {
   Files files_;
 };
 
-TEST_F(RemotePrograms, OfTheIntroductionDoTheSame) {
+TEST_F(RemotePrograms, Introduction_SameAsInProcess) {
   expect_the_same_across_a_network(task_world("par_intro"), {"--duration", "20"}, {AVOID_PROGRAM});
   expect_the_same_across_a_network(task_world("par_intro"), {"--duration", "20"}, {WALL_PROGRAM},
                                    "json");
 }
 
-TEST_F(RemotePrograms, OfPlanningDoTheSame) {
+TEST_F(RemotePrograms, Planning_SameAsInProcess) {
   for (const char* program : {DIJKSTRA_PROGRAM, THETA_PROGRAM}) {
     expect_the_same_across_a_network(task_world("par_planning"), {}, {program});
   }
 }
 
-TEST_F(RemotePrograms, OfExplorationDoTheSame) {
+TEST_F(RemotePrograms, Exploration_SameAsInProcess) {
   for (const char* program : {NEAREST_PROGRAM, GAIN_PROGRAM}) {
     expect_the_same_across_a_network(task_world("par_exploration"), {"--duration", "30"},
                                      {program});
   }
 }
 
-TEST_F(RemotePrograms, OfTheTrapsDoTheSame) {
+TEST_F(RemotePrograms, Traps_SameAsInProcess) {
   expect_the_same_across_a_network(task_world("par_traps"), {"--seed", "3"}, {TRAPS_PROGRAM});
 }
 
-TEST_F(RemotePrograms, AsTheyAreInTheWildDoTheSame) {
+TEST_F(RemotePrograms, ExistingPrograms_SameAsInProcess) {
   const std::string world = PLAYPEN_SOURCE_DIR "/worlds/syrotek.json";
   expect_the_same_across_a_network(world, {}, {PLAYER_PROGRAM});
   expect_the_same_across_a_network(world, {}, {CCMORSE_PROGRAM});
 }
 
-TEST_F(RemotePrograms, TwoProcessesWithARobotEachDoTheSameEveryTime) {
+TEST_F(RemotePrograms, TwoProcesses_Repeatable) {
   // A wall between the robots, so that neither sees the other or draws over its drawing.
   const std::string world = folder_.write("two.json", R"({
     "arena": {"size": [3.42, 3.72],
@@ -160,7 +160,7 @@ TEST_F(RemotePrograms, TwoProcessesWithARobotEachDoTheSameEveryTime) {
   }
 }
 
-TEST_F(RemotePrograms, SayWhereNoServerIs) {
+TEST_F(RemotePrograms, NoServer_ErrorNamesAddress) {
   ProcessOptions remote;
   remote.environment["PLAYPEN_WORLD"] = "tcp://127.0.0.1:1";
   const ProcessResult result = test_support::run_process({PLAYER_PROGRAM}, remote);
@@ -168,7 +168,7 @@ TEST_F(RemotePrograms, SayWhereNoServerIs) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("127.0.0.1:1"), HasSubstr("playpen serve")));
 }
 
-TEST_F(RemotePrograms, AreNotRunByPlaypenRun) {
+TEST_F(RemotePrograms, PlaypenRun_RefusesRemotePrograms) {
   const ProcessResult result = playpen({"run", "tcp://lab:4000", "--", PLAYER_PROGRAM});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("PLAYPEN_WORLD=tcp://lab:4000 " PLAYER_PROGRAM));

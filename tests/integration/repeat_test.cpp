@@ -95,7 +95,7 @@ class Repeats : public testing::Test {
   std::string out_ = folder_ / "out";
 };
 
-TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
+TEST_F(Repeats, ThreadedProgramsUnderLoad_Repeatable) {
   const std::vector<Command> all = programs();
   ASSERT_GE(all.size(), 29U);
   int runs = 0;
@@ -140,7 +140,7 @@ TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
 }
 
 // The system's clocks start at its boot. No result may depend on that.
-TEST_F(Repeats, SoDoTheyOnAMachineThatWasJustStarted) {
+TEST_F(Repeats, RecentBoot_SameResults) {
   std::ifstream file("/proc/uptime");
   double uptime_s = 0.0;
   ASSERT_TRUE(file >> uptime_s);

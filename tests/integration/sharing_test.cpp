@@ -58,24 +58,24 @@ class SharedRun : public testing::Test {
   std::string both_ = std::string(PROGRAM) + " 6665 r2 0.5 & " + PROGRAM + " 6666 r1 0.5; wait";
 };
 
-TEST_F(SharedRun, ProgramsOfAShellShareTheWorld) {
+TEST_F(SharedRun, ProgramsOfShell_ShareWorld) {
   const ProcessResult result = run({}, {"sh", "-c", both_});
   expect_shared(result);
   EXPECT_THAT(result.err, HasSubstr("several programs share the world"));
 }
 
-TEST_F(SharedRun, StartGateCountsTheClientsOfAllPrograms) {
+TEST_F(SharedRun, StartGate_CountsClientsOfAllPrograms) {
   for (const char* time : {"lockstep", "10"}) {
     expect_shared(run({"--clients", "2", "--time", time}, {"sh", "-c", both_}));
   }
 }
 
-TEST_F(SharedRun, AForkedProgramHasItsOwnClient) {
+TEST_F(SharedRun, ForkedProgram_HasItsOwnClient) {
   expect_shared(run({"--time", "10", "--clients", "2"}, {PROGRAM, "6665", "r2", "0.5", "fork"}));
 }
 
 // A program of a shell has its own world, which two runs repeat.
-TEST_F(SharedRun, OneProgramOfAShellRunsInItsOwnProcess) {
+TEST_F(SharedRun, SingleProgram_RunsInItsProcess) {
   const std::string line = std::string(PROGRAM) + " 6665 r1 0.5 | cat; true";
   for (int i = 0; i < 2; ++i) {
     const ProcessResult result = run({}, {"sh", "-c", line});
@@ -85,7 +85,7 @@ TEST_F(SharedRun, OneProgramOfAShellRunsInItsOwnProcess) {
   }
 }
 
-TEST_F(SharedRun, ProgramsOneAfterTheOtherHaveAWorldEach) {
+TEST_F(SharedRun, SequentialPrograms_GetSeparateWorlds) {
   const std::string line = std::string(PROGRAM) + " 6665 r1 0.5; " + PROGRAM + " 6666 r2 0.7";
   const ProcessResult result = run({}, {"sh", "-c", line});
   EXPECT_EQ(result.status, 0) << result.err;
@@ -94,7 +94,7 @@ TEST_F(SharedRun, ProgramsOneAfterTheOtherHaveAWorldEach) {
 }
 
 // The first program holds the world, and waits for a line of input, when the second one comes.
-TEST_F(SharedRun, AProgramThatComesLaterIsRefused) {
+TEST_F(SharedRun, LateProgram_Refused) {
   const std::string input = folder_ / "input";
   const std::string output = folder_ / "output";
   const std::string line =

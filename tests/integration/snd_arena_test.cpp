@@ -195,7 +195,7 @@ std::string name_of(CCMorse::SndDriver::Status status) {
   return kNames.at(static_cast<std::size_t>(status));
 }
 
-TEST(SndArena, OpenGoalsAreReachedAndNothingIsEverHit) {
+TEST(SndArena, OpenGoals_ReachedWithoutCollision) {
   const char* only = std::getenv("SND_CASE");
   int open = 0;
   int open_reached = 0;

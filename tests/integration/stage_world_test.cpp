@@ -37,7 +37,7 @@ class StageCommands : public testing::Test {
 };
 
 // Ten rounds of 0.1 s: the first command takes effect after the first round. Then it drives on.
-TEST_F(StageCommands, AProgramDrivesARobotOfAWorldFile) {
+TEST_F(StageCommands, Program_DrivesRobotOfWorldFile) {
   const ProcessResult result = run(world_);
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("16 sonars, 180 beams"));
@@ -45,7 +45,7 @@ TEST_F(StageCommands, AProgramDrivesARobotOfAWorldFile) {
   EXPECT_THAT(result.err, HasSubstr("room.world:5: the controller \"fasr\""));
 }
 
-TEST_F(StageCommands, TheImportedWorldRunsTheSame) {
+TEST_F(StageCommands, ImportedWorld_RunsTheSame) {
   const ProcessResult imported = playpen({"import", world_, "--out", folder_ / "made"});
   ASSERT_EQ(imported.status, 0) << imported.err;
   const std::string made = folder_ / "made/room.json";
@@ -56,7 +56,7 @@ TEST_F(StageCommands, TheImportedWorldRunsTheSame) {
   EXPECT_EQ(playpen({"render", world_, "--out", folder_ / "a.png", "--size", "64"}).status, 0);
 }
 
-TEST_F(StageCommands, AConfigurationFileStandsForItsWorld) {
+TEST_F(StageCommands, ConfigurationFile_LoadsItsWorld) {
   const std::string config = folder_.write("other.cfg", R"(
 driver ( name "stage" provides ["simulation:0"] worldfile "room.world" )
 driver ( name "stage" provides ["position2d:0" "ranger:0" "ranger:1"] model "r0" )

@@ -57,7 +57,7 @@ class StandingTime : public testing::Test {
   std::string world_ = folder_.write("room.json", room_world());
 };
 
-TEST_F(StandingTime, AProgramThatOnlyCommandsIsToldAtItsEnd) {
+TEST_F(StandingTime, CommandsOnly_ReportedAtEnd) {
   for (const char* name : {"command_once", "c_command_once"}) {
     const ProcessResult result = run(name);
     EXPECT_EQ(result.status, 0);
@@ -70,7 +70,7 @@ TEST_F(StandingTime, AProgramThatOnlyCommandsIsToldAtItsEnd) {
   }
 }
 
-TEST_F(StandingTime, AProgramThatLoopsIsToldMeanwhileAndOnce) {
+TEST_F(StandingTime, CommandLoop_ReportedOnce) {
   for (const char* name : {"command_for_ever", "look_for_ever", "read_once", "command_in_a_thread",
                            "c_command_for_ever"}) {
     const ProcessResult result = run(name);
@@ -81,7 +81,7 @@ TEST_F(StandingTime, AProgramThatLoopsIsToldMeanwhileAndOnce) {
   EXPECT_THAT(run_plainly("command_in_a_thread").err, HasSubstr(kStandsStill));
 }
 
-TEST_F(StandingTime, SleepsBetweenCommandsGiveItAwaySoonerWhereTheyMoveNothing) {
+TEST_F(StandingTime, CommandsAndSleeps_ReportedSoonerWithoutPlaypenRun) {
   const ProcessResult result = run_plainly("command_and_sleep");
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.err,
@@ -89,7 +89,7 @@ TEST_F(StandingTime, SleepsBetweenCommandsGiveItAwaySoonerWhereTheyMoveNothing) 
                     Not(HasSubstr(kNothing))));
 }
 
-TEST_F(StandingTime, ALoopWithoutAnyCallIsToldAfterSomeProcessorTime) {
+TEST_F(StandingTime, LoopWithoutCalls_ReportedByProcessorTime) {
   const ProcessResult result = run("compute_for_ever", with("PLAYPEN_SILENCE_LIMIT", "0.1"));
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(count(result.err, kBusy), 1) << result.err;
@@ -103,13 +103,13 @@ TEST_F(StandingTime, ALoopWithoutAnyCallIsToldAfterSomeProcessorTime) {
   EXPECT_THAT(run("compute_for_ever").err, AllOf(HasSubstr(kNothing), Not(HasSubstr(kBusy))));
 }
 
-TEST_F(StandingTime, WhoGivesUpWithAnErrorIsNotToldMore) {
+TEST_F(StandingTime, ProgramThatExitsWithError_NotWarned) {
   const ProcessResult result = run_plainly("give_up");
   EXPECT_EQ(result.status, 3);
   EXPECT_THAT(result.err, IsEmpty());
 }
 
-TEST_F(StandingTime, ProgramsThatLetTimePassAreLeftAlone) {
+TEST_F(StandingTime, ProgramsThatAdvanceTime_NotWarned) {
   for (const char* name : {"peek", "command_each_beam", "background", "sleep_only",
                            "read_in_a_thread", "look_at_the_map", "c_asks"}) {
     const ProcessResult result = run(name);
@@ -123,7 +123,7 @@ TEST_F(StandingTime, ProgramsThatLetTimePassAreLeftAlone) {
   }
 }
 
-TEST_F(StandingTime, AProgramInCIsToldWhatThereIsToSubscribeTo) {
+TEST_F(StandingTime, CProgram_SuggestsSubscriptions) {
   const ProcessResult result = run("c_no_such_device");
   EXPECT_NE(result.status, 0);
   EXPECT_EQ(count(result.err,

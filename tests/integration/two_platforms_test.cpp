@@ -51,7 +51,7 @@ class TwoPlatforms : public testing::Test {
   std::optional<Process> server_;
 };
 
-TEST_F(TwoPlatforms, TheSimulation) {
+TEST_F(TwoPlatforms, Simulation_DrivenBySameProgram) {
   const ProcessResult result =
       playpen({"run", world_, "--out", out_, "--quiet", "--", SIMULATION_PROGRAM});
   EXPECT_EQ(result.status, 0) << result.err;
@@ -61,7 +61,7 @@ TEST_F(TwoPlatforms, TheSimulation) {
 
 // The name of the robot is all that the program gets. It has no protocol, and the port is that of
 // the program.
-TEST_F(TwoPlatforms, TheRobotOnThePortOfTheCourse) {
+TEST_F(TwoPlatforms, RobotOnCoursePort_DrivenBySameProgram) {
   serve({"--bind", own_loopback(), "--player-port", "38000"});
   EXPECT_THAT(server_->output(),
               HasSubstr("Player's protocol on " + own_loopback() + ":38000: r1"));
@@ -72,7 +72,7 @@ TEST_F(TwoPlatforms, TheRobotOnThePortOfTheCourse) {
 }
 
 // "localhost" is a Player server if PLAYPEN_WORLD says so. There is no grid-map window then.
-TEST_F(TwoPlatforms, TheRobotThatTheWorldNames) {
+TEST_F(TwoPlatforms, RobotNamedByWorld_DrivenBySameProgram) {
   serve({"--player-port", "0"});
   const std::string& said = server_->output();
   const std::string address = said.substr(said.rfind("127.0.0.1:"));

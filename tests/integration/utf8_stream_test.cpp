@@ -8,7 +8,7 @@
 namespace playpen {
 namespace {
 
-TEST(Utf8Stream, PassesOnValidCharactersHoweverTheyAreWritten) {
+TEST(Utf8Stream, ValidCharacters_PassedInAnyPieces) {
   std::ostringstream out;
   {
     const Utf8Stream filter(out);
@@ -22,7 +22,7 @@ TEST(Utf8Stream, PassesOnValidCharactersHoweverTheyAreWritten) {
   EXPECT_EQ(out.str().back(), '\xff') << "the stream is its own again";
 }
 
-TEST(Utf8Stream, EscapesOtherBytes) {
+TEST(Utf8Stream, OtherBytes_Escaped) {
   std::ostringstream out;
   {
     const Utf8Stream filter(out);

@@ -80,14 +80,14 @@ class VirtualTime : public testing::Test {
   std::string out_ = folder_ / "out";
 };
 
-TEST_F(VirtualTime, AProgramThatNeverReadsDrivesAsLongAsItSleeps) {
+TEST_F(VirtualTime, ProgramWithoutReads_DrivesWhileItSleeps) {
   ASSERT_EQ(run("drive_by_sleeping").status, 0);
   EXPECT_DOUBLE_EQ(sim_time(), 3.5);
   // 3 s at 0.1 m/s, minus the loss by acceleration and braking at 1 m/s^2 or more: 2 * 0.05 s * v.
   EXPECT_NEAR(robot().at("path_length").get<double>(), 0.3, 0.011);
 }
 
-TEST_F(VirtualTime, EveryWayToSleepMovesSimulatedTimeAndTheClock) {
+TEST_F(VirtualTime, EverySleep_AdvancesSimulatedTime) {
   std::istringstream lines(printed("sleep_in_all_ways"));
   int ways = 0;
   for (std::string line; std::getline(lines, line); ++ways) {
@@ -104,7 +104,7 @@ TEST_F(VirtualTime, EveryWayToSleepMovesSimulatedTimeAndTheClock) {
   EXPECT_EQ(ways, 24);
 }
 
-TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
+TEST_F(VirtualTime, HeavyLoad_SameReport) {
   const std::string duration_s = cases("20", "60");
   for (const char* name :
        {"drive_by_sleeping", "read_and_sleep", "read_in_background", "read_in_own_thread"}) {
@@ -125,7 +125,7 @@ TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
 
 // Video encoders have their own threads, which are not threads of the program. They may wait for
 // one another while a step waits for them.
-TEST_F(VirtualTime, AFilmChangesNothing) {
+TEST_F(VirtualTime, Film_DoesNotChangeRun) {
   const std::string duration_s = cases("3", "20");
   for (const char* name : {"read_in_background", "read_in_own_thread"}) {
     ASSERT_EQ(run(name, {"--duration", duration_s, "--quiet"}).status, 0);
@@ -138,12 +138,12 @@ TEST_F(VirtualTime, AFilmChangesNothing) {
   }
 }
 
-TEST_F(VirtualTime, SixtySecondsOfReadingAndSleepingAreSixtySeconds) {
+TEST_F(VirtualTime, SixtySecondsOfReadsAndSleeps_TakeSixtySimulatedSeconds) {
   ASSERT_EQ(run("read_and_sleep", {"--duration", "60"}).status, 0);
   EXPECT_DOUBLE_EQ(sim_time(), 60.0);
 }
 
-TEST_F(VirtualTime, ABackgroundThreadStaysInLockstep) {
+TEST_F(VirtualTime, BackgroundThread_StaysInLockstep) {
   const ProcessResult result = run("read_in_background");
   ASSERT_EQ(result.status, 0);
   EXPECT_THAT(result.err, Not(HasSubstr("warning")));
@@ -154,7 +154,7 @@ TEST_F(VirtualTime, ABackgroundThreadStaysInLockstep) {
   EXPECT_GT(robot().at("path_length").get<double>(), 0.5);
 }
 
-TEST_F(VirtualTime, ThreadsOfTheProgramTakeTurnsInTheSameOrderEachTime) {
+TEST_F(VirtualTime, Threads_TakeTurnsInSameOrder) {
   const std::string first = printed("read_in_own_thread");
   const std::string second = printed("read_in_own_thread");
   EXPECT_EQ(first, second);
@@ -163,7 +163,7 @@ TEST_F(VirtualTime, ThreadsOfTheProgramTakeTurnsInTheSameOrderEachTime) {
   EXPECT_THAT(first, AllOf(HasSubstr(" 1\n"), HasSubstr(" 2\n"), Not(HasSubstr(" 3\n"))));
 }
 
-TEST_F(VirtualTime, ThreadsThatBeginAtTheSameMomentDoSoInTheSameOrder) {
+TEST_F(VirtualTime, ThreadsStartedTogether_RunInSameOrder) {
   const std::string first = printed("have_threads_with_clients");
   EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 80);
   const json first_report = report();
@@ -171,7 +171,7 @@ TEST_F(VirtualTime, ThreadsThatBeginAtTheSameMomentDoSoInTheSameOrder) {
   EXPECT_EQ(first_report, report());
 }
 
-TEST_F(VirtualTime, WhoWaitsForTheClockGetsAStepALook) {
+TEST_F(VirtualTime, PollingTheClock_AdvancesOneStepPerCall) {
   // 3 s in steps of 10 ms, minus the clock reads before that.
   const std::string out = printed("wait_for_the_clock");
   const int asked = std::atoi(out.substr(std::string("asked ").size()).c_str());
@@ -180,14 +180,14 @@ TEST_F(VirtualTime, WhoWaitsForTheClockGetsAStepALook) {
   EXPECT_NEAR(robot().at("path_length").get<double>(), 0.3, 0.011);
 }
 
-TEST_F(VirtualTime, ALookATurnMovesNothing) {
+TEST_F(VirtualTime, OneClockReadPerRound_AdvancesNothing) {
   // A scan every 0.1 s, and the clock of 2026-01-01, 1767225600 s.
   const std::string out = printed("look_at_the_clock");
   EXPECT_THAT(out, StartsWith("0.100 600.100\n0.200 600.200\n0.300 600.300\n"));
   EXPECT_THAT(out, EndsWith("2.000 602.000\n"));
 }
 
-TEST_F(VirtualTime, TheClockDoesNotJumpWhenTheSimulationBegins) {
+TEST_F(VirtualTime, Clock_ContinuousWhenSimulationStarts) {
   const std::string first = printed("begin_before_the_client");
   EXPECT_THAT(first, HasSubstr("\n0.02\n"));
   // Ten times 1 s by the clock; the last Read() returns with the scan of that time.
@@ -195,25 +195,25 @@ TEST_F(VirtualTime, TheClockDoesNotJumpWhenTheSimulationBegins) {
   EXPECT_EQ(first, printed("begin_before_the_client"));
 }
 
-TEST_F(VirtualTime, ASleepingProgramEndsWithTheRun) {
+TEST_F(VirtualTime, SleepingProgram_EndsWithRun) {
   const ProcessResult result = run("drive_for_ever", {"--duration", "20"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("drives\n"));
-  EXPECT_THAT(result.err, HasSubstr("the run is over: the program was ended in its sleep"));
+  EXPECT_THAT(result.err, HasSubstr("the run is over: the program was ended while it slept"));
   EXPECT_DOUBLE_EQ(sim_time(), 20.0);
   EXPECT_EQ(run("drive_for_ever", {"--duration", "20", "--quiet"}).err, "");
 }
 
-TEST_F(VirtualTime, SoDoesOneThatCatchesAllErrors) {
+TEST_F(VirtualTime, ProgramThatCatchesErrors_EndsWithRun) {
   EXPECT_EQ(run("drive_for_ever_in_background", {"--duration", "5"}).status, 0);
   EXPECT_DOUBLE_EQ(sim_time(), 5.0);
 }
 
-TEST_F(VirtualTime, SoDoesOneThatNeitherReadsNorSleeps) {
+TEST_F(VirtualTime, ProgramWithoutReadsOrSleeps_EndsWithRun) {
   const ProcessResult result = run("command_for_ever", {"--duration", "2"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.err, AllOf(HasSubstr("was ended while it went on without calling Read()"),
-                                Not(HasSubstr("in its sleep"))));
+  EXPECT_THAT(result.err, AllOf(HasSubstr("was ended while it ran without calling Read()"),
+                                Not(HasSubstr("slept"))));
   EXPECT_DOUBLE_EQ(sim_time(), 2.0);
   EXPECT_NEAR(robot().at("path_length").get<double>(), 0.02, 0.002);
   const json first = report().at("run").at("state_hash");
@@ -221,7 +221,7 @@ TEST_F(VirtualTime, SoDoesOneThatNeitherReadsNorSleeps) {
   EXPECT_EQ(report().at("run").at("state_hash"), first);
 }
 
-TEST_F(VirtualTime, OneThatTakesTheEndForAnErrorHasNotFailed) {
+TEST_F(VirtualTime, EndHandledAsError_NotFailure) {
   const ProcessResult result = run("take_the_end_for_an_error", {"--duration", "5"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.err, HasSubstr("ended with status 255 when the run was over"));
@@ -229,7 +229,7 @@ TEST_F(VirtualTime, OneThatTakesTheEndForAnErrorHasNotFailed) {
 }
 
 // The status 1 may be the end of the run only if it comes then.
-TEST_F(VirtualTime, OneThatFailsBeforeTheEndHasFailed) {
+TEST_F(VirtualTime, FailureBeforeEnd_IsFailure) {
   const std::string program = SLEEPING_PROGRAM " drive_by_sleeping; exit 1";
   const ProcessResult result =
       playpen({"run", world_, "--out", out_, "--duration", "5", "--", "sh", "-c", program});
@@ -238,7 +238,7 @@ TEST_F(VirtualTime, OneThatFailsBeforeTheEndHasFailed) {
   EXPECT_DOUBLE_EQ(sim_time(), 3.5);
 }
 
-TEST_F(VirtualTime, AProgramThatWasToldOfTheEndMayStillSleep) {
+TEST_F(VirtualTime, SleepAfterEnd_Works) {
   const ProcessResult result = run("tidy_up_after_the_end", {"--duration", "2"});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.out, AllOf(HasSubstr("over: 1\n"), HasSubstr("tidied up\n")));
@@ -246,12 +246,12 @@ TEST_F(VirtualTime, AProgramThatWasToldOfTheEndMayStillSleep) {
   EXPECT_DOUBLE_EQ(sim_time(), 2.0);
 }
 
-TEST_F(VirtualTime, LookingAtProxiesAloneLetsTimePassInTheEnd) {
+TEST_F(VirtualTime, PollingProxies_AdvancesTime) {
   EXPECT_THAT(printed("wait_in_background_for_a_place"), EndsWith("there\n"));
   EXPECT_GT(robot().at("path_length").get<double>(), 0.19);
 }
 
-TEST_F(VirtualTime, AProgramThatWaitsForAKeyIsPacedAndToldWhy) {
+TEST_F(VirtualTime, WaitForKey_PacedWithMessage) {
   const ProcessResult result = run("steer_by_hand");
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("steered\n"));
@@ -260,13 +260,13 @@ TEST_F(VirtualTime, AProgramThatWaitsForAKeyIsPacedAndToldWhy) {
   EXPECT_EQ(result.err.find(warning), result.err.rfind(warning)) << result.err;
 }
 
-TEST_F(VirtualTime, WhoJoinsAThreadHoldsItUpForNoTime) {
+TEST_F(VirtualTime, JoiningThread_TakesNoTime) {
   const std::string out = printed("join_threads");
   EXPECT_EQ(std::count(out.begin(), out.end(), '\n'), 3);
   EXPECT_EQ(out, printed("join_threads"));
 }
 
-TEST_F(VirtualTime, TimeStandsForAThreadThatWasSignalled) {
+TEST_F(VirtualTime, SignalledThread_RunsBeforeTimeAdvances) {
   const std::string first = printed("steer_when_told");
   const json first_report = report();
   EXPECT_THAT(first, StartsWith("0.200000000\n0.300000000\n0.400000000\n"));
@@ -275,11 +275,11 @@ TEST_F(VirtualTime, TimeStandsForAThreadThatWasSignalled) {
   EXPECT_EQ(first_report, report());
 }
 
-TEST_F(VirtualTime, WaitsWithADeadlineEndWhenTheyAreSignalled) {
+TEST_F(VirtualTime, TimedWait_EndsWhenSignalled) {
   EXPECT_EQ(printed("wait_for_each_other"), "came 1\nanswered 1\n1\n");
 }
 
-TEST_F(VirtualTime, ASignalEndsASleep) {
+TEST_F(VirtualTime, Signal_EndsSleep) {
   Process process({PLAYPEN_COMMAND, "run", world_, "--quiet", "--out", out_, "--", SLEEPING_PROGRAM,
                    "be_woken"});
   ASSERT_TRUE(process.read_until("\n"));
@@ -301,7 +301,7 @@ TEST_F(VirtualTime, ASignalEndsASleep) {
   EXPECT_THAT(whys(), ElementsAre(HasSubstr("a signal ended a sleep")));
 }
 
-TEST_F(VirtualTime, ARunThatTheWallClockHadASayInIsNotRepeatable) {
+TEST_F(VirtualTime, WallClockUse_MarksRunAsNotRepeatable) {
   ASSERT_EQ(run("read_and_sleep", {"--duration", "2"}).status, 0);
   EXPECT_EQ(report().at("run").at("repeatable"), true);
   EXPECT_FALSE(report().at("run").contains("repeatable_why"));
@@ -317,7 +317,7 @@ TEST_F(VirtualTime, ARunThatTheWallClockHadASayInIsNotRepeatable) {
   EXPECT_THAT(whys(), ElementsAre(HasSubstr("several threads")));
 }
 
-TEST_F(VirtualTime, WithRealSleepOnlyAProgramOfOneThreadIsRepeatable) {
+TEST_F(VirtualTime, RealSleep_RepeatableWithOneThreadOnly) {
   static_cast<void>(run("look_at_the_clock", {"--real-sleep", "--duration", "1"}));
   EXPECT_EQ(report().at("run").at("repeatable"), true);
   // Its other thread has no client.
@@ -332,7 +332,7 @@ TEST_F(VirtualTime, WithRealSleepOnlyAProgramOfOneThreadIsRepeatable) {
   EXPECT_THAT(whys(), ElementsAre(HasSubstr("several threads")));
 }
 
-TEST_F(VirtualTime, WhoComputesForTooLongHoldsUpNobodyAndTheReportSaysSo) {
+TEST_F(VirtualTime, SilenceLimit_ContinuesAndMarksReport) {
   ProcessOptions options;
   options.environment = {{"PLAYPEN_SILENCE_LIMIT", "0.2"}};
   const ProcessResult result =
@@ -342,7 +342,7 @@ TEST_F(VirtualTime, WhoComputesForTooLongHoldsUpNobodyAndTheReportSaysSo) {
   EXPECT_THAT(whys(), ElementsAre(HasSubstr("the silence limit")));
 }
 
-TEST_F(VirtualTime, WhatCannotBeSimulatedIsToldOnce) {
+TEST_F(VirtualTime, UnsupportedCall_ReportedOnce) {
   const ProcessResult result = run("set_an_alarm", {"--quiet"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.err, HasSubstr("alarm() counts real time"));
@@ -350,7 +350,7 @@ TEST_F(VirtualTime, WhatCannotBeSimulatedIsToldOnce) {
   EXPECT_THAT(whys(), ElementsAre(HasSubstr("alarm() counts real time")));
 }
 
-TEST_F(VirtualTime, TimeMayWaitForMoreClients) {
+TEST_F(VirtualTime, ClientsOption_HoldsTimeUntilTheyJoin) {
   // Two clients in two threads, each of which waits for a second client.
   ASSERT_EQ(run("have_threads_with_clients", {"--clients", "2"}).status, 0);
   EXPECT_EQ(report().at("run").at("repeatable"), true);
@@ -367,14 +367,14 @@ TEST_F(VirtualTime, TimeMayWaitForMoreClients) {
   }
 }
 
-TEST_F(VirtualTime, ChildrenAndOtherProgramsAreLeftAlone) {
+TEST_F(VirtualTime, ChildrenAndOtherPrograms_Unaffected) {
   EXPECT_EQ(printed("have_a_child"), "child 5, own 0\n");
   const std::time_t now = std::time(nullptr);
   const ProcessResult date = playpen({"run", world_, "--out", out_, "--", "date", "+%s"});
   EXPECT_GE(std::atoll(date.out.c_str()), now);
 }
 
-TEST_F(VirtualTime, IsOffWithRealSleepAndInPacedTime) {
+TEST_F(VirtualTime, OffWithRealSleepAndPacedTime) {
   // In this mode the program's own sleeps do not count: no client ever waits, so no time passes.
   EXPECT_EQ(run("drive_by_sleeping", {"--real-sleep"}).status, 0);
   EXPECT_DOUBLE_EQ(sim_time(), 0.0);
@@ -382,7 +382,7 @@ TEST_F(VirtualTime, IsOffWithRealSleepAndInPacedTime) {
   EXPECT_GT(sim_time(), 3.5);  // ten times as much, if the machine is fast enough
 }
 
-TEST_F(VirtualTime, IsAddedToWhatIsPreloadedAlready) {
+TEST_F(VirtualTime, ExistingPreload_Kept) {
   ProcessOptions options;
   options.environment = {{"LD_PRELOAD", "libm.so.6"}};
   const std::vector<std::string> env = {"--out", out_, "--", "env"};
@@ -396,7 +396,7 @@ TEST_F(VirtualTime, IsAddedToWhatIsPreloadedAlready) {
               AllOf(HasSubstr("LD_PRELOAD=libm.so.6\n"), Not(HasSubstr("PLAYPEN_VIRTUAL_TIME"))));
 }
 
-TEST_F(VirtualTime, ACommandWithoutItsLibrarySaysSo) {
+TEST_F(VirtualTime, MissingLibrary_Reported) {
   const std::string command = folder_ / "bin/playpen";
   fs::create_directories(folder_ / "bin");
   fs::copy_file(PLAYPEN_COMMAND, command);
@@ -413,7 +413,7 @@ TEST_F(VirtualTime, ACommandWithoutItsLibrarySaysSo) {
   EXPECT_EQ(call({"--real-sleep"}).status, 0);
 }
 
-TEST_F(VirtualTime, ItsLibraryMayLieInAFolderWithBlanks) {
+TEST_F(VirtualTime, LibraryPathWithBlanks_Works) {
   const fs::path place = folder_ / "my own place";
   fs::create_directories(place / "bin");
   fs::create_directories(place / "lib/playpen");

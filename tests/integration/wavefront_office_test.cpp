@@ -101,12 +101,12 @@ void expect_ten_goals_of_each_seed(const std::string& name, uint32_t measured, d
   for (int seed = first; seed < end; ++seed) expect_ten_goals(name, seed, measured, error_m);
 }
 
-TEST(WavefrontOffice, APioneerReachesTenGoalsOfEachSeedWithoutACollision) {
+TEST(WavefrontOffice, Pioneer_ReachesTenGoalsPerSeedWithoutCollision) {
   expect_ten_goals_of_each_seed("wavefront.json", 0, 0.0);
 }
 
 // amcl and SND have the same noisy odometry and laser; the robot starts at a known pose.
-TEST(WavefrontOffice, APioneerThatLocalisesItselfReachesTenGoalsOfEachSeedWithoutACollision) {
+TEST(WavefrontOffice, SelfLocalisingPioneer_ReachesTenGoalsPerSeedWithoutCollision) {
   expect_ten_goals_of_each_seed("wavefront_amcl.json", 1, 0.2);
 }
 

@@ -127,10 +127,11 @@ PLAYERLIKE = arrows({
     "imr-h": "",
     "replace": "",
     # Their implementation.
-    "devices": "messages process session virtual_time connect libCCMorse libplayerc++",
-    "proxies": "messages session virtual_time connect libCCMorse libplayerc++ devices",
-    "drivers": "messages session virtual_time libCCMorse libplayerc++ devices proxies",
-    "playerc": "virtual_time libplayerinterface libplayerc libplayerc++ devices proxies",
+    "core": "messages process session virtual_time connect libCCMorse libplayerc++",
+    "devices": "messages process session virtual_time connect libCCMorse libplayerc++ core",
+    "proxies": "messages session virtual_time connect libCCMorse libplayerc++ core devices",
+    "drivers": "messages session virtual_time libCCMorse libplayerc++ core devices proxies",
+    "playerc": "virtual_time libplayerinterface libplayerc libplayerc++ core devices proxies",
     # Devices in the words of Player's protocol.
     "wire": "messages protocol session libplayerinterface libplayerc++ proxies",
     "imr": "virtual_time libplayerc++ imr-h",
@@ -182,8 +183,8 @@ PLACES = [(re.compile(include), re.compile(path), why) for include, path, why in
     (r"sim/", r"(?!libplayerlike/include/(libplayer|libCCMorse/|libPlayer/|imr-h/))",
      "clients are C++14, libsim's headers are C++20"),
     (r"protocol/", r"(?!libplayerlike/(src|include/playerlike)/host/)"
-                   r"|libplayerlike/src/host/run_log\.cpp$",
-     "of a host only the log of a run is written in the protocol's words"),
+                   r"|libplayerlike/src/host/results/(run_log|report_fields)\.cpp$",
+     "of a host only log and report of a run are written in the protocol's words"),
     (r"asio(\.hpp$|/)", r"(?!libplayerlike/)|libplayerlike/src/(server|remote)/",
      "sockets belong in libplayerlike/src/server and libplayerlike/src/remote"),
     (rf"(libsim/(src|include/sim)/)?({'|'.join(SIM)})/", r"(?!apps/)", "programs include public headers only"),
@@ -468,10 +469,24 @@ def promises(tree):
     tests = "\n".join(f"{suite}.{name}" for _, source in tree.texts(r"tests/.*\.cpp$")
                       for suite, name in TEST.findall(source))
     for row in re.finditer(r"^\|.*$", text, re.MULTILINE):
-        for name in re.findall(r"`([A-Z][A-Za-z0-9]*\.[A-Za-z0-9*]+)`", row[0]):
+        for name in re.findall(r"`([A-Z][A-Za-z0-9]*\.[A-Za-z0-9_*]+)`", row[0]):
             pattern = "^" + re.escape(name).replace(r"\*", ".*") + "$"
             if not re.search(pattern, tests, re.MULTILINE):
                 yield at(page, text, row.start(), f"there is no test {name}")
+
+
+# Words that begin a story instead of naming a subject.
+NARRATIVE = re.compile(r"(A|An|The|Who|What|So|It|Does|Do)(?=[A-Z])")
+
+
+def test_names(tree):
+    """A test's name is Subject_State_Result: one to three parts in plain words, at most 60 characters."""
+    part = r"[A-Z][A-Za-z0-9]*"
+    for path, source in tree.texts(r"tests/.*\.(cpp|cc|h)$"):
+        for match in TEST.finditer(source):
+            name = match[2]
+            if not re.fullmatch(f"{part}(_{part}){{0,2}}", name) or len(name) > 60 or NARRATIVE.match(name):
+                yield at(path, source, match.start(), f"the test's name {name} is not Subject_State_Result")
 
 
 # --- add_a_device: the page that explains the compass
@@ -520,7 +535,7 @@ def least(tree):
 
 
 RULES = [layering, seam, numbers, unused_using, size, words, links, index, glossary, which_world,
-         promises, add_a_device, least]
+         promises, test_names, add_a_device, least]
 
 
 # --- Tests of the rules themselves: each planted fault is found, and its neighbour is not.
@@ -576,7 +591,7 @@ def self_test():
         includes(f"libplayerlike/src/{folder}/x.cpp", include)
     includes("libplayerlike/src/new/x.cpp", "vector", "no known folder")
     includes("libplayerlike/include/robot_types.h", "vector")
-    includes("libplayerlike/src/host/x.cpp", "protocol/codec.h", "log of a run")
+    includes("libplayerlike/src/host/x.cpp", "protocol/codec.h", "log and report of a run")
     includes("libplayerlike/src/host/x.cpp", "asio/ip/tcp.hpp", "sockets belong")
     includes("libplayerlike/include/playerlike/server/x.h", "asio.hpp", "sockets belong")
     includes("libplayerlike/include/playerlike/host/x.h", "nlohmann/json.hpp", "public headers")
@@ -584,7 +599,7 @@ def self_test():
     includes("libplayerlike/src/server/x.cpp", "zlib.h", "zlib")
     includes("apps/par_common/src/x.cpp", "libCCMorse/CCMorse.h", "from par_common to libCCMorse")
     includes("apps/par_intro/template/x.cc", "libCCMorse/CCMorse.h")
-    includes("apps/playpen/x.cpp", "core/x.h", "public headers only")
+    includes("apps/playpen/x.cpp", "world/x.h", "public headers only")
     includes("apps/playpen/x.cpp", "X11/Xlib.h", "windows belong")
 
     includes("libsim/src/devices/x.cpp", "box2d/box2d.h", "Box2D")
@@ -652,10 +667,14 @@ def self_test():
                        "| [a](../worlds/b/a.json) | `playpen run a -- x` |\n"
                        "| [c](../worlds/c.json) | `playpen run d -- x` |\n"
                        "| [e](../worlds/f.json) | `playpen run e -- x` |\n"}, ":2: 'c'", ":3: 'e'")
-    rule(promises, {"tests/x_test.cpp": "TEST(A, BcD) {}\nTEST_F(E,\n       F) {}\n",
-                    "docs/trust.md": "| `A.B*D`, `E.F` |\n| `A.Bc` |\n`A.X`\n"}, ":2: there is no test A.Bc")
+    rule(promises, {"tests/x_test.cpp": "TEST(A, BcD) {}\nTEST_F(E,\n       F_Is) {}\n",
+                    "docs/trust.md": "| `A.B*D`, `E.F_*` |\n| `A.Bc` |\n| `E.F_I` |\n`A.X`\n"},
+         ":2: there is no test A.Bc", ":3: there is no test E.F_I")
 
     page = "".join(f"<!-- from: {name}.h -->\n```cpp\ncompass {name}\n```\n" for name in "abcdefg")
+    rule(test_names, {"tests/x_test.cpp": "TEST(A, B_IsC) {}\nTEST(A, TheB) {}\nTEST_F(A, B_C_D_E) {}\n"
+                                          "TEST_P(A,\n    b) {}\nTEST(A, Theta) {}\nTEST(A, Bc) {}\n"},
+         ":2: the test's name TheB", ":3: the test's name B_C_D_E", ":4: the test's name b")
     device = {"docs/add_a_device.md": "| `a.h` |\n| `tests/t.h` |\n" + page, "tests/t.h": "Compass"}
     sources = {f"{name}.h": f"compass {name}\n" for name in "abcdefg"}
     rule(add_a_device, {**device, "a.h": "compass"},

@@ -59,6 +59,7 @@ struct FakeWorld {
   std::vector<playerlike::SaveImageRequest> saved;
   std::vector<playerlike::SaveMapRequest> saved_maps;
   int joins = 0;
+  int looks = 0;  ///< accesses to readings that were noted
   sim::SimTime slept_ns = 0;
   playerlike::TimeStatistics time;
 
@@ -250,7 +251,10 @@ class FakeSession final : public playerlike::Session {
     const std::lock_guard lock(world_->mutex);
     world_->real_time_reasons.push_back(what.reason);
   }
-  void operator()(const playerlike::NoteLooksRequest&) {}
+  void operator()(const playerlike::NoteLooksRequest& what) {
+    const std::lock_guard lock(world_->mutex);
+    world_->looks += what.count;
+  }
   void operator()(const playerlike::AnswerTimeoutRequest&) {}
   void operator()(const playerlike::RetriesRequest&) {}
   void operator()(const playerlike::FlushDrawingsRequest&) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cctype>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +14,9 @@
 #include "sim/core/degrees.h"
 #include "sim/core/fields.h"
 #include "sim/core/number_text.h"
+#include "sim/core/time.h"
 #include "sim/devices/builtin.h"
+#include "sim/io/field_reader.h"
 
 /// Documents generated from the tables of fields: tables of settings in Markdown for users, and
 /// JSON schemas for editors.
@@ -34,6 +38,40 @@ using Json = nlohmann::ordered_json;
   return out;
 }
 
+[[nodiscard]] inline Json vec2_json(const Vec2& point) {
+  return Json::array({rounded(point.x()), rounded(point.y())});
+}
+
+[[nodiscard]] Json object_json(const FieldTable& table, const void* object);
+
+/// An element of a list, or the value of a key of a list by names.
+[[nodiscard]] inline Json element_json(const Field& field, const void* element) {
+  if (field.type == FieldType::kPoses) return pose_json(*static_cast<const Pose*>(element), false);
+  if (field.element != nullptr) return Json::parse(field.element->text(element));
+  if (field.kinds.empty()) return object_json(field.table(), element);
+  for (const Kind& kind : field.kinds) {
+    const void* const object = kind.find(element);
+    if (object == nullptr) continue;
+    Json value = object_json(kind.table(), object);
+    return kind.is_bare ? value : Json{{kind.word, value}};
+  }
+  return nullptr;
+}
+
+[[nodiscard]] inline Json list_json(const Field& field, const void* list) {
+  Json all = field.is_keyed ? Json::object() : Json::array();
+  for (std::size_t i = 0; i < field.list->size(list); ++i) {
+    const void* element = field.list->at(list, i);
+    if (field.is_keyed) {
+      const auto* name = static_cast<const std::string*>(field.table().fields[0].get(element));
+      all[*name] = element_json(field, element);
+    } else {
+      all.push_back(element_json(field, element));
+    }
+  }
+  return all;
+}
+
 /// The value of a setting in the format of world files.
 [[nodiscard]] inline Json value_json(const Field& field, const void* object) {
   const void* value = field.get(object);
@@ -43,34 +81,58 @@ using Json = nlohmann::ordered_json;
       return rounded(*static_cast<const double*>(value) / (field.is_angle ? kDegrees : 1.0));
     case FieldType::kInt:
       return integer_at(field, value);
-    case FieldType::kBool:
-      return *static_cast<const bool*>(value);
+    case FieldType::kInt64:
+      return rounded(to_seconds(*static_cast<const SimTime*>(value)));
+    case FieldType::kUint64:
+      return *static_cast<const std::uint64_t*>(value);
+    case FieldType::kBool: {
+      const bool is_set = *static_cast<const bool*>(value);
+      if (field.words.empty()) return is_set;
+      return field.words[is_set == field.first_word ? 0 : 1];
+    }
+    case FieldType::kTexts:
+      return *static_cast<const std::vector<std::string>*>(value);
+    case FieldType::kPoints: {
+      Json list = Json::array();
+      for (const Vec2& point : *static_cast<const std::vector<Vec2>*>(value)) {
+        list.push_back(vec2_json(point));
+      }
+      return list;
+    }
+    case FieldType::kStruct:
+      return object_json(field.table(), value);
     case FieldType::kText:
       return *static_cast<const std::string*>(value);
     case FieldType::kChoice:
       return field.words[static_cast<std::size_t>(integer_at(field, value))];
     case FieldType::kColour:
       return to_string(*static_cast<const Colour*>(value));
-    case FieldType::kVec2: {
-      const auto& point = *static_cast<const Vec2*>(value);
-      return Json::array({rounded(point.x()), rounded(point.y())});
-    }
+    case FieldType::kVec2:
+      return vec2_json(*static_cast<const Vec2*>(value));
     case FieldType::kPose:
       return pose_json(*static_cast<const Pose*>(value), true);
     case FieldType::kPoses:
-    case FieldType::kList: {
-      Json list = Json::array();
-      for (std::size_t i = 0; i < field.list->size(value); ++i) {
-        const void* element = field.list->at(value, i);
-        list.push_back(field.type == FieldType::kPoses
-                           ? pose_json(*static_cast<const Pose*>(element), false)
-                           : Json::parse(field.element->text(element)));
-      }
-      return list;
-    }
+    case FieldType::kList:
+      return list_json(field, value);
     default:
       return Json::parse(field.custom->text(value));
   }
+}
+
+/// The fields of a struct as read_fields() reads them, without those that have a format of their
+/// own.
+[[nodiscard]] inline Json object_json(const FieldTable& table, const void* object) {
+  Json made = Json::object();
+  for_each_field(table, object, [&made](const Field& field, const void* owner) {
+    if (field.read_only || field.custom != nullptr || field.get(owner) == nullptr) return;
+    const Json value = value_json(field, owner);
+    if (*field.name == '\0') {
+      made.update(value);
+    } else {
+      made[field.name] = value;
+    }
+  });
+  return made;
 }
 
 /// JSON in lines of at most 200 characters, where its structure allows it.
@@ -119,6 +181,104 @@ using Json = nlohmann::ordered_json;
          ", " + rounded_text(field.range.max, 12) + "]";
 }
 
+/// The default of a field of a world; nullopt if it has none, or if it depends on others.
+[[nodiscard]] inline std::optional<Json> default_json(const Field& field, const void* object) {
+  if (field.set == nullptr || *field.default_text != '\0' || field.needed_for != nullptr) return {};
+  const void* const value = field.get(object);
+  if (value == nullptr) return field.may_be_null ? std::optional<Json>(nullptr) : std::nullopt;
+  switch (field.type) {
+    case FieldType::kMap:
+    case FieldType::kStruct:
+    case FieldType::kVariant:
+      return {};
+    case FieldType::kNumber: {
+      const double number = *static_cast<const double*>(value) / (field.is_angle ? kDegrees : 1.0);
+      if (!std::isfinite(number) || number < field.range.min) return {};
+      return Json::parse(rounded_text(number, 9));
+    }
+    case FieldType::kInt:
+      if (integer_at(field, value) < field.least) return {};
+      break;
+    default:
+      break;
+  }
+  Json json = value_json(field, object);
+  if (json.is_structured() ? json.empty() : json == "") return {};
+  return json;
+}
+
+/// The values that a field of a world may have: "(0, 1000]", or the words of a choice, or the
+/// number of elements.
+[[nodiscard]] inline std::string values_text(const Field& field) {
+  const auto counted = [&field](const std::string& what) -> std::string {
+    constexpr std::size_t kAny = Field{"", FieldType::kList}.max_count;
+    if (field.max_count == kAny) return "–";
+    return (field.min_count > 0 ? std::to_string(field.min_count) + " to " : "at most ") +
+           std::to_string(field.max_count) + what;
+  };
+  Json words = std::vector<std::string>(field.words.begin(), field.words.end());
+  if (field.custom != nullptr) {
+    const Json schema = Json::parse("{" + std::string(field.custom->schema) + "}");
+    if (schema.contains("enum")) words = schema["enum"];
+  }
+  std::string text;
+  for (const Json& word : words) text += (text.empty() ? "`" : ", `") + word.dump() + "`";
+  if (!text.empty()) return text;
+  switch (field.type) {
+    case FieldType::kText:
+      return counted(" bytes");
+    case FieldType::kTexts:
+    case FieldType::kPoints:
+    case FieldType::kList:
+      return counted("");
+    case FieldType::kVec2:
+    case FieldType::kInt64: {
+      Field number = field;
+      number.type = FieldType::kNumber;
+      return range_text(number);
+    }
+    default:
+      return range_text(field);
+  }
+}
+
+/// A row of a table of fields.
+[[nodiscard]] inline std::string field_row(const Field& field, const std::string& range,
+                                           const std::string& default_value) {
+  const std::string unit = field.range.unit;
+  return "| `" + std::string(field.name) + "` | " + (unit.empty() ? "–" : unit) + " | " + range +
+         " | " + default_value + " | " + field.meaning + " |\n";
+}
+inline constexpr const char* kFieldTableHead =
+    "| key | unit | range | default | meaning |\n|---|---|---|---|---|\n";
+
+/// The table of the fields of a part of worlds.
+/// @param only  its keys; empty: all.
+[[nodiscard]] inline std::string fields_table(const FieldTable& table, const void* defaults,
+                                              std::span<const std::string> only = {}) {
+  std::string rows = kFieldTableHead;
+  for_each_field(table, defaults, [&](const Field& field, const void* owner) {
+    if (field.custom != nullptr && field.custom->keys != nullptr) {
+      rows += fields_table(field.custom->keys(), field.get(owner))
+                  .substr(std::string(kFieldTableHead).size());
+      return;
+    }
+    if (field.read_only && !field.is_read_apart) return;
+    if (!only.empty() && std::find(only.begin(), only.end(), field.name) == only.end()) return;
+    const std::optional<Json> value = default_json(field, owner);
+    const std::string words = field.needed_for != nullptr ? "**needed**" : field.default_text;
+    rows += field_row(field, values_text(field),
+                      value           ? "`" + line_of_json(*value) + "`"
+                      : words.empty() ? "–"
+                                      : words);
+    for (const Kind& kind : field.kinds) {
+      if (!kind.is_beside) continue;
+      rows += "| `" + std::string(kind.word) + "` | – | – | – | " + kind.meaning + " |\n";
+    }
+  });
+  return rows;
+}
+
 /// Visits each setting of a device kind, with the object that holds its default.
 template <typename Visit>
 void for_each_setting(const DeviceKind& kind, const Visit& visit) {
@@ -133,13 +293,10 @@ void for_each_setting(const DeviceKind& kind, const Visit& visit) {
 [[nodiscard]] inline std::string settings_table(const DeviceKind& kind) {
   std::string rows;
   for_each_setting(kind, [&](const Field& field, const void* defaults) {
-    const std::string unit = field.range.unit;
-    rows += "| `" + std::string(field.name) + "` | " + (unit.empty() ? "–" : unit) + " | " +
-            range_text(field) + " | `" + line_of_json(value_json(field, defaults)) + "` | " +
-            field.meaning + " |\n";
+    rows +=
+        field_row(field, range_text(field), "`" + line_of_json(value_json(field, defaults)) + "`");
   });
-  if (rows.empty()) return "";
-  return "| key | unit | range | default | meaning |\n|---|---|---|---|---|\n" + rows;
+  return rows.empty() ? "" : kFieldTableHead + rows;
 }
 
 /// The table of docs/realism.md: the figures of all settings that the level of realism changes.
@@ -157,125 +314,78 @@ void for_each_setting(const DeviceKind& kind, const Visit& visit) {
   return "| device | setting | unit | ideal | real |\n|---|---|---|---|---|\n" + rows;
 }
 
-/// Turns a phrase into a sentence without Markdown: "above the floor" -> "Above the floor [m]."
-[[nodiscard]] inline std::string sentence(std::string phrase, const std::string& unit) {
-  std::erase(phrase, '`');
-  if (!phrase.empty()) {
-    phrase[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(phrase[0])));
-  }
-  return phrase + (unit.empty() ? "." : " [" + unit + "].");
+/// The keys of a field in messages: `"x", "y"` if it has no name.
+[[nodiscard]] inline std::string keys_text(const Field& field, const char* quote) {
+  const auto quoted = [quote](const std::string& key) { return quote + key + quote; };
+  if (*field.name != '\0') return quoted(field.name);
+  const std::string yaw = field.type == FieldType::kPose ? ", " + quoted("yaw") : "";
+  return quoted("x") + ", " + quoted("y") + yaw;
 }
 
-[[nodiscard]] Json object_schema(const FieldTable& table);
-
-/// Adds the schema of a field, or of its parts if it has no name, to the properties of an object.
-inline void add_schema(const Field& field, const void* defaults, Json& properties) {
-  Json schema = {{"description", sentence(field.meaning, field.range.unit)}};
-  const auto add_range = [&field](Json& number) {
-    number[field.range.min_exclusive ? "exclusiveMinimum" : "minimum"] = rounded(field.range.min);
-    number["maximum"] = rounded(field.range.max);
-  };
+/// What messages have as the value of a field.
+[[nodiscard]] inline std::string message_value_text(const Field& field) {
+  const std::string pose = R"(`{"x", "y", "yaw"}`)";
+  std::string list;
   switch (field.type) {
     case FieldType::kNumber:
-    case FieldType::kInt:
-      if (range_text(field) == "–") {
-        schema["$ref"] = "#/$defs/angle";
-        break;
-      }
-      schema["type"] = field.type == FieldType::kInt ? "integer" : "number";
-      add_range(schema);
-      break;
+      return "number";
     case FieldType::kBool:
-      schema["type"] = "boolean";
-      break;
-    case FieldType::kText:
-      schema.update(field.needed_for == nullptr ? Json{{"type", "string"}}
-                                                : Json{{"$ref", "#/$defs/name"}});
-      break;
+      return "`true`, `false`";
     case FieldType::kChoice:
-      schema["enum"] = std::vector<std::string>(field.words.begin(), field.words.end());
-      break;
-    case FieldType::kColour:
-      schema["type"] = "string";
-      schema["pattern"] = "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6}|[0-9A-Fa-f]{8})$";
-      break;
-    case FieldType::kVec2: {
-      Json part = {{"type", "number"}};
-      add_range(part);
-      if (*field.name == '\0') {
-        for (const char* key : {"x", "y"}) {
-          properties[key] = {{"description", schema["description"]}};
-          properties[key].update(part);
-          properties[key]["default"] = 0;
-        }
-        return;
+      for (const char* word : field.words) {
+        list += (list.empty() ? "`\"" : ", `\"") + std::string(word) + "\"`";
       }
-      schema.update({{"type", "array"}, {"items", part}, {"minItems", 2}, {"maxItems", 2}});
-      break;
-    }
+      return list;
+    case FieldType::kText:
+    case FieldType::kColour:
+      return "text";
+    case FieldType::kVec3:
+      return R"(`{"x", "y", "z"}`)";
+    case FieldType::kBytes:
+      return "bytes";
+    case FieldType::kOctets:
+    case FieldType::kNumbers:
+      return "doubles";
+    case FieldType::kTexts:
+      return "list of texts";
+    case FieldType::kVec2:
+      return "numbers";
     case FieldType::kPose:
-      schema["$ref"] = "#/$defs/pose";
-      break;
+      return *field.name == '\0' ? "numbers" : pose;
     case FieldType::kPoses:
+      return "list of " + pose;
     case FieldType::kList:
-      schema["type"] = "array";
-      if (field.min_count > 0) schema["minItems"] = field.min_count;
-      schema["maxItems"] = field.max_count;
-      schema["items"] = field.element != nullptr          ? Json::parse(field.element->schema)
-                        : field.type == FieldType::kPoses ? Json{{"$ref", "#/$defs/pose"}}
-                                                          : object_schema(field.table());
-      break;
+      for (const Field& member : field.table().fields) {
+        list += (list.empty() ? "" : ", ") + keys_text(member, "\"");
+      }
+      return "list of `{" + list + "}`";
     default:
-      schema.update(Json::parse("{" + std::string(field.custom->schema) + "}"));
+      return "whole number";
   }
-  if (defaults != nullptr && field.get(defaults) != nullptr) {
-    schema["default"] = value_json(field, defaults);
-  }
-  properties[field.name] = schema;
 }
 
-/// The schema of an object with these fields.
-inline Json object_schema(const FieldTable& table) {
-  Json schema = {{"type", "object"}, {"properties", Json::object()}};
-  for (const Field& field : table.fields) {
-    add_schema(field, nullptr, schema["properties"]);
-    if (field.needed_for != nullptr) schema["required"].push_back(field.name);
+/// The table of readings in docs/protocol.md. Types with equal readings share their rows.
+[[nodiscard]] inline std::string readings_table() {
+  std::string rows;
+  std::vector<const FieldTable*> shown;
+  for (const DeviceKind& kind : device_kinds()) {
+    const FieldTable* const table = kind.reading.fields;
+    if (table == nullptr || std::find(shown.begin(), shown.end(), table) != shown.end()) continue;
+    shown.push_back(table);
+    std::string types;
+    for (const DeviceKind& other : device_kinds()) {
+      if (other.reading.fields != table) continue;
+      types += (types.empty() ? "`" : ", `") + other.name + "`";
+    }
+    if (table->fields.empty()) rows += "| " + types + " | | | | only the time |\n";
+    for (const Field& field : table->fields) {
+      const std::string unit = field.range.unit;
+      rows += "| " + types + " | " + keys_text(field, "`") + " | " + message_value_text(field) +
+              " | " + (unit.empty() ? "–" : unit) + " | " + field.meaning + " |\n";
+      types.clear();
+    }
   }
-  schema["additionalProperties"] = false;
-  return schema;
-}
-
-/// The schema of the object under a device's name in a world file.
-[[nodiscard]] inline Json device_schema(const DeviceKind& kind) {
-  Json properties = {{"type", {{"$ref", "#/$defs/device_type"}}}};
-  for_each_setting(kind, [&properties](const Field& field, const void* defaults) {
-    add_schema(field, defaults, properties);
-  });
-  const Json settings = {
-      {"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
-  return {{"description", "Settings of a device of type " + kind.name +
-                              "; those left out keep the model's, or have their defaults."},
-          {"oneOf", {settings, {{"$ref", "#/$defs/removed"}}}}};
-}
-
-/// The schema of worlds with a newly generated part for devices.
-[[nodiscard]] inline Json with_devices(Json schema) {
-  Json& definitions = schema.at("$defs");
-  std::vector<std::string> names;
-  for (const DeviceKind& kind : device_kinds()) names.push_back(kind.name);
-  std::sort(names.begin(), names.end());
-  std::vector<std::string> old;
-  for (const auto& [key, value] : definitions.items()) {
-    if (key.starts_with("device_") && key != "device_type") old.push_back(key);
-  }
-  for (const std::string& key : old) definitions.erase(key);
-  Json devices = Json::object();
-  for (const std::string& name : names) {
-    devices[name] = {{"$ref", "#/$defs/device_" + name}};
-    definitions["device_" + name] = device_schema(*find_device_kind(name));
-  }
-  definitions.at("robot").at("properties").at("devices").at("properties") = devices;
-  return schema;
+  return "| type | key | value | unit | meaning |\n|---|---|---|---|---|\n" + rows;
 }
 
 /// Whether the test writes the files instead of comparing them: PLAYPEN_WRITE_PAGES=1.
@@ -283,6 +393,23 @@ inline Json object_schema(const FieldTable& table) {
 
 inline void write_page(const std::string& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
+}
+
+/// Whether the first table under a heading of a page is `made`; if the test writes pages, it is
+/// written.
+[[nodiscard]] inline bool is_table_of_page(const std::string& file, const std::string& heading,
+                                           const std::string& made) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string page(std::istreambuf_iterator<char>(stream), {});
+  const std::size_t section = page.find("\n" + heading + "\n");
+  const std::size_t before = page.find("\n| key |", section);
+  if (section == std::string::npos || before == std::string::npos) return false;
+  const std::size_t first = before + 1;
+  const std::size_t end = page.find("\n\n", first);
+  const std::size_t last = end == std::string::npos ? page.size() : end + 1;
+  if (!writes_pages()) return page.substr(first, last - first) == made;
+  write_page(file, page.substr(0, first) + made + page.substr(last));
+  return true;
 }
 
 }  // namespace sim::test

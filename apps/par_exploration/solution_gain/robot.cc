@@ -8,8 +8,8 @@
 
 imr::CConfig& CRobot::getConfig(imr::CConfig& config) {
   CExplorer::getConfig(config);
-  config.add<double>("lambda", "how little a long way is liked, per metre", 1.0);
-  config.add<double>("gain-range", "unknown floor counts so far round a place, in metres", 1.0);
+  config.add<double>("lambda", "discount of the gain per metre of path", 1.0);
+  config.add<double>("gain-range", "radius within which unknown floor counts as gain [m]", 1.0);
   return config;
 }
 

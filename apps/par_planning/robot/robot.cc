@@ -39,7 +39,7 @@ imr::CConfig& CRobot::getConfig(imr::CConfig& config) {
   config.add<std::string>("host", "where the robot is", "localhost");
   config.add<unsigned>("port", "its port", 4000);
   config.add<unsigned>("position2d-index", "number of the drive", 0);
-  config.add<std::string>("map", "text file with the map; without it, the world is asked", "");
+  config.add<std::string>("map", "text file with the map [the map of the world]", "");
   config.add<double>("goal-x", "where to go [m]", 3.1);
   config.add<double>("goal-y", "where to go [m]", 3.3);
   config.add<double>("start-x", "where to start on a map of another place [m]", -1.0);

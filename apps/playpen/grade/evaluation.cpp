@@ -7,15 +7,15 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include "grade/map_score.h"
 #include "grade/shortest_path.h"
 #include "grade/text.h"
-#include "sim/core/base64.h"
+#include "playerlike/host/report.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
 #include "sim/core/number_text.h"
@@ -26,6 +26,7 @@ namespace playpen::grade {
 namespace {
 
 namespace fs = std::filesystem;
+using playerlike::Report;
 
 /// Radius of the largest circle around the origin inside a convex outline [m].
 double inscribed_radius(const sim::Polygon& outline) {
@@ -46,13 +47,17 @@ double inscribed_radius(const sim::Polygon& outline) {
 }
 
 /// Copies the results of the world's controller from the report, if the world has one.
-void read_verdict(const nlohmann::json& report, const Reference& reference, Measures& measures) {
-  if (report.contains("scores")) {
-    measures.score = report.at("scores").at(reference.robot).get<double>();
+void read_verdict(const Report& report, const Reference& reference, Measures& measures) {
+  if (report.scores) {
+    const auto score = std::ranges::find(*report.scores, reference.robot, &Report::Score::robot);
+    if (score == report.scores->end()) {
+      throw std::runtime_error("it has no score of " + reference.robot);
+    }
+    measures.score = score->points;
   }
-  if (report.contains("verdict") && !report.at("verdict").is_null()) {
-    measures.verdict = report.at("verdict").at("passed").get<bool>();
-    measures.verdict_reason = report.at("verdict").at("reason").get<std::string>();
+  if (report.verdict) {
+    measures.verdict = report.verdict->passed;
+    measures.verdict_reason = report.verdict->reason;
   }
 }
 
@@ -63,18 +68,19 @@ struct Blocks {
 };
 
 /// Reads the blocks from a report; nullopt if it has none: then they do not change.
-std::optional<Blocks> read_blocks(const nlohmann::json& report, const Reference& reference) {
-  if (!report.contains("blocks")) return std::nullopt;
+std::optional<Blocks> read_blocks(const Report& report, const Reference& reference) {
+  if (!report.blocks) return std::nullopt;
+  if (!report.events) throw std::runtime_error("it has blocks, but no events");
   Blocks blocks;
-  for (const auto& [name, state] : report.at("blocks").items()) {
+  for (const auto& [name, state] : *report.blocks) {
     blocks.at_end[name] = state == "extended" || state == "rising" || state == "sinking";
     if (!blocks.at_end[name]) blocks.opened.insert(name);
   }
   for (const sim::ObstacleDescription& block : reference.arena.obstacles) {
     if (block.state == sim::ObstacleState::kRetracted) blocks.opened.insert(block.name);
   }
-  for (const nlohmann::json& event : report.at("events")) {
-    if (event.at("kind") == "retracted") blocks.opened.insert(event.at("what").get<std::string>());
+  for (const Report::Event& event : *report.events) {
+    if (event.kind == "retracted") blocks.opened.insert(event.what);
   }
   return blocks;
 }
@@ -114,62 +120,79 @@ struct Floor {
 };
 
 /// Reads the floor that a robot has seen from its entry in a report; nullopt if there is none.
-std::optional<SeenFloor> read_seen(const nlohmann::json& robot) {
-  if (!robot.contains("seen")) return std::nullopt;
-  const nlohmann::json& entry = robot.at("seen");
-  SeenFloor seen;
-  seen.cell_size_m = entry.at("cell_size").get<double>();
-  seen.origin = {entry.at("x").get<double>(), entry.at("y").get<double>()};
-  seen.width = entry.at("width").get<int>();
-  seen.height = entry.at("height").get<int>();
-  seen.bits = sim::from_base64(entry.at("cells").get<std::string>()).value_or(seen.bits);
-  const bool has_size = seen.cell_size_m > 0.0 && seen.width > 0 && seen.height > 0;
-  if (!has_size || seen.bits.size() * 8 / static_cast<std::size_t>(seen.width) <
-                       static_cast<std::size_t>(seen.height)) {
+std::optional<SeenFloor> read_seen(const Report::Robot& robot) {
+  if (!robot.seen) return std::nullopt;
+  const Report::Seen& entry = *robot.seen;
+  const bool has_size = entry.cell_size_m > 0.0 && entry.width > 0 && entry.height > 0;
+  if (!has_size || entry.cells.size() * 8 / static_cast<std::size_t>(entry.width) <
+                       static_cast<std::size_t>(entry.height)) {
     return std::nullopt;
   }
+  SeenFloor seen;
+  seen.cell_size_m = entry.cell_size_m;
+  seen.origin = entry.origin;
+  seen.width = entry.width;
+  seen.height = entry.height;
+  seen.bits = entry.cells;
   return seen;
 }
 
 /// The first contact of a robot; nullopt if there was none, or if the report does not have it any
 /// more.
-std::optional<Contact> first_collision(const nlohmann::json& report, const std::string& robot,
-                                       int count) {
-  std::optional<Contact> first;
-  int listed = 0;
-  for (const nlohmann::json& collision : report.value("collisions", nlohmann::json::array())) {
-    if (collision.at("robot").get<std::string>() != robot) continue;
-    if (++listed > 1) continue;
-    first = Contact{collision.at("time").get<double>(),
-                    collision.at("with").get<std::string>(),
-                    {collision.at("x").get<double>(), collision.at("y").get<double>()}};
-  }
-  return listed < count ? std::nullopt : first;
+std::optional<Contact> first_collision(const Report& report, const std::string& robot, int count) {
+  const auto is_own = [&robot](const Report::Collision& c) { return c.robot == robot; };
+  const auto& all = report.collisions;
+  const auto first = std::ranges::find_if(all, is_own);
+  if (first == all.end() || std::ranges::count_if(all, is_own) < count) return std::nullopt;
+  return Contact{first->time_s, first->with, first->place};
 }
 
-void read_achievements(const nlohmann::json& robot, Measures& measures) {
-  if (robot.contains("distance")) measures.distance_m = robot.at("distance").get<double>();
-  if (robot.contains("visited_area")) {
-    measures.visited_area_m2 = robot.at("visited_area").get<double>();
-  }
-}
-
-/// Reads what was refused to the program.
-std::vector<Refusal> read_refusals(const nlohmann::json& report) {
+/// Copies what was refused to the program.
+std::vector<Refusal> read_refusals(const Report& report) {
   std::vector<Refusal> refused;
-  for (const nlohmann::json& refusal : report.value("refused", nlohmann::json::array())) {
-    refused.push_back({refusal.at("time").get<double>(), refusal.at("what").get<std::string>()});
+  for (const Report::Refusal& refusal : report.refused.value_or(std::vector<Report::Refusal>())) {
+    refused.push_back({refusal.time_s, refusal.what});
   }
   return refused;
 }
 
-/// Reads which robots the program has commanded, and what was refused to it.
-void read_use(const nlohmann::json& report, Measures& measures) {
-  for (const nlohmann::json& robot : report.at("robots")) {
-    if (robot.value("commanded", nlohmann::json()).is_null()) continue;
-    measures.commanded.push_back(robot.at("name").get<std::string>());
+/// Copies which robots the program has commanded, and what was refused to it.
+void read_use(const Report& report, Measures& measures) {
+  for (const Report::Robot& robot : report.robots) {
+    if (robot.commanded) measures.commanded.push_back(robot.name);
   }
   measures.refused = read_refusals(report);
+}
+
+/// Copies the results of the graded robot.
+void read_robot(const Report& report, const Report::Robot& robot, const Reference& reference,
+                Measures& found) {
+  found.path_length_m = robot.path_length_m;
+  found.collisions = robot.collisions;
+  found.first_collision = first_collision(report, reference.robot, robot.collisions);
+  found.distance_m = robot.distance_m;
+  found.visited_area_m2 = robot.visited_area_m2;
+  found.least_clearance_m = robot.least_clearance_m;
+  found.stalled_time_s = robot.stalled_time_s;
+  if (!reference.goal) return;
+  const Goal& goal = *reference.goal;
+  found.goal_distance_m = (robot.final_pose.position() - goal.position).norm();
+  const bool looks_right =
+      !goal.yaw_rad || std::abs(sim::normalize_angle(robot.final_pose.yaw_rad - *goal.yaw_rad)) <=
+                           goal.yaw_tolerance_rad;
+  found.reached = *found.goal_distance_m <= goal.tolerance_m && looks_right;
+  if (*found.reached && found.shortest_path_m && *found.shortest_path_m > 0.0) {
+    found.path_ratio = *found.path_length_m / *found.shortest_path_m;
+  }
+}
+
+/// A report that may be another run's; nullopt if it is none.
+std::optional<Report> any_report(const std::string& text) {
+  try {
+    return playerlike::report_from(text);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
 }
 
 /// Copies the graded robot's results from the report. @return an error, if there is one.
@@ -184,51 +207,30 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
     return "the report can't be read: " + problem->found;
   }
   try {
-    const nlohmann::json report = nlohmann::json::parse(text);
-    if (report.contains("ended") && report.at("ended").is_null()) {
-      return "the report is of a run that has not ended: the program was cut short";
-    }
     if (auto fault = playerlike::fault_of_graded(text, asked)) {
+      const std::optional<Report> other = any_report(text);
+      if (other && !other->ended) {
+        return "the report is of a run that has not ended: the program was cut short";
+      }
       // A program may have died of a refusal before the first step.
-      const bool is_own = report.is_object() && report.contains("graded") &&
-                          report.at("graded").value("nonce", "") == asked.nonce;
-      if (is_own) measures.refused = read_refusals(report);
+      const bool is_own = other && other->graded && other->graded->nonce == asked.nonce;
+      if (is_own) measures.refused = read_refusals(*other);
       return fault;
     }
+    const Report report = playerlike::report_from(text);
     Measures found = measures;
-    found.sim_time_s = report.at("run").at("sim_time").get<double>();
-    for (const nlohmann::json& robot : report.at("robots")) {
-      if (robot.at("name").get<std::string>() != reference.robot) continue;
-      found.path_length_m = robot.at("path_length").get<double>();
-      found.collisions = robot.at("collisions").get<int>();
-      found.first_collision = first_collision(report, reference.robot, *found.collisions);
-      read_achievements(robot, found);
+    found.sim_time_s = report.run.sim_time_s;
+    for (const Report::Robot& robot : report.robots) {
+      if (robot.name != reference.robot) continue;
+      read_robot(report, robot, reference, found);
       floor.seen = read_seen(robot);
-      // null: the world contains nothing solid.
-      if (const nlohmann::json& clearance = robot.at("least_clearance"); !clearance.is_null()) {
-        found.least_clearance_m = clearance.get<double>();
-      }
-      found.stalled_time_s = robot.at("stalled_time").get<double>();
-      if (!reference.goal) continue;
-      const nlohmann::json& pose = robot.at("final_pose");
-      const sim::Vec2 place(pose.at("x").get<double>(), pose.at("y").get<double>());
-      const Goal& goal = *reference.goal;
-      found.goal_distance_m = (place - goal.position).norm();
-      const bool looks_right =
-          !goal.yaw_rad ||
-          std::abs(sim::normalize_angle(pose.at("yaw").get<double>() - *goal.yaw_rad)) <=
-              goal.yaw_tolerance_rad;
-      found.reached = *found.goal_distance_m <= goal.tolerance_m && looks_right;
-      if (*found.reached && found.shortest_path_m && *found.shortest_path_m > 0.0) {
-        found.path_ratio = *found.path_length_m / *found.shortest_path_m;
-      }
     }
     read_verdict(report, reference, found);
     read_use(report, found);
     floor.blocks = read_blocks(report, reference);
     measures = found;
     if (!measures.path_length_m) return "the report has no robot " + reference.robot;
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const std::exception& error) {
     return std::string("the report is not as expected: ") + error.what();
   }
   return std::nullopt;
@@ -237,7 +239,7 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
 std::optional<std::string> read_drawn_map(const fs::path& folder, const Task& task,
                                           const Reference& reference, const Floor& floor,
                                           Measures& measures) {
-  if (!floor.seen) return "no map: the report does not tell which floor the robot has seen";
+  if (!floor.seen) return "no map: the report lacks the floor that the robot has seen";
   const std::string name = "layers/" + task.map_layer + ".yaml";
   std::error_code error;
   if (!fs::is_regular_file(folder / name, error)) return "no map: there is no " + name;
@@ -306,7 +308,7 @@ std::optional<std::string> fault_of(Ending ending, const playerlike::JobEnd& end
     case Ending::kTimeOver:
     case Ending::kVerdict:
       if (!completed) return std::nullopt;
-      return "the program left in the middle of the run (by _exit?)" + when;
+      return "the program exited during the run (by _exit?)" + when;
     case Ending::kBadStatus:
     case Ending::kSignal:
       return "the program " + end.program.text() + when;
@@ -378,13 +380,12 @@ class Judge {
                const std::optional<double>& limit, int decimals, const char* unit, bool least,
                const std::string& more) {
     if (!limit) return;
-    const std::string bound = least ? "at least " : "at most ";
+    const std::string bound = (least ? ", at least " : ", at most ") + sim::shortest_text(*limit) +
+                              unit + (least ? " needed" : " allowed");
     if (!value) {
-      add(std::string(what) + " unknown, " + bound + sim::shortest_text(*limit) + unit +
-          " asked for");
+      add(std::string(what) + " not measured" + bound);
     } else if (least ? *value < *limit : *value > *limit) {
-      add(std::string(what) + ' ' + telling_number(*value, *limit, decimals) + unit + ", " + bound +
-          sim::shortest_text(*limit) + unit + (least ? " needed" : " allowed") + more);
+      add(std::string(what) + ' ' + telling_number(*value, *limit, decimals) + unit + bound + more);
     }
   }
 
@@ -534,10 +535,10 @@ std::vector<std::string> faults_of(const Thresholds& t, const Measures& m, Endin
   judge.at_least("least clearance", m.least_clearance_m, t.min_clearance_m, 3, " m");
   judge.at_least("path", m.path_length_m, t.min_path_length_m, 2, " m");
   judge.at_most("path", m.path_length_m, t.max_path_length_m, 2, " m");
-  judge.at_least("distance driven, without movements on the spot,", m.distance_m, t.min_distance_m,
+  judge.at_least("distance driven (movements on the spot excluded)", m.distance_m, t.min_distance_m,
                  2, " m");
   judge.at_least("visited floor", m.visited_area_m2, t.min_visited_area_m2, 2, " m^2");
-  judge.at_most("path to shortest path", m.path_ratio, t.max_path_ratio, 2);
+  judge.at_most("path ratio", m.path_ratio, t.max_path_ratio, 2);
   judge.at_most("simulated time", m.sim_time_s, t.max_sim_time_s, 1, " s");
   judge.at_most("stalled time", m.stalled_time_s, t.max_stalled_time_s, 2, " s");
   return judge.take();

@@ -47,7 +47,7 @@ struct Contact {
   sim::Vec2 place = sim::Vec2::Zero();  ///< in W [m]
 };
 
-/// Something that the task does not let a program use, and that the program has asked for in vain.
+/// Something that the task does not let a program use, and that the program has requested.
 struct Refusal {
   double time_s = 0.0;  ///< of the first time
   std::string what;     ///< "the map of the world"

@@ -29,7 +29,7 @@ struct Summarized {
 constexpr Summarized kSummarized[] = {
     {"coverage", "coverage", 3, &Measures::coverage},
     {"correctness", "map correctness", 3, &Measures::correctness},
-    {"path_ratio", "path to shortest path", 2, &Measures::path_ratio},
+    {"path_ratio", "path ratio", 2, &Measures::path_ratio},
     {"path_length", "path [m]", 2, &Measures::path_length_m},
     {"least_clearance", "least clearance [m]", 3, &Measures::least_clearance_m},
     {"sim_time", "simulated time [s]", 1, &Measures::sim_time_s},

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace PlayerCc {
 namespace detail {
@@ -16,8 +17,8 @@ __attribute__((tls_model("initial-exec")))
 #endif
 extern __thread std::uint64_t thread_number;
 
-/// Lock-free access to the elements (beams) of the newest reading, which programs read one by one.
-/// Part of the proxies of rangefinders; for internal use.
+/// Lock-free access to the elements (beams, coordinates) of the newest reading, which programs read
+/// one by one. Part of the proxies; for internal use.
 ///
 /// Only one thread, the sole user of the client, writes this object, and that thread reads it
 /// without a lock. Once another thread changes anything, the object is no longer updated, and all
@@ -45,6 +46,21 @@ class Elements {
     aValue = mValues[aIndex];
     return true;
   }
+  /// Reads the number of elements, as Find() reads an element, if there are any. Not counted: who
+  /// polls asks for elements, too, because their number and bearings stay the same.
+  bool Count(std::uint32_t& aCount) const {
+    if (!IsSoleUser() || mCount == 0) return false;
+    aCount = mCount;
+    return true;
+  }
+  /// Reads the bearing of an element, as Count() reads their number. Bearings come from a table,
+  /// because programs may be compiled with fused multiplication and addition, which would change
+  /// the last bit.
+  bool Bearing(std::uint32_t aIndex, double& aBearing) const {
+    if (!IsSoleUser() || aIndex >= mBearingCount) return false;
+    aBearing = mBearings[aIndex];
+    return true;
+  }
   /// The owner of the elements, as given to Show().
   const void* Owner() const { return mOwner.get(); }
 
@@ -53,14 +69,26 @@ class Elements {
   /// Must be called before all other functions.
   /// @param aSoleUser  number of the thread that may read without a lock; must outlive this object.
   void Bind(const std::atomic<std::uint64_t>* aSoleUser) { mSoleUser = aSoleUser; }
-  /// Sets the elements to be read from now on. Does nothing unless the calling thread is the sole
-  /// user.
-  void Show(const std::shared_ptr<const void>& aOwner, const double* aValues,
-            std::uint32_t aCount) {
+  /// Whether the calling thread is the sole user, whose calls of Show() and ShowBearings() have an
+  /// effect.
+  bool MayShow() const { return IsSoleUser(); }
+  /// Sets the elements to be read from now on.
+  /// @param aFirst, aStep  bearing of element 0, and between neighbours [rad].
+  void Show(const std::shared_ptr<const void>& aOwner, const double* aValues, std::uint32_t aCount,
+            double aFirst = 0.0, double aStep = 0.0) {
     if (!IsSoleUser()) return;
     mOwner = aOwner;
     mValues = aValues;
+    if (aCount != mCount || aFirst != mFirst || aStep != mStep) mBearingCount = 0;
     mCount = aCount;
+    mFirst = aFirst;
+    mStep = aStep;
+  }
+  /// Sets the table of the elements' bearings. It is used until the elements have others.
+  void ShowBearings(std::vector<double> aBearings) {
+    if (!IsSoleUser() || aBearings.size() != mCount) return;
+    mBearings.swap(aBearings);
+    mBearingCount = mCount;
   }
   /// Number of accesses to report after Find() has returned false.
   int Looks() {
@@ -77,9 +105,13 @@ class Elements {
   const std::atomic<std::uint64_t>* mSoleUser = nullptr;
   const double* mValues = nullptr;
   std::uint32_t mCount = 0;
-  std::uint32_t mLast = 0;  // index of the last access
+  std::uint32_t mLast = 0;          // index of the last access
+  std::uint32_t mBearingCount = 0;  // 0: there is no table yet
   int mLooksLeft = kNotedAtOnce;
   std::shared_ptr<const void> mOwner;
+  std::vector<double> mBearings;
+  double mFirst = 0.0;  // see Show()
+  double mStep = 0.0;
 };
 
 }  // namespace detail

@@ -29,7 +29,11 @@ class LaserProxy : public ClientProxy {
   LaserProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~LaserProxy() override;
 
-  uint32_t GetCount() const;            ///< number of beams of the newest scan
+  /// Number of beams of the newest scan.
+  uint32_t GetCount() const {
+    uint32_t count = 0;
+    return mElements.Count(count) ? count : LockedCount();
+  }
   double GetMaxRange() const;           ///< maximum range [m]
   double GetScanRes() const;            ///< angle between neighbouring beams [rad]
   double GetRangeRes() const;           ///< resolution of ranges [m], see Configure()
@@ -45,9 +49,13 @@ class LaserProxy : public ClientProxy {
     double range = 0.0;
     return mElements.Find(aIndex, range) ? range : LockedRange(aIndex, "LaserProxy::GetRange");
   }
-  double GetBearing(uint32_t aIndex) const;  ///< bearing of the beam in L [rad]
-  int GetIntensity(uint32_t aIndex) const;   ///< 0 to 255; 0 without IntensityOn()
-  int GetID() const;                         ///< serial number; a simulated laser's is 0
+  /// Bearing of a beam in L [rad].
+  double GetBearing(uint32_t aIndex) const {
+    double bearing = 0.0;
+    return mElements.Bearing(aIndex, bearing) ? bearing : LockedBearing(aIndex);
+  }
+  int GetIntensity(uint32_t aIndex) const;  ///< 0 to 255; 0 without IntensityOn()
+  int GetID() const;                        ///< serial number; a simulated laser's is 0
 
   /// Selects the beams that this proxy shows from now on: every n-th beam in the window [aMinAngle,
   /// aMaxAngle]. The simulated laser keeps its geometry, which the world file defines, and other
@@ -101,9 +109,11 @@ class LaserProxy : public ClientProxy {
  private:
   // The following members are guarded by the client's mutex.
   double CheckedRange(uint32_t aIndex, const char* aFun) const;
-  // Locks the mutex. Cold, so that loops over beams keep their values in registers, which a call
-  // would clobber.
+  // These lock the mutex. Cold, so that loops over beams keep their values in registers, which a
+  // call would clobber.
   [[gnu::cold]] double LockedRange(uint32_t aIndex, const char* aFun) const;
+  [[gnu::cold]] double LockedBearing(uint32_t aIndex) const;
+  [[gnu::cold]] uint32_t LockedCount() const;
   double LeastRange(bool aLeft) const;
   void View();
 

@@ -92,20 +92,34 @@ class Position2dProxy : public ClientProxy {
   /// does not move.
   void SetOdometry(double aX, double aY, double aYaw);
 
-  double GetXPos() const;      ///< [m]; these getters use the newest reading, 0 before the first
-  double GetYPos() const;      ///< [m]
-  double GetYaw() const;       ///< [rad], in (-pi, pi]
-  double GetXSpeed() const;    ///< actual forward speed [m/s]
-  double GetYSpeed() const;    ///< actual speed to the left, e.g. if pushed [m/s]
-  double GetYawSpeed() const;  ///< actual turn rate, counter-clockwise [rad/s]
-  bool GetStall() const;       ///< whether the commanded speed was not reached for 0.2 s
+  // These use the newest reading; they are 0 before the first.
+  double GetXPos() const { return Number(kXPos); }          ///< [m]
+  double GetYPos() const { return Number(kYPos); }          ///< [m]
+  double GetYaw() const { return Number(kYaw); }            ///< [rad], in (-pi, pi]
+  double GetXSpeed() const { return Number(kXSpeed); }      ///< actual forward speed [m/s]
+  double GetYSpeed() const { return Number(kYSpeed); }      ///< actual speed to the left [m/s]
+  double GetYawSpeed() const { return Number(kYawSpeed); }  ///< actual turn rate [rad/s]
+  /// Whether the commanded speed was not reached for 0.2 s.
+  bool GetStall() const { return Number(kStall) > 0.0; }
 
  protected:
   void HandleReading() override;
 
  private:
   struct Control;
+  // Indices of the numbers of a reading. That of 0 is not used: Elements counts its accesses as
+  // those of a beam.
+  enum Numbers { kXPos = 1, kYPos, kYaw, kXSpeed, kYSpeed, kYawSpeed, kStall, kNumberCount };
+
+  double Number(Numbers aNumber) const {
+    double value = 0.0;
+    return mElements.Find(aNumber, value) ? value : LockedNumber(aNumber);
+  }
+  // Locks the client's mutex.
+  [[gnu::cold]] double LockedNumber(Numbers aNumber) const;
+
   std::unique_ptr<Control> mControl;
+  double mNumbers[kNumberCount] = {};  // written and read by the client's sole user only
 };
 
 }  // namespace PlayerCc

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "connect/run_desk.h"
-#include "host/onlookers.h"
+#include "host/stepping/onlookers.h"
 #include "playerlike/process/log.h"
 #include "remote/player_session.h"
 #include "remote/socket_session.h"

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <utility>
 
-#include "devices/client_core.h"
-#include "devices/errors.h"
+#include "core/client_core.h"
+#include "core/errors.h"
 #include "session/canvas_cells.h"
 #include "sim/canvas/layers.h"
 #include "sim/core/colour.h"

@@ -4,8 +4,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "devices/client_core.h"
-#include "devices/errors.h"
+#include "core/client_core.h"
+#include "core/errors.h"
 #include "libCCMorse/GridMapLayer.h"
 #include "sim/canvas/layers.h"
 #include "sim/core/error.h"

@@ -5,8 +5,8 @@
 #include <ostream>
 #include <utility>
 
-#include "devices/client_core.h"
-#include "devices/errors.h"
+#include "core/client_core.h"
+#include "core/errors.h"
 #include "libCCMorse/MorseClient.h"
 #include "libCCMorse/MorseProperties.h"
 #include "playerlike/connect/open_session.h"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "devices/client_core.h"
-#include "devices/errors.h"
+#include "core/client_core.h"
+#include "core/errors.h"
 #include "devices/morse_receiver.h"
 #include "libCCMorse/MorseActuator.h"
 #include "libCCMorse/MorseBattery.h"
@@ -474,7 +474,8 @@ void MorseMotionVW::SetSpeed(double aSpeed, double aTurnRate) {
   const char* fun = "MorseMotionVW::SetSpeed";
   playerlike::require_finite(fun, {{"the forward speed", aSpeed}, {"the turn rate", aTurnRate}});
   const auto lock = Lock("SetSpeed");
-  Core()->send(fun, {RobotIndex(), DeviceIndex()}, sim::TwistCommand{{aSpeed, aTurnRate}});
+  Core()->send(fun, {RobotIndex(), DeviceIndex()},
+               sim::TwistCommand{{.v_mps = aSpeed, .omega_radps = aTurnRate}});
 }
 
 void MorseMotionVW::Stop() { SetSpeed(0.0, 0.0); }

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "devices/client_core.h"
-#include "devices/errors.h"
+#include "core/client_core.h"
+#include "core/errors.h"
 #include "devices/morse_receiver.h"
 #include "libCCMorse/MorseGripper.h"
 #include "sim/devices/gripper.h"

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "devices/client_core.h"
-#include "devices/errors.h"
+#include "core/client_core.h"
+#include "core/errors.h"
 #include "libCCMorse/MorseLight.h"
 #include "sim/core/number_text.h"
 

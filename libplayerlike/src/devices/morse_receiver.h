@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "devices/client_core.h"
+#include "core/client_core.h"
 #include "libCCMorse/MorseSensor.h"
 
 namespace CCMorse {

@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "drivers/amcl_thread.h"
 #include "drivers/named_settings.h"
 #include "libCCMorse/AmclDriver.h"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 
 namespace playerlike {
 

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "drivers/local_driver_start.h"
 #include "drivers/named_settings.h"
 #include "libCCMorse/LocalDriver.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "playerlike/messages/driver_settings.h"
 
 namespace playerlike {

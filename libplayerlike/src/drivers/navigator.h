@@ -77,7 +77,7 @@ class Navigator {
   /// The twist towards a goal that is not reached yet; nullopt: the method gives up.
   [[nodiscard]] virtual std::optional<sim::Twist> drive(const Situation& now,
                                                         const NavigationScan& scan) = 0;
-  /// Whether the method gives up, having turned to the goal's heading for some time in vain.
+  /// Whether the method gives up because it could not reach the goal's heading in time.
   [[nodiscard]] virtual bool gives_up_turning(double in_vain_for_s) const;
 
   /// Turn rate per radian of heading error [1/s]. A command holds for a period of the readings,

@@ -2,8 +2,8 @@
 #include <string>
 #include <variant>
 
-#include "devices/client_core.h"
-#include "devices/errors.h"
+#include "core/client_core.h"
+#include "core/errors.h"
 #include "drivers/local_driver_start.h"
 #include "libCCMorse/SndDriver.h"
 

@@ -6,9 +6,9 @@
 #include <exception>
 #include <utility>
 
-#include "host/busy_alarm.h"
-#include "host/virtual_clock.h"
-#include "host/window.h"
+#include "host/launch/busy_alarm.h"
+#include "host/stepping/virtual_clock.h"
+#include "host/window/window.h"
 #include "process/end_of_program.h"
 #include "sim/core/number_text.h"
 #include "virtual_time/program_threads.h"
@@ -457,7 +457,7 @@ bool Host::Core::advance(Lock& lock) {
 void Host::Core::note_losses() {
   for (const Mirror::Loss& loss : mirror_->after_step()) {
     warn_(loss.text + (loss.ends_run     ? "; the run ends"
-                       : loss.is_passing ? "; it is made again as soon as possible"
+                       : loss.is_passing ? "; the mirror reconnects as soon as possible"
                                          : "; the run continues without it"));
     if (loss.ends_run) results_.real_robot_lost = true;
     if (!loss.is_passing) clients_.note_loss(loss);
@@ -491,9 +491,9 @@ bool Host::Core::release_waiters() {
 
 std::optional<std::string> Host::Core::set_time_factor(double factor) {
   const Lock lock = lock_with_priority();
-  if (mirror_) return "time has no speed of its own: a robot mirrors a real one";
+  if (mirror_) return "the speed cannot be changed: a robot mirrors a real one";
   if (!paced()) {
-    return "time has no speed in lockstep: it goes on when all clients wait";
+    return "the speed cannot be changed in lockstep: time advances when all clients wait";
   }
   if (!(factor > 0.0 && std::isfinite(factor))) {
     return "expected a factor greater than 0, found " + sim::rounded_text(factor, 6);
@@ -649,7 +649,7 @@ std::vector<std::string> Host::Core::unrepeatable() const {
   if (turns_) why = Turns::instance().unrepeatable();
   if (paced()) why.emplace_back("simulated time followed the wall clock");
   if (lockstep_.silence_noted()) {
-    why.emplace_back("simulated time went on without a client that did not read for " +
+    why.emplace_back("simulated time advanced without a client that did not call Read() for " +
                      std::to_string(settings_.silence_limit_s) + " s of wall time");
   }
   if (inputs_.commanders.has_stopped()) why.emplace_back("a watchdog has stopped a robot");
@@ -662,7 +662,7 @@ std::vector<std::string> Host::Core::unrepeatable() const {
     if (lockstep_.several_owners() || (watches_program_ && program_has_threads())) {
       why.emplace_back(
           "the program has several threads or there were several programs, and time was "
-          "not virtual: what they do side by side is chance");
+          "not virtual: the order of their calls varies");
     }
   }
   return why;

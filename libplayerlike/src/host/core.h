@@ -13,19 +13,19 @@
 #include <thread>
 #include <vector>
 
-#include "host/alarms.h"
-#include "host/blackboard.h"
-#include "host/client_files.h"
-#include "host/clients.h"
-#include "host/inputs.h"
-#include "host/lockstep.h"
-#include "host/mirror.h"
-#include "host/pace.h"
-#include "host/permissions.h"
-#include "host/progress.h"
-#include "host/results.h"
-#include "host/saved_states.h"
-#include "host/stalled_time_warning.h"
+#include "host/mirror/mirror.h"
+#include "host/requests/blackboard.h"
+#include "host/requests/permissions.h"
+#include "host/requests/saved_states.h"
+#include "host/results/client_files.h"
+#include "host/results/results.h"
+#include "host/stepping/alarms.h"
+#include "host/stepping/clients.h"
+#include "host/stepping/inputs.h"
+#include "host/stepping/lockstep.h"
+#include "host/stepping/pace.h"
+#include "host/stepping/progress.h"
+#include "host/stepping/stalled_time_warning.h"
 #include "playerlike/host/event_client.h"
 #include "playerlike/host/host.h"
 #include "virtual_time/turns.h"
@@ -65,11 +65,10 @@ class Host::Core {
   Answer answer(Client& client, const Request& request);
   void send(Client& client, DeviceId device, const sim::Command& command);
 
-  // See Commander and Host::set_active().
+  // See Commander.
   std::optional<std::string> command(Commanders::Who who, DeviceId device,
                                      const sim::Command& command);
   void commander_gone(Commanders::Who who) noexcept;
-  std::optional<std::string> set_active(DeviceId device, bool active);
 
   void wait(Client& client);
   int take(Client& client, ReadingSink& sink);

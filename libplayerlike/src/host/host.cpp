@@ -5,7 +5,7 @@
 
 #include "host/core.h"
 #include "host/in_process_session.h"
-#include "host/virtual_clock.h"
+#include "host/stepping/virtual_clock.h"
 
 namespace playerlike {
 
@@ -67,11 +67,8 @@ AlarmId Host::set_alarm(Alarm alarm) { return core_->set_alarm(std::move(alarm))
 bool Host::cancel_alarm(AlarmId alarm) {
   return core_->locked([&] { return core_->alarms_.cancel(alarm); });
 }
-void Host::with_simulation(const std::function<void(sim::Simulation&)>& action) {
-  core_->locked([&] { action(core_->simulation_); });
-}
-std::optional<std::string> Host::set_active(DeviceId device, bool active) {
-  return core_->set_active(device, active);
+void Host::look_at_simulation(const std::function<void(const sim::Simulation&)>& look) const {
+  core_->locked([&] { look(core_->simulation_); });
 }
 void Host::set_step_credit(std::optional<std::uint64_t> steps) {
   core_->change_step_limit([&](Pace& pace) { pace.set_limit(steps); });

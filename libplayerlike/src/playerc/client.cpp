@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "playerc/device.h"
 #include "playerc/guard.h"
 #include "proxies/link.h"
@@ -472,14 +472,14 @@ int playerc_client_unsubscribe(playerc_client_t* client, int code, int index) {
 int playerc_client_request(playerc_client_t* /*client*/, struct _playerc_device_t* /*device*/,
                            uint8_t /*reqtype*/, const void* /*req_data*/, void** /*rep_data*/) {
   return guarded(__func__, [] {
-    refuse("there are no messages here: call the function of the device that makes the request");
+    refuse("this library has no generic requests: call the function of the device");
   });
 }
 
 int playerc_client_write(playerc_client_t* /*client*/, struct _playerc_device_t* /*device*/,
                          uint8_t /*subtype*/, void* /*cmd*/, double* /*timestamp*/) {
   return guarded(__func__, [] {
-    refuse("there are no messages here: call the function of the device that gives the command");
+    refuse("this library has no generic commands: call the function of the device");
   });
 }
 

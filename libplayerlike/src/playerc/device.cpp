@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "proxies/link.h"
 
 namespace playerlike::clib {

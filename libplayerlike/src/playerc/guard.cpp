@@ -4,8 +4,8 @@
 #include <mutex>
 #include <set>
 
-#include "devices/errors.h"
-#include "devices/warnings.h"
+#include "core/errors.h"
+#include "core/warnings.h"
 #include "libplayerc/playerc.h"
 
 namespace playerlike::clib {

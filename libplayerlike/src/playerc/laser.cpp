@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/laserproxy.h"
 #include "playerc/device.h"
 

@@ -67,7 +67,8 @@ class Opaque final : public ProxyBacked<playerc_opaque_t, PlayerCc::OpaqueProxy>
 
 // Lights of this library have one lamp each.
 void require_lamp(uint32_t id) {
-  if (id != 0) refuse("there is one lamp, with the number 0, but not " + std::to_string(id));
+  if (id != 0)
+    refuse("a light has one lamp, with the number 0; there is no lamp " + std::to_string(id));
 }
 
 }  // namespace
@@ -130,6 +131,8 @@ int playerc_opaque_cmd(playerc_opaque_t* device, player_opaque_data_t* data) {
 int playerc_opaque_req(playerc_opaque_t* device, player_opaque_data_t* /*request*/,
                        player_opaque_data_t** /*reply*/) {
   return with_device<Opaque>(__func__, device, [](Opaque& /*self*/) {
-    refuse("nothing answers at once: send it by playerc_opaque_cmd(), and read what comes back");
+    refuse(
+        "opaque requests have no answer: send playerc_opaque_cmd() and read the messages that "
+        "arrive");
   });
 }

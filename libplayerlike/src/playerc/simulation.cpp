@@ -81,13 +81,13 @@ int playerc_simulation_get_property(playerc_simulation_t* device, char* name, ch
 
 int playerc_simulation_pause(playerc_simulation_t* device) {
   return with_proxy(__func__, device, [](PlayerCc::SimulationProxy& /*proxy*/) {
-    refuse("clients cannot stop time: it stands while they think, and goes on when they read");
+    refuse("clients cannot stop time: it advances only while they read");
   });
 }
 
 int playerc_simulation_reset(playerc_simulation_t* device) {
   return with_proxy(__func__, device, [](PlayerCc::SimulationProxy& /*proxy*/) {
-    refuse("a run cannot begin anew: put robots back by playerc_simulation_set_pose2d()");
+    refuse("a run cannot be restarted: place robots with playerc_simulation_set_pose2d()");
   });
 }
 

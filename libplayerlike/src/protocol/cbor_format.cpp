@@ -97,9 +97,8 @@ class CborReader {
   };
 
   [[noreturn]] static void refuse(const std::string& what) {
-    throw ProtocolError(
-        "protocol/syntax",
-        "not CBOR as Playpen's protocol wants it ('playpen doc protocol'): " + what);
+    throw ProtocolError("protocol/syntax",
+                        "invalid CBOR message ('playpen doc protocol' has the format): " + what);
   }
 
   std::string_view take(std::uint64_t size) {
@@ -131,7 +130,7 @@ class CborReader {
 
   std::string read_text(std::uint64_t size) {
     const std::string_view text = take(size);
-    if (!is_utf8(text)) refuse("a text that is no UTF-8");
+    if (!is_utf8(text)) refuse("a text that is not UTF-8");
     return std::string(text);
   }
 
@@ -179,7 +178,7 @@ class CborReader {
       const auto [at, is_new] = object.emplace(read_text(head.argument), nullptr);
       if (!is_new) {
         throw ProtocolError("protocol/duplicate-key",
-                            "a key stands twice in an object: " + at->first.substr(0, 200));
+                            "duplicate key in an object: " + at->first.substr(0, 200));
       }
       at->second = read_value(depth);
     }

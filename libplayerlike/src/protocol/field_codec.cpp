@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "sim/core/assert.h"
 #include "sim/devices/builtin.h"
@@ -13,6 +14,7 @@
 namespace playerlike::protocol {
 namespace {
 
+using nlohmann::ordered_json;
 using sim::Field;
 using sim::FieldType;
 
@@ -23,14 +25,30 @@ const T& as(const void* value) {
   return *static_cast<const T*>(value);
 }
 
-bool is_in_place(const Field& field) { return *field.name == '\0'; }
+/// The two fields of the elements of a list that is an object in messages.
+std::pair<const Field&, const Field&> key_and_value(const Field& field) {
+  return {field.table().fields[0], field.table().fields[1]};
+}
 
-json list_of(const Field& field, const void* list, Encoding encoding) {
-  json out = json::array();
+bool is_in_place(const Field& field) {
+  const std::string_view name = field.name;
+  return name.empty() || name.ends_with('_');
+}
+
+template <typename Json>
+Json written(const Field& field, const void* value, Encoding encoding);
+
+template <typename Json>
+Json list_of(const Field& field, const void* list, Encoding encoding) {
+  Json out = field.is_keyed ? Json::object() : Json::array();
   for (std::size_t i = 0; i < field.list->size(list); ++i) {
-    json element = json::object();
-    write_fields(field.table(), field.list->at(list, i), element, encoding);
-    out.push_back(std::move(element));
+    const void* const element = field.list->at(list, i);
+    if (field.is_keyed) {
+      const auto [key, member] = key_and_value(field);
+      out[as<std::string>(key.get(element))] = written<Json>(member, member.get(element), encoding);
+    } else {
+      write_fields(field.table(), element, out.emplace_back(Json::object()), encoding);
+    }
   }
   return out;
 }
@@ -46,7 +64,8 @@ json octets(const std::vector<std::uint8_t>& numbers, Encoding encoding) {
 }
 
 /// Encodes a field that has a name.
-json written(const Field& field, const void* value, Encoding encoding) {
+template <typename Json>
+Json written(const Field& field, const void* value, Encoding encoding) {
   switch (field.type) {
     case FieldType::kNumber:
       return as<double>(value);
@@ -83,12 +102,17 @@ json written(const Field& field, const void* value, Encoding encoding) {
     case FieldType::kPoses:
       return poses(as<std::vector<sim::Pose>>(value));
     case FieldType::kList:
-      return list_of(field, value, encoding);
+      return list_of<Json>(field, value, encoding);
     case FieldType::kStruct: {
-      json out = json::object();
+      Json out = Json::object();
       write_fields(field.table(), value, out, encoding);
       return out;
     }
+    case FieldType::kForm:
+      return field.form->encode(value, encoding);
+    case FieldType::kPoints:
+    case FieldType::kMap:
+    case FieldType::kVariant:
     case FieldType::kInclude:
     case FieldType::kCustom:
       break;  // only in world files
@@ -98,19 +122,22 @@ json written(const Field& field, const void* value, Encoding encoding) {
 }
 
 /// Writes the components of a vector or a pose as members of the message itself.
-void write_in_place(const Field& field, const void* value, json& out) {
+template <typename Json>
+void write_in_place(const Field& field, const void* value, Json& out) {
   if (field.type == FieldType::kVec2) {
-    out["x"] = as<sim::Vec2>(value).x();
-    out["y"] = as<sim::Vec2>(value).y();
+    out[std::string(field.name) + 'x'] = as<sim::Vec2>(value).x();
+    out[std::string(field.name) + 'y'] = as<sim::Vec2>(value).y();
     return;
   }
-  SIM_ASSERT(field.type == FieldType::kPose);
+  SIM_ASSERT(field.type == FieldType::kPose && *field.name == '\0');
   out["x"] = as<sim::Pose>(value).x_m;
   out["y"] = as<sim::Pose>(value).y_m;
   out["yaw"] = as<sim::Pose>(value).yaw_rad;
 }
 
-sim::Vec2 read_vec2(const json& in) { return {require_number(in, "x"), require_number(in, "y")}; }
+sim::Vec2 read_vec2(const json& in, const std::string& prefix) {
+  return {require_number(in, (prefix + 'x').c_str()), require_number(in, (prefix + 'y').c_str())};
+}
 
 std::array<double, 3> require_vec3(const json& in, const char* key) {
   const json& vector = require(in, key);
@@ -118,9 +145,13 @@ std::array<double, 3> require_vec3(const json& in, const char* key) {
   return {require_number(vector, "x"), require_number(vector, "y"), require_number(vector, "z")};
 }
 
-sim::Colour require_colour(const json& in, const char* key) {
-  const std::optional<sim::Colour> colour = sim::parse_colour(require_text(in, key));
-  if (!colour) refuse_value(key, "#rgb, #rrggbb or #rrggbbaa", in.at(key));
+sim::Colour require_colour(const Field& field, const json& in, const char* key) {
+  const json& value = require(in, key);
+  const auto* text = value.get_ptr<const std::string*>();
+  const char* expected = field.issue_expected;
+  if (expected == nullptr) expected = text == nullptr ? "a text" : "#rgb, #rrggbb or #rrggbbaa";
+  const auto colour = text == nullptr ? std::nullopt : sim::parse_colour(*text);
+  if (!colour) refuse_value(key, expected, value);
   return *colour;
 }
 
@@ -145,17 +176,14 @@ std::vector<std::uint8_t> require_octets(const json& in, const char* key, Encodi
   return octets;
 }
 
-std::vector<std::string> require_names(const json& in, const char* key) {
-  std::vector<std::string> texts;
-  for (const json& text : require_list(require(in, key), key)) {
-    if (!text.is_string()) refuse_value(key, "a list of names", text);
-    texts.push_back(text.get<std::string>());
-  }
-  return texts;
+/// Describes the list of a field in errors.
+const char* list_in(const Field& field) {
+  return field.issue_expected != nullptr ? field.issue_expected : "a list";
 }
 
-void read_value(const Field& field, const json& in, const char* key, Encoding encoding,
-                void* value) {
+/// Reads a field that is neither a list nor a struct.
+void read_leaf(const Field& field, const json& in, const char* key, Encoding encoding,
+               void* value) {
   switch (field.type) {
     case FieldType::kNumber:
       *static_cast<double*>(value) = require_number(in, key);
@@ -174,10 +202,11 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
     case FieldType::kChoice:
       return read_choice(field, in, key, value);
     case FieldType::kColour:
-      *static_cast<sim::Colour*>(value) = require_colour(in, key);
+      *static_cast<sim::Colour*>(value) = require_colour(field, in, key);
       return;
     case FieldType::kVec2:
-      *static_cast<sim::Vec2*>(value) = read_vec2(is_in_place(field) ? in : require(in, key));
+      *static_cast<sim::Vec2*>(value) =
+          is_in_place(field) ? read_vec2(in, key) : read_vec2(require(in, key), "");
       return;
     case FieldType::kPose:
       *static_cast<sim::Pose*>(value) = decode_pose(is_in_place(field) ? in : require(in, key));
@@ -195,7 +224,7 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
       *static_cast<std::vector<double>*>(value) = require_doubles(in, key, encoding);
       return;
     case FieldType::kTexts:
-      *static_cast<std::vector<std::string>*>(value) = require_names(in, key);
+      *static_cast<std::vector<std::string>*>(value) = require_texts(in, key, field.issue_expected);
       return;
     case FieldType::kPoses:
       static_cast<std::vector<sim::Pose>*>(value)->clear();
@@ -203,17 +232,67 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
         static_cast<std::vector<sim::Pose>*>(value)->push_back(decode_pose(pose));
       }
       return;
+    case FieldType::kForm:
+      return field.form->decode(in, key, encoding, value);
     case FieldType::kList:
-      field.list->clear(value);
-      for (const json& element : require_list(require(in, key), key)) {
-        read_fields(field.table(), element, encoding, field.list->append(value));
-      }
-      return;
     case FieldType::kStruct:
-      return read_fields(field.table(), require(in, key), encoding, value);
+      break;  // see read_value()
+    case FieldType::kPoints:
+    case FieldType::kMap:
+    case FieldType::kVariant:
     case FieldType::kInclude:
     case FieldType::kCustom:
-      SIM_ASSERT(false);  // only in world files
+      break;  // only in world files
+  }
+  SIM_ASSERT(false);
+}
+
+/// The member `key`, see require().
+const json& member_of(const json& in, const char* key) { return require(in, key); }
+const ordered_json& member_of(const ordered_json& in, const char* key) {
+  if (!in.is_object() || !in.contains(key)) static_cast<void>(require(json(in), key));  // throws
+  return in.at(key);
+}
+
+/// A message with the members of a field.
+const json& leaf_of(const json& in, const Field& /*field*/, const char* /*key*/) { return in; }
+json leaf_of(const ordered_json& in, const Field& field, const char* key) {
+  if (!is_in_place(field)) return {{key, json(member_of(in, key))}};
+  return in;
+}
+
+template <typename Json>
+void read_value(const Field& field, const Json& in, const char* key, Encoding encoding,
+                void* value);
+
+template <typename Json>
+void read_list(const Field& field, const Json& in, const char* key, Encoding encoding, void* list) {
+  const Json& value = member_of(in, key);
+  if (field.is_keyed ? !value.is_object() : !value.is_array()) {
+    refuse_value(key, list_in(field), json(value));
+  }
+  field.list->clear(list);
+  for (auto at = value.begin(); at != value.end(); ++at) {
+    void* const element = field.list->append(list);
+    if (!field.is_keyed) {
+      read_fields(field.table(), *at, encoding, element);
+      continue;
+    }
+    const auto [name, member] = key_and_value(field);
+    *static_cast<std::string*>(name.set(element)) = at.key();
+    read_value(member, value, at.key().c_str(), encoding, member.set(element));
+  }
+}
+
+template <typename Json>
+void read_value(const Field& field, const Json& in, const char* key, Encoding encoding,
+                void* value) {
+  if (field.type == FieldType::kList) {
+    read_list(field, in, key, encoding, value);
+  } else if (field.type == FieldType::kStruct) {
+    read_fields(field.table(), member_of(in, key), encoding, value);
+  } else {
+    read_leaf(field, leaf_of(in, field, key), key, encoding, value);
   }
 }
 
@@ -221,11 +300,12 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
 const char* dot_in(const Field& field) { return std::strchr(field.name, '.'); }
 
 /// The object that holds a field: "own" for "own.ip".
-const json& require_owner(const Field& field, const char* dot, const json& in) {
+template <typename Json>
+const Json& require_owner(const Field& field, const char* dot, const Json& in) {
   const std::string owner(field.name, dot);
-  const json& object = require(in, owner.c_str());
+  const Json& object = member_of(in, owner.c_str());
   if (!object.is_object()) {
-    refuse_value(owner, "an object {\"" + std::string(dot + 1) + "\"}", object);
+    refuse_value(owner, "an object {\"" + std::string(dot + 1) + "\"}", json(object));
   }
   return object;
 }
@@ -240,45 +320,78 @@ const sim::DeviceKind& kind_with_readings(std::string_view type) {
 
 }  // namespace
 
-void write_fields(const sim::FieldTable& table, const void* object, json& out, Encoding encoding) {
+template <typename Json>
+void write_fields(const sim::FieldTable& table, const void* object, Json& out, Encoding encoding) {
   sim::for_each_field(table, object, [&](const Field& field, const void* owner) {
     const void* value = field.get(owner);
-    if (value == nullptr) return;
+    if (value == nullptr) {
+      if (field.null_if_empty) out[field.name] = nullptr;
+      return;
+    }
     if (is_in_place(field)) return write_in_place(field, value, out);
     if (const char* dot = dot_in(field)) {
-      out[std::string(field.name, dot)][dot + 1] = written(field, value, encoding);
+      out[std::string(field.name, dot)][dot + 1] = written<Json>(field, value, encoding);
     } else {
-      out[field.name] = written(field, value, encoding);
+      out[field.name] = written<Json>(field, value, encoding);
     }
   });
 }
 
-void read_fields(const sim::FieldTable& table, const json& in, Encoding encoding, void* object) {
+template <typename Json>
+void read_fields(const sim::FieldTable& table, const Json& in, Encoding encoding, void* object) {
   sim::for_each_field(table, object, [&](const Field& field, void* owner) {
     const bool is_optional = field.drop != nullptr;
-    if ((field.may_be_left_out || is_optional) && !in.contains(field.name)) {
+    const bool may_be_missing = field.may_be_left_out || (is_optional && !field.null_if_empty);
+    if (may_be_missing && !in.contains(field.name)) {
       if (is_optional) field.drop(owner);
       return;
     }
+    if (field.null_if_empty && member_of(in, field.name).is_null()) return field.drop(owner);
     const char* dot = dot_in(field);
-    const json& from = dot == nullptr ? in : require_owner(field, dot, in);
+    const Json& from = dot == nullptr ? in : require_owner(field, dot, in);
     read_value(field, from, dot == nullptr ? field.name : dot + 1, encoding, field.set(owner));
   });
   if (table.check == nullptr) return;
   if (const std::optional<sim::FieldError> error = table.check(object)) {
-    refuse_value(error->key, error->expected, require(in, error->key));
+    refuse_value(error->key, error->expected, json(member_of(in, error->key)));
   }
 }
 
-std::vector<std::string_view> keys_of(const sim::FieldTable& table) {
-  std::vector<std::string_view> keys;
+template void write_fields(const sim::FieldTable&, const void*, json&, Encoding);
+template void write_fields(const sim::FieldTable&, const void*, ordered_json&, Encoding);
+template void read_fields(const sim::FieldTable&, const json&, Encoding, void*);
+template void read_fields(const sim::FieldTable&, const ordered_json&, Encoding, void*);
+
+std::vector<std::string> keys_of(const sim::FieldTable& table) {
+  std::vector<std::string> keys;
   sim::for_each_field(table, static_cast<const void*>(nullptr),
                       [&](const Field& field, const void*) {
-                        if (!is_in_place(field)) return keys.push_back(field.name);
-                        keys.insert(keys.end(), {"x", "y"});
-                        if (field.type == FieldType::kPose) keys.emplace_back("yaw");
+                        const std::string name = field.name;
+                        if (!is_in_place(field)) return keys.push_back(name);
+                        keys.insert(keys.end(), {name + 'x', name + 'y'});
+                        if (field.type == FieldType::kPose) keys.push_back(name + "yaw");
                       });
   return keys;
+}
+
+void refuse_unknown_keys(const json& object, std::initializer_list<std::string_view> more,
+                         const sim::FieldTable& table, std::string_view what) {
+  const std::vector<std::string> keys = keys_of(table);
+  std::vector<std::string_view> known(more);
+  known.insert(known.end(), keys.begin(), keys.end());
+  refuse_unknown_keys(object, known, what);
+}
+
+std::vector<std::string> require_texts(const json& in, const char* key, const char* expected) {
+  std::vector<std::string> texts;
+  for (const json& text :
+       require_list(require(in, key), key, expected != nullptr ? expected : "a list")) {
+    if (!text.is_string()) {
+      refuse_value(key, expected != nullptr ? expected : "a list of names", text);
+    }
+    texts.push_back(text.get<std::string>());
+  }
+  return texts;
 }
 
 json encode_reading(DeviceId device, std::string_view type, const sim::Reading& reading,

@@ -115,7 +115,7 @@ class Builder {
     if (texts_.next() != nullptr) return fail("protocol/syntax", "a key is too long");
     const auto [at, is_new] = open_.back()->get_ptr<json::object_t*>()->emplace(name, nullptr);
     if (!is_new) {
-      return fail("protocol/duplicate-key", "a key stands twice in an object: " + shortened(name));
+      return fail("protocol/duplicate-key", "duplicate key in an object: " + shortened(name));
     }
     member_ = &at->second;
     return true;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/actarrayproxy.h"
 #include "proxies/link.h"
 #include "session/player_values.h"
@@ -49,7 +49,7 @@ void ActArrayProxy::RequestGeometry() {
 // --- settings
 
 void ActArrayProxy::Set(const char* aFun, int aSetting, uint32_t aJoint, double aValue) {
-  const scoped_lock_t lock(LockData(aFun));
+  const scoped_lock_t lock(mLink->lock_for_command(aFun));
   const auto setting = static_cast<JointSetting>(aSetting);
   if (aJoint != kAllJoints && aJoint >= mJoints) {
     playerlike::refuse(aFun, "there is no joint " + std::to_string(aJoint) + ": there are " +
@@ -106,7 +106,7 @@ void ActArrayProxy::WarnBeyondLimits(const char* aFun, std::size_t aFirst, std::
 
 void ActArrayProxy::Move(const char* aFun, int aMode, uint32_t aJoint,
                          std::vector<double> aValues) {
-  const scoped_lock_t lock(LockData(aFun));
+  const scoped_lock_t lock(mLink->lock_for_command(aFun));
   const auto mode = static_cast<JointMode>(aMode);
   const bool moves_all = aJoint == kAllJoints;
   const std::size_t moved = mode == JointMode::kHome ? 1 : aValues.size();

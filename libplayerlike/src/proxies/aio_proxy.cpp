@@ -4,7 +4,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/aioproxy.h"
 #include "proxies/link.h"
 #include "sim/core/number_text.h"
@@ -31,7 +31,7 @@ double AioProxy::GetVoltage(uint32_t aIndex) const {
 
 void AioProxy::SetVoltage(uint32_t aIndex, double aVoltage) {
   const char* fun = "AioProxy::SetVoltage";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   const double count = std::clamp<double>(mLink->property("outputs", sim::AioParams::kMaxLines),
                                           0.0, sim::AioParams::kMaxLines);
   if (!(std::abs(aVoltage) <= sim::AioParams::kMaxVolts)) {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libCCMorse/ArenaProxy.h"
 #include "proxies/link.h"
 #include "session/checks.h"

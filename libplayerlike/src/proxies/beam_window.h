@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/playerstructs.h"
 #include "proxies/sensor_support.h"
 #include "session/range_settings.h"

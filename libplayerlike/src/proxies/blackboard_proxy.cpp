@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/blackboardproxy.h"
 #include "proxies/link.h"
 #include "session/blackboard_feed.h"

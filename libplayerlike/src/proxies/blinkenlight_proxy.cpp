@@ -2,7 +2,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/blinkenlightproxy.h"
 #include "proxies/link.h"
 #include "sim/core/number_text.h"
@@ -29,7 +29,7 @@ uint8_t BlinkenLightProxy::GetBlue() const { return Look(&BlinkenlightReading::c
 
 void BlinkenLightProxy::SetEnable(bool aSet) {
   const char* fun = "BlinkenLightProxy::SetEnable";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   sim::LightCommand command;
   command.enabled = aSet;
   mLink->send(fun, command);
@@ -37,7 +37,7 @@ void BlinkenLightProxy::SetEnable(bool aSet) {
 
 void BlinkenLightProxy::SetPeriod(double aPeriod) {
   const char* fun = "BlinkenLightProxy::SetPeriod";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   if (!(aPeriod >= 0.0 && aPeriod <= 1e6)) {
     playerlike::refuse(fun,
                        "a light's period is in 0..1e6 s, but is " + sim::rounded_text(aPeriod, 6));
@@ -49,7 +49,7 @@ void BlinkenLightProxy::SetPeriod(double aPeriod) {
 
 void BlinkenLightProxy::SetDutyCycle(double aDutyCycle) {
   const char* fun = "BlinkenLightProxy::SetDutyCycle";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   if (!(aDutyCycle >= 0.0 && aDutyCycle <= 1.0)) {
     playerlike::refuse(
         fun, "a light's duty cycle is in 0..1, but is " + sim::rounded_text(aDutyCycle, 6));
@@ -61,7 +61,7 @@ void BlinkenLightProxy::SetDutyCycle(double aDutyCycle) {
 
 void BlinkenLightProxy::SetColor(uint8_t aRed, uint8_t aGreen, uint8_t aBlue) {
   const char* fun = "BlinkenLightProxy::SetColor";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   sim::LightCommand command;
   command.colour = sim::Colour{aRed, aGreen, aBlue, 255};
   mLink->send(fun, command);

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/cameraproxy.h"
 #include "proxies/link.h"
 #include "sim/devices/camera.h"

@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "devices/errors.h"
-#include "devices/warnings.h"
+#include "core/errors.h"
+#include "core/warnings.h"
 #include "libplayerc++/clientproxy.h"
 #include "playerlike/session/device_properties.h"
 #include "proxies/link.h"
@@ -23,15 +23,13 @@ using playerlike::translated;
 
 void ClientProxy::Link::on_reading(const sim::SharedReading& reading) {
   refresh(sim::to_seconds(reading->time_ns));
-  show(reading);
+  newest.reading = reading;
   proxy.HandleReading();
+  show();
   proxy.mFresh = true;
 }
 
-void ClientProxy::Link::show(const sim::SharedReading& reading) {
-  newest.reading = reading;
-  playerlike::show_elements(proxy.mElements, newest);
-}
+void ClientProxy::Link::show() { playerlike::show_elements(proxy.mElements, newest); }
 
 ClientProxy::scoped_lock_t ClientProxy::Link::lock_anyway(int looks) const {
   playerlike::virtual_time::count_data_reads(looks);
@@ -42,6 +40,13 @@ ClientProxy::scoped_lock_t ClientProxy::Link::lock_anyway(int looks) const {
 
 ClientProxy::scoped_lock_t ClientProxy::Link::lock(const char* fun, int looks) const {
   scoped_lock_t lock(lock_anyway(looks));
+  translated(fun, [&] { core->require_usable(); });
+  return lock;
+}
+
+ClientProxy::scoped_lock_t ClientProxy::Link::lock_for_command(const char* fun) const {
+  playerlike::virtual_time::count_data_reads();  // counts commands, too
+  scoped_lock_t lock(core->mutex());
   translated(fun, [&] { core->require_usable(); });
   return lock;
 }

@@ -34,7 +34,7 @@ bool DioProxy::GetInput(uint32_t aIndex) const {
 
 void DioProxy::SetOutput(uint32_t aCount, uint32_t aDigout) {
   const char* fun = "DioProxy::SetOutput";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   const auto outputs = static_cast<uint32_t>(std::clamp<double>(
       mLink->property("outputs", sim::DioParams::kMaxLines), 0.0, sim::DioParams::kMaxLines));
   if (aCount > outputs) {

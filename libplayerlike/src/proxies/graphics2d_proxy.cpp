@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libCCMorse/Drawing.h"
 #include "libplayerc++/graphics2dproxy.h"
 #include "playerlike/session/device_graphics.h"

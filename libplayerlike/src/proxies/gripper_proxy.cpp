@@ -2,7 +2,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/gripperproxy.h"
 #include "libplayerc++/playerconstants.h"
 #include "proxies/link.h"
@@ -44,7 +44,7 @@ uint32_t GripperProxy::GetStored() const {
 }
 
 void GripperProxy::Grip(const char* aFun, int aAction) {
-  const scoped_lock_t lock(LockData(aFun));
+  const scoped_lock_t lock(mLink->lock_for_command(aFun));
   mLink->send(
       aFun,
       sim::GripCommand{playerlike::grip_action(aAction).value_or(sim::GripCommand::Action::kStop)});

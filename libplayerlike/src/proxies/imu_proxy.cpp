@@ -2,7 +2,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/imuproxy.h"
 #include "proxies/link.h"
 #include "session/player_values.h"
@@ -70,7 +70,7 @@ void ImuProxy::ResetEuler(float aRoll, float aPitch, float aYaw) {
   playerlike::require_finite(fun, {{"the roll angle", static_cast<double>(aRoll)},
                                    {"the pitch angle", static_cast<double>(aPitch)},
                                    {"the yaw angle", static_cast<double>(aYaw)}});
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   mLink->send(fun,
               sim::SetPoseCommand{{0.0, 0.0, sim::normalize_angle(static_cast<double>(aYaw))}});
 }

@@ -22,7 +22,10 @@ IrProxy::IrProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) 
 IrProxy::~IrProxy() { ClientProxy::Unsubscribe(); }
 
 uint32_t IrProxy::GetCount() const {
-  return Look<RangerReading>(count_of_ranges, "IrProxy::GetCount");
+  uint32_t count = 0;
+  if (mElements.Count(count)) return count;
+  const scoped_lock_t lock(mLink->lock_element("IrProxy::GetCount"));
+  return count_of_ranges(mLink->newest.as<RangerReading>());
 }
 
 double IrProxy::GetRange(uint32_t aIndex) const {

@@ -6,9 +6,11 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/laserproxy.h"
 #include "proxies/beam_window.h"
 #include "proxies/link.h"
@@ -23,8 +25,6 @@ using sim::LaserReading;
 namespace {
 
 constexpr ElementWords kBeams{"beam", "beams", "the scan has"};
-
-uint32_t count(const LaserReading& scan) { return static_cast<uint32_t>(scan.ranges_m.size()); }
 
 }  // namespace
 
@@ -68,7 +68,8 @@ void LaserProxy::HandleReading() {
 
 // Exposes the measured scan or a part of it.
 void LaserProxy::View() {
-  if (mStride == 1 && mShown == mCount && mRangeRes == 0.0) return mLink->show(mLink->measured);
+  mLink->newest.reading = mLink->measured;
+  if (mStride == 1 && mShown == mCount && mRangeRes == 0.0) return;
   const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
   auto shown = detail::part_of(scan, {mFirst, mStride, mShown});
   if (mRangeRes > 0.0) {
@@ -76,7 +77,7 @@ void LaserProxy::View() {
       range = playerlike::limited_range_m(range, mRangeRes, 0.0, scan.range_max_m);
     }
   }
-  mLink->show(shown);
+  mLink->newest.reading = shown;
 }
 
 // The caller holds the client's mutex.
@@ -84,7 +85,10 @@ double LaserProxy::CheckedRange(uint32_t aIndex, const char* aFun) const {
   return mLink->element_or_zero(aFun, kBeams, aIndex, mLink->newest.as<LaserReading>().ranges_m);
 }
 
-uint32_t LaserProxy::GetCount() const { return Look<LaserReading>(count, "LaserProxy::GetCount"); }
+uint32_t LaserProxy::LockedCount() const {
+  const scoped_lock_t lock(mLink->lock_element("LaserProxy::GetCount"));
+  return static_cast<uint32_t>(mLink->newest.as<LaserReading>().ranges_m.size());
+}
 
 double LaserProxy::GetMaxRange() const { return Look(&LaserReading::range_max_m); }
 
@@ -140,16 +144,18 @@ double LaserProxy::LockedRange(uint32_t aIndex, const char* aFun) const {
   return CheckedRange(aIndex, aFun);
 }
 
-double LaserProxy::GetBearing(uint32_t aIndex) const {
-  double range = 0.0;
-  if (mElements.Find(aIndex, range)) {
-    return bearing_rad(detail::owner_of<LaserReading>(mElements), aIndex);
-  }
+double LaserProxy::LockedBearing(uint32_t aIndex) const {
   const char* fun = "LaserProxy::GetBearing";
   const scoped_lock_t lock(mLink->lock_element(fun));
   static_cast<void>(CheckedRange(aIndex, fun));
   const auto& scan = mLink->newest.as<LaserReading>();
-  return aIndex < scan.ranges_m.size() ? bearing_rad(scan, aIndex) : 0.0;
+  if (aIndex >= scan.ranges_m.size()) return 0.0;
+  if (mElements.MayShow()) {  // the next calls need no lock
+    std::vector<double> bearings(scan.ranges_m.size());
+    for (std::size_t i = 0; i < bearings.size(); ++i) bearings[i] = bearing_rad(scan, i);
+    mElements.ShowBearings(std::move(bearings));
+  }
+  return bearing_rad(scan, aIndex);
 }
 
 int LaserProxy::GetIntensity(uint32_t aIndex) const {
@@ -186,6 +192,7 @@ void LaserProxy::Configure(double aMinAngle, double aMaxAngle, uint32_t aScanRes
   mShown = window.shown;
   mRangeRes = aRangeRes * 0.001;
   View();
+  mLink->show();
 }
 
 void LaserProxy::RequestConfigure() {

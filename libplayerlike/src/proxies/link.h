@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/client_core.h"
+#include "core/client_core.h"
 #include "libplayerc++/clientproxy.h"
 #include "playerlike/messages/messages.h"
 #include "proxies/interfaces.h"
@@ -43,12 +43,19 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   [[nodiscard]] scoped_lock_t lock(const char* fun, int looks = 1) const;
   /// As lock(), without the check that the client is usable.
   [[nodiscard]] scoped_lock_t lock_anyway(int looks = 1) const;
+  /// Locks for a command, which is no access to data. @throws PlayerError as LockData().
+  [[nodiscard]] scoped_lock_t lock_for_command(const char* fun) const;
   /// Locks for an access that Elements::Find() could not answer without the mutex.
   [[nodiscard]] scoped_lock_t lock_element(const char* fun) const {
     return lock(fun, proxy.mElements.Looks());
   }
-  /// Replaces the exposed reading. The client's mutex is held, and begin_change() was called.
-  void show(const sim::SharedReading& reading);
+  /// Publishes the elements of `newest`, which HandleReading() may have replaced. The client's
+  /// mutex is held, and begin_change() was called.
+  void show();
+  void show(sim::SharedReading reading) {
+    newest.reading = std::move(reading);
+    show();
+  }
   /// Notes new data with this time stamp [s]. The client's mutex is held.
   void refresh(double time_s);
 
@@ -97,7 +104,7 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   playerlike::InterfaceBinding binding;
   bool attached = false;
   bool has_readings = false;    ///< whether it is subscribed to a device that makes readings
-  playerlike::Newest newest;    ///< the exposed reading
+  playerlike::Newest newest;    ///< the exposed reading; who replaces it calls show()
   sim::SharedReading measured;  ///< of rangefinders: the whole scan
   playerc_device_t device = {};
   /// Copies share it, because programs pass proxies by value in loops.

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/localizeproxy.h"
 #include "proxies/link.h"
 #include "session/player_values.h"
@@ -110,7 +110,7 @@ void LocalizeProxy::TellPose(const double* aPose, const double* aCovariance, std
     playerlike::refuse(
         fun, "the covariance must have 3 or 6 numbers, but has " + std::to_string(aCount));
   }
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   if (mLink->info().type != "amcl") return;  // the arena's localisation knows the pose
   const sim::Pose pose{aPose[0], aPose[1], sim::normalize_angle(aPose[2])};
   if (!has_variances) return mLink->send(fun, sim::SetPoseCommand{pose});

@@ -2,7 +2,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/logproxy.h"
 #include "proxies/link.h"
 

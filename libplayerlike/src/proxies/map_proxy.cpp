@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/mapproxy.h"
 #include "proxies/link.h"
 #include "session/player_values.h"

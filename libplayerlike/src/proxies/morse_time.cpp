@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libCCMorse/MorseTime.h"
 #include "proxies/link.h"
 

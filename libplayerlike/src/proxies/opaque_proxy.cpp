@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/opaqueproxy.h"
 #include "proxies/link.h"
 #include "sim/devices/opaque.h"
@@ -54,7 +54,7 @@ void OpaqueProxy::GetData(uint8_t* aDest) const {
 }
 
 void OpaqueProxy::Send(const char* aFun, const player_opaque_data_t* aData) {
-  const scoped_lock_t lock(LockData(aFun));
+  const scoped_lock_t lock(mLink->lock_for_command(aFun));
   const bool null = aData == nullptr || (aData->data == nullptr && aData->data_count > 0);
   if (null || aData->data_count > sim::kMaxOpaque) {
     playerlike::refuse(aFun, null

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <ostream>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/plannerproxy.h"
 #include "proxies/link.h"
 #include "proxies/planner.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/playerclient.h"
 #include "playerlike/connect/open_session.h"
 #include "proxies/link.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "devices/client_core.h"
+#include "core/client_core.h"
 #include "session/scan_drivers.h"
 
 namespace playerlike {

@@ -1,9 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ostream>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/position2dproxy.h"
 #include "proxies/goal_driver.h"
 #include "proxies/link.h"
@@ -15,6 +16,18 @@ using playerlike::require_finite;
 using playerlike::SessionError;
 using playerlike::translated;
 using sim::PoseReading;
+
+namespace {
+
+// In the order of Position2dProxy::Numbers.
+std::array<double, 8> numbers_of(const PoseReading& reading) {
+  const sim::Pose& pose = reading.pose;
+  const sim::Twist& twist = reading.twist;
+  return {0.0,         pose.x_m,          pose.y_m,          pose.yaw_rad,
+          twist.v_mps, twist.lateral_mps, twist.omega_radps, reading.stalled ? 1.0 : 0.0};
+}
+
+}  // namespace
 
 struct Position2dProxy::Control {
   // Limits of the robot's motors, for drivers.
@@ -44,7 +57,7 @@ struct Position2dProxy::Control {
 
   // Sends a command that moves the robot; cancels the driver's goal.
   static void drive(Position2dProxy& proxy, const sim::Command& command, const char* fun) {
-    const scoped_lock_t lock(proxy.LockData(fun));
+    const scoped_lock_t lock(proxy.mLink->lock_for_command(fun));
     if (proxy.mControl->driver != nullptr) proxy.mControl->driver->cancel();
     send(proxy, command, fun);
   }
@@ -76,6 +89,11 @@ void Position2dProxy::HandleReading() {
   const auto* reading = mLink->newest.find<PoseReading>();
   if (reading == nullptr) return;
   mLink->core->note_pose(mLink->binding.robot, reading->pose, mLink->info().type == "pose");
+  if (!mElements.MayShow()) return;
+  const auto numbers = numbers_of(*reading);
+  static_assert(numbers.size() == kNumberCount);
+  std::ranges::copy(numbers, mNumbers);
+  mElements.Show(nullptr, mNumbers, kNumberCount);
 }
 
 void Position2dProxy::SetSpeed(double aXSpeed, double aYSpeed, double aYawSpeed) {
@@ -83,7 +101,9 @@ void Position2dProxy::SetSpeed(double aXSpeed, double aYSpeed, double aYawSpeed)
   require_finite(fun, {{"the forward speed", aXSpeed},
                        {"the sideways speed", aYSpeed},
                        {"the turn rate", aYawSpeed}});
-  Control::drive(*this, sim::TwistCommand{{aXSpeed, aYawSpeed, aYSpeed}}, fun);
+  Control::drive(
+      *this,
+      sim::TwistCommand{{.v_mps = aXSpeed, .omega_radps = aYawSpeed, .lateral_mps = aYSpeed}}, fun);
 }
 
 void Position2dProxy::SetSpeed(double aXSpeed, double aYawSpeed) {
@@ -167,7 +187,7 @@ player_bbox3d_t Position2dProxy::GetSize() {
 
 void Position2dProxy::SetMotorEnable(bool enable) {
   const char* fun = "Position2dProxy::SetMotorEnable";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   if (!enable && mControl->driver != nullptr) {
     mControl->driver->cancel();
     // Otherwise the driver's last speeds would apply again if the motors are re-enabled before the
@@ -182,17 +202,14 @@ void Position2dProxy::ResetOdometry() { SetOdometry(0.0, 0.0, 0.0); }
 void Position2dProxy::SetOdometry(double aX, double aY, double aYaw) {
   const char* fun = "Position2dProxy::SetOdometry";
   require_finite(fun, {{"x", aX}, {"y", aY}, {"the heading", aYaw}});
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   mLink->send(fun, sim::SetPoseCommand{{aX, aY, sim::normalize_angle(aYaw)}});
 }
 
-double Position2dProxy::GetXPos() const { return Look(&PoseReading::pose).x_m; }
-double Position2dProxy::GetYPos() const { return Look(&PoseReading::pose).y_m; }
-double Position2dProxy::GetYaw() const { return Look(&PoseReading::pose).yaw_rad; }
-double Position2dProxy::GetXSpeed() const { return Look(&PoseReading::twist).v_mps; }
-double Position2dProxy::GetYSpeed() const { return Look(&PoseReading::twist).lateral_mps; }
-double Position2dProxy::GetYawSpeed() const { return Look(&PoseReading::twist).omega_radps; }
-bool Position2dProxy::GetStall() const { return Look(&PoseReading::stalled); }
+double Position2dProxy::LockedNumber(Numbers aNumber) const {
+  const scoped_lock_t lock(mLink->lock_element("ClientProxy"));
+  return numbers_of(mLink->newest.as<PoseReading>())[aNumber];
+}
 
 }  // namespace PlayerCc
 

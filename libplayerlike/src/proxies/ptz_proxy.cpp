@@ -2,7 +2,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/ptzproxy.h"
 #include "proxies/link.h"
 #include "sim/devices/ptz.h"
@@ -29,13 +29,13 @@ void PtzProxy::SetCam(double aPan, double aTilt, double aZoom) {
 void PtzProxy::SetCam(double aPan, double aTilt, double aZoom, double aPanSpeed,
                       double aTiltSpeed) {
   const char* fun = "PtzProxy::SetCam";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   mLink->send(fun, sim::PointCommand{aPan, aTilt, aZoom, aPanSpeed, aTiltSpeed});
 }
 
 void PtzProxy::SetSpeed(double aPanSpeed, double aTiltSpeed, double aZoomSpeed) {
   const char* fun = "PtzProxy::SetSpeed";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   mLink->send(fun, sim::PanCommand{aPanSpeed, aTiltSpeed, aZoomSpeed});
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/rangerproxy.h"
 #include "proxies/beam_window.h"
 #include "proxies/link.h"
@@ -74,7 +74,7 @@ void RangerProxy::HandleReading() {
 
 // Exposes the measured ranges or a part of them.
 void RangerProxy::View() {
-  mLink->show(mLink->measured);
+  mLink->newest.reading = mLink->measured;
   if (mStride == 1 && mShown == mCount && !mLimits) return;
   const auto limit = [this](std::vector<double>& ranges) {
     if (!mLimits) return;
@@ -85,11 +85,11 @@ void RangerProxy::View() {
   if (const auto* scan = mLink->newest.find<LaserReading>()) {
     const auto shown = detail::part_of(*scan, {mFirst, mStride, mShown});
     limit(shown->ranges_m);
-    mLink->show(shown);
+    mLink->newest.reading = shown;
   } else {
     const auto shown = std::make_shared<RangerReading>(mLink->newest.as<RangerReading>());
     limit(shown->ranges_m);
-    mLink->show(shown);
+    mLink->newest.reading = shown;
   }
 }
 
@@ -125,7 +125,9 @@ player_bbox3d_t RangerProxy::GetElementSize(uint32_t aIndex) const {
 }
 
 uint32_t RangerProxy::GetRangeCount() const {
-  const scoped_lock_t lock(LockData("RangerProxy::GetRangeCount"));
+  uint32_t count = 0;
+  if (mElements.Count(count)) return count;
+  const scoped_lock_t lock(mLink->lock_element("RangerProxy::GetRangeCount"));
   return static_cast<uint32_t>(ranges_of(mLink->newest).size());
 }
 
@@ -216,6 +218,7 @@ void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularR
   mRangeRes = aRangeRes;
   mLimits = mRangeRes > 0.0 || mMinRange > 0.0 || mMaxRange != most;
   View();
+  mLink->show();
 }
 
 void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularRes,

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <vector>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/playerstructs.h"
 #include "proxies/link.h"
 #include "session/range_settings.h"

@@ -5,8 +5,8 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
-#include "devices/warnings.h"
+#include "core/errors.h"
+#include "core/warnings.h"
 #include "libplayerc++/simulationproxy.h"
 #include "proxies/link.h"
 #include "session/object_values.h"

@@ -22,7 +22,10 @@ SonarProxy::SonarProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aI
 SonarProxy::~SonarProxy() { ClientProxy::Unsubscribe(); }
 
 uint32_t SonarProxy::GetCount() const {
-  return Look<RangerReading>(count_of_ranges, "SonarProxy::GetCount");
+  uint32_t count = 0;
+  if (mElements.Count(count)) return count;
+  const scoped_lock_t lock(mLink->lock_element("SonarProxy::GetCount"));
+  return count_of_ranges(mLink->newest.as<RangerReading>());
 }
 
 double SonarProxy::GetScan(uint32_t aIndex) const {

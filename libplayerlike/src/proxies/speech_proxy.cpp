@@ -2,7 +2,7 @@
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libplayerc++/speechproxy.h"
 #include "proxies/link.h"
 #include "session/player_values.h"
@@ -17,7 +17,7 @@ SpeechProxy::~SpeechProxy() { ClientProxy::Unsubscribe(); }
 
 void SpeechProxy::Say(std::string aStr) {
   const char* fun = "SpeechProxy::Say";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_for_command(fun));
   mLink->send(fun, sim::SayCommand{playerlike::sayable(aStr)});
 }
 

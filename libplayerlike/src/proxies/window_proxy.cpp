@@ -4,7 +4,7 @@
 #include <ostream>
 #include <utility>
 
-#include "devices/errors.h"
+#include "core/errors.h"
 #include "libCCMorse/WindowProxy.h"
 #include "proxies/link.h"
 #include "sim/canvas/layers.h"

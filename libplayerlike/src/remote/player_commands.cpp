@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "protocol/player_xdr.h"
+#include "session/player_values.h"
 
 namespace playerlike {
 namespace {
@@ -150,13 +151,7 @@ struct Converter {
 
   Converted operator()(const sim::GripCommand& what) const {
     if (interface != PLAYER_GRIPPER_CODE) return std::nullopt;
-    using Action = sim::GripCommand::Action;
-    const std::uint8_t subtype = what.action == Action::kOpen       ? PLAYER_GRIPPER_CMD_OPEN
-                                 : what.action == Action::kClose    ? PLAYER_GRIPPER_CMD_CLOSE
-                                 : what.action == Action::kStore    ? PLAYER_GRIPPER_CMD_STORE
-                                 : what.action == Action::kRetrieve ? PLAYER_GRIPPER_CMD_RETRIEVE
-                                                                    : PLAYER_GRIPPER_CMD_STOP;
-    return command_of(subtype, player::Empty{});
+    return command_of(grip_command(what.action), player::Empty{});
   }
 
   Converted operator()(const sim::PointCommand& what) const {

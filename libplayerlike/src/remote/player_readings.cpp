@@ -9,6 +9,7 @@
 
 #include "playerlike/session/device_planners.h"
 #include "protocol/player_xdr.h"
+#include "session/player_values.h"
 #include "session/range_settings.h"
 #include "sim/devices/actarray.h"
 #include "sim/devices/aio.h"
@@ -46,9 +47,6 @@ std::shared_ptr<R> next_of(const sim::SharedReading& last) {
 std::vector<double> doubles(const std::vector<float>& values) {
   return {values.begin(), values.end()};
 }
-
-/// The numbers of a message are unsigned; readings count with int.
-int as_int(std::uint32_t value) { return static_cast<int>(std::min(value, 0x7fffffffU)); }
 
 sim::Pose pose_of(const player::Pose2d& pose) { return {pose.px, pose.py, pose.pa}; }
 
@@ -220,12 +218,6 @@ Made gps(std::uint8_t subtype, std::string_view payload) {
   return reading;
 }
 
-void set_calibrated(const player::ImuDataCalib& data, sim::ImuReading& reading) {
-  reading.acceleration_mps2 = {double{data.accel_x}, double{data.accel_y}, double{data.accel_z}};
-  reading.rate_radps = {double{data.gyro_x}, double{data.gyro_y}, double{data.gyro_z}};
-  reading.field_ut = {double{data.magn_x}, double{data.magn_y}, double{data.magn_z}};
-}
-
 Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
   const auto reading = next_of<sim::ImuReading>(last);
   switch (subtype) {
@@ -233,11 +225,11 @@ Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReadin
       reading->yaw_rad = decode<player::ImuDataState>(payload).pose.pyaw;
       return reading;
     case PLAYER_IMU_DATA_CALIB:
-      set_calibrated(decode<player::ImuDataCalib>(payload), *reading);
+      set_imu_values(decode<player::ImuDataCalib>(payload), *reading);
       return reading;
     case PLAYER_IMU_DATA_QUAT: {
       const auto data = decode<player::ImuDataQuat>(payload);
-      set_calibrated(data.calib_data, *reading);
+      set_imu_values(data.calib_data, *reading);
       const double w = double{data.q0};
       const double x = double{data.q1};
       const double y = double{data.q2};
@@ -247,7 +239,7 @@ Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReadin
     }
     case PLAYER_IMU_DATA_EULER: {
       const auto data = decode<player::ImuDataEuler>(payload);
-      set_calibrated(data.calib_data, *reading);
+      set_imu_values(data.calib_data, *reading);
       reading->yaw_rad = data.orientation.pyaw;
       return reading;
     }
@@ -269,32 +261,8 @@ Made bumpers(std::uint8_t subtype, std::string_view payload) {
 
 Made gripper(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_GRIPPER_DATA_STATE) return nullptr;
-  const auto data = decode<player::GripperData>(payload);
-  // The bits of Player's drivers for Pioneers.
-  constexpr std::uint32_t kOuterBeam = 0x04;
-  constexpr std::uint32_t kInnerBeam = 0x08;
-  const auto reading = std::make_shared<sim::GripperReading>();
-  reading->state = data.state == PLAYER_GRIPPER_STATE_OPEN     ? sim::GripperState::kOpen
-                   : data.state == PLAYER_GRIPPER_STATE_CLOSED ? sim::GripperState::kClosed
-                   : data.state == PLAYER_GRIPPER_STATE_MOVING ? sim::GripperState::kMoving
-                                                               : sim::GripperState::kError;
-  reading->outer_beam = (data.beams & kOuterBeam) != 0;
-  reading->inner_beam = (data.beams & kInnerBeam) != 0;
-  reading->stored = data.stored;
-  return reading;
-}
-
-sim::JointState joint_state(std::uint8_t state) {
-  switch (state) {
-    case PLAYER_ACTARRAY_ACTSTATE_MOVING:
-      return sim::JointState::kMoving;
-    case PLAYER_ACTARRAY_ACTSTATE_BRAKED:
-      return sim::JointState::kBraked;
-    case PLAYER_ACTARRAY_ACTSTATE_STALLED:
-      return sim::JointState::kStalled;
-    default:
-      return sim::JointState::kIdle;
-  }
+  return std::make_shared<sim::GripperReading>(
+      gripper_reading(decode<player::GripperData>(payload)));
 }
 
 Made arm(std::uint8_t subtype, std::string_view payload, const DeviceInfo& device) {
@@ -335,7 +303,7 @@ Made fiducials(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_FIDUCIAL_DATA_SCAN) return nullptr;
   const auto reading = std::make_shared<sim::FiducialReading>();
   for (const player::FiducialItem& item : decode<player::FiducialData>(payload).fiducials) {
-    reading->marks.push_back({item.id, {item.pose.px, item.pose.py, item.pose.pyaw}});
+    reading->marks.push_back(mark_of(item));
   }
   return reading;
 }
@@ -346,20 +314,8 @@ Made blobs(std::uint8_t subtype, std::string_view payload) {
   const auto reading = std::make_shared<sim::BlobfinderReading>();
   reading->width = as_int(data.width);
   reading->height = as_int(data.height);
-  for (const player::BlobfinderBlob& seen : data.blobs) {
-    sim::BlobfinderReading::Blob blob;
-    blob.colour = {static_cast<std::uint8_t>(seen.color >> 16U),
-                   static_cast<std::uint8_t>(seen.color >> 8U),
-                   static_cast<std::uint8_t>(seen.color), 255};
-    blob.area = as_int(seen.area);
-    blob.x = as_int(seen.x);
-    blob.y = as_int(seen.y);
-    blob.left = as_int(seen.left);
-    blob.right = as_int(seen.right);
-    blob.top = as_int(seen.top);
-    blob.bottom = as_int(seen.bottom);
-    blob.range_m = double{seen.range};
-    reading->blobs.push_back(blob);
+  for (const player::BlobfinderBlob& blob : data.blobs) {
+    reading->blobs.push_back(seen_blob(blob));
   }
   return reading;
 }

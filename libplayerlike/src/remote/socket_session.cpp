@@ -622,6 +622,10 @@ struct SocketSession::RequestHandler {
   template <typename One>
   typename One::Result operator()(const One& what) const {
     if constexpr (requires { check(what); }) check(what);
+    if constexpr (!requires { One::kName; }) {
+      throw SessionError(SessionError::Code::kNotAvailable,
+                         "a server does this for clients in MORSE's protocol only");
+    }
     Answer answer = session.ask_for(what);
     if constexpr (!std::is_void_v<typename One::Result>) {
       return std::get<typename One::Result>(std::move(answer));

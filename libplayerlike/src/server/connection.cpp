@@ -388,7 +388,7 @@ void Connection::enforce_limits(Clock::time_point now) {
   if (partial_since_ && too_late(*partial_since_, limits.partial_request_s)) {
     return fail(protocol::ProtocolError(
         "server/partial-request",
-        "a request was not whole within " + seconds_text(limits.partial_request_s)));
+        "a request was not complete within " + seconds_text(limits.partial_request_s)));
   }
   if (handler_->takes_bytes() || handler_->may_be_silent()) return;
   if (requests_ == 0 && too_late(opened_, limits.first_request_s)) {

@@ -18,10 +18,13 @@ using Right = MorseService::Right;
 
 constexpr double kMost = 1e6;  // of any number in a request
 
+std::vector<std::string> joint_names(const MorseCall& call) {
+  return ask<sim::ActArray>(call, &sim::ActArray::joint_names);
+}
+
 // Index of a joint of the arm, which is of the wanted type, if any. @throws MorseRefusal.
 int joint_of(MorseCall& call, const std::string& name, std::optional<sim::JointType> type) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    const auto& arm = device_in<sim::ActArray>(simulation, id_of(call));
+  return ask<sim::ActArray>(call, [&](const sim::ActArray& arm) {
     const std::vector<std::string> names = arm.joint_names();
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
@@ -44,8 +47,7 @@ int joint_of(MorseCall& call, const std::string& name, std::optional<sim::JointT
 json place_joint(MorseCall& call, sim::JointType type) {
   const int joint = joint_of(call, call.arguments.text(0), type);
   const double value = call.arguments.number(1, -kMost, kMost);
-  MorseState::command(call.from.commander(), id_of(call),
-                      sim::JointCommand{sim::JointCommand::Mode::kPlace, joint, {value}});
+  command(call, sim::JointCommand{sim::JointCommand::Mode::kPlace, joint, {value}});
   return nullptr;
 }
 json set_rotation(MorseCall& call) { return place_joint(call, sim::JointType::kRotary); }
@@ -53,9 +55,7 @@ json set_translation(MorseCall& call) { return place_joint(call, sim::JointType:
 
 // Places the first joints, all of the given type.
 json place_joints(MorseCall& call, sim::JointType type) {
-  const std::vector<std::string> names = call.state.with([&](const sim::Simulation& simulation) {
-    return device_in<sim::ActArray>(simulation, id_of(call)).joint_names();
-  });
+  const std::vector<std::string> names = joint_names(call);
   std::vector<double> values;
   for (const json& value : call.arguments.list(0)) {
     if (values.size() == names.size()) break;  // as in MORSE, the rest is discarded
@@ -64,8 +64,7 @@ json place_joints(MorseCall& call, sim::JointType type) {
     values.push_back(value.get<double>());
   }
   if (values.empty()) return nullptr;
-  MorseState::command(call.from.commander(), id_of(call),
-                      sim::JointCommand{sim::JointCommand::Mode::kPlace, 0, std::move(values)});
+  command(call, sim::JointCommand{sim::JointCommand::Mode::kPlace, 0, std::move(values)});
   return nullptr;
 }
 json set_rotations(MorseCall& call) { return place_joints(call, sim::JointType::kRotary); }
@@ -77,25 +76,21 @@ bool arm_rests(const sim::Device& device) {
 
 // A joint's speed if a request names none.
 double usual_speed_of(MorseCall& call, int joint) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    const auto& arm = device_in<sim::ActArray>(simulation, id_of(call));
+  return ask<sim::ActArray>(call, [&](const sim::ActArray& arm) {
     return sim::travel_of(arm.params().joints.at(static_cast<std::size_t>(joint))).speed;
   });
 }
 
 void set_speed_of(MorseCall& call, int joint, double speed) {
-  MorseState::command(
-      call.from.commander(), id_of(call),
-      sim::JointSettingCommand{sim::JointSettingCommand::Setting::kSpeed, joint, speed});
+  command(call, sim::JointSettingCommand{sim::JointSettingCommand::Setting::kSpeed, joint, speed});
 }
 
 json move_joint(MorseCall& call, sim::JointType type) {
   const int joint = joint_of(call, call.arguments.text(0), type);
   const double value = call.arguments.number(1, -kMost, kMost);
   set_speed_of(call, joint, call.arguments.number(2, 1e-6, kMost, usual_speed_of(call, joint)));
-  call.state.answer_when(call.from, call.id, id_of(call),
-                         sim::JointCommand{sim::JointCommand::Mode::kPosition, joint, {value}},
-                         arm_rests);
+  answer_when(call, sim::JointCommand{sim::JointCommand::Mode::kPosition, joint, {value}},
+              arm_rests);
   return nullptr;
 }
 json rotate_joint(MorseCall& call) { return move_joint(call, sim::JointType::kRotary); }
@@ -105,40 +100,31 @@ json translate_joint(MorseCall& call) { return move_joint(call, sim::JointType::
 json move_joints(MorseCall& call, sim::JointType type) {
   const json& wanted = call.arguments.any(0);
   if (!wanted.is_object()) call.arguments.refuse(0, "an object {joint: value}");
-  std::vector<double> values = call.state.with([&](const sim::Simulation& simulation) {
-    return device_in<sim::ActArray>(simulation, id_of(call)).positions();
-  });
+  std::vector<double> values = ask<sim::ActArray>(call, &sim::ActArray::positions);
   for (const auto& [name, value] : wanted.items()) {
     const int joint = joint_of(call, name, type);
     if (!value.is_number()) call.arguments.refuse(0, "an object {joint: number}");
     set_speed_of(call, joint, call.arguments.number(1, 1e-6, kMost, usual_speed_of(call, joint)));
     values[static_cast<std::size_t>(joint)] = value.get<double>();
   }
-  call.state.answer_when(
-      call.from, call.id, id_of(call),
-      sim::JointCommand{sim::JointCommand::Mode::kPosition, 0, std::move(values)}, arm_rests);
+  answer_when(call, sim::JointCommand{sim::JointCommand::Mode::kPosition, 0, std::move(values)},
+              arm_rests);
   return nullptr;
 }
 json rotate_joints(MorseCall& call) { return move_joints(call, sim::JointType::kRotary); }
 json translate_joints(MorseCall& call) { return move_joints(call, sim::JointType::kLinear); }
 
-json joints_of_arm(MorseCall& call) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    return json(device_in<sim::ActArray>(simulation, id_of(call)).joint_names());
-  });
-}
+json joints_of_arm(MorseCall& call) { return joint_names(call); }
 
 json stop_arm(MorseCall& call) {
-  MorseState::command(call.from.commander(), id_of(call),
-                      sim::JointCommand{sim::JointCommand::Mode::kSpeed, -1, {0.0}});
+  command(call, sim::JointCommand{sim::JointCommand::Mode::kSpeed, -1, {0.0}});
   return nullptr;
 }
 
 // --- limits
 
 json degrees_of_freedom(MorseCall& call) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    const auto& arm = device_in<sim::ActArray>(simulation, id_of(call));
+  return ask<sim::ActArray>(call, [](const sim::ActArray& arm) {
     const std::vector<std::string> names = arm.joint_names();
     json all = json::object();
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -151,8 +137,7 @@ json degrees_of_freedom(MorseCall& call) {
 
 json limits_of_joint(MorseCall& call) {
   const int joint = joint_of(call, call.arguments.text(0), {});
-  return call.state.with([&](const sim::Simulation& simulation) {
-    const auto& arm = device_in<sim::ActArray>(simulation, id_of(call));
+  return ask<sim::ActArray>(call, [&](const sim::ActArray& arm) {
     const sim::JointTravel travel =
         sim::travel_of(arm.params().joints[static_cast<std::size_t>(joint)]);
     return json::array({travel.min, travel.max});
@@ -185,9 +170,7 @@ json trajectory(MorseCall& call) {
     throw MorseRefusal("Error: invalid trajectory: key 'points' was expected.");
   }
   if (!points->is_array()) call.arguments.refuse(0, "a list of points");
-  const std::size_t joints = call.state.with([&](const sim::Simulation& simulation) {
-    return device_in<sim::ActArray>(simulation, id_of(call)).joint_names().size();
-  });
+  const std::size_t joints = joint_names(call).size();
   for (const json& point : *points) {
     if (!point.is_object()) call.arguments.refuse(0, "points that are objects");
     command.times_s.push_back(number_in(call, point, "time_from_start"));
@@ -206,7 +189,7 @@ json trajectory(MorseCall& call) {
       command.positions.push_back(position.get<double>());
     }
   }
-  call.state.answer_when(call.from, call.id, id_of(call), command, has_come_to_its_end);
+  answer_when(call, command, has_come_to_its_end);
   return nullptr;
 }
 
@@ -229,10 +212,7 @@ Eigen::Matrix3d axes_of_bone() {
 
 // MORSE's name of the only target, at the end of the last link.
 std::string target_name(MorseCall& call) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    return "ik_target." + call.component->name + '.' +
-           device_in<sim::ActArray>(simulation, id_of(call)).joint_names().back();
-  });
+  return "ik_target." + call.component->name + '.' + joint_names(call).back();
 }
 
 json list_ik_targets(MorseCall& call) { return json::array({target_name(call)}); }
@@ -272,9 +252,8 @@ Reach reach_of(MorseCall& call) {
     throw MorseRefusal("IK target <" + name + "> does not exist for armature " +
                        call.component->name);
   }
-  Reach reach = call.state.with([&](const sim::Simulation& simulation) {
-    const auto& arm = device_in<sim::ActArray>(simulation, id_of(call));
-    const sim::BodyState& body = simulation.body(call.component->robot);
+  Reach reach = ask<sim::ActArray>(call, [&](const sim::ActArray& arm, const sim::Simulation& all) {
+    const sim::BodyState& body = all.body(call.component->robot);
     Reach made;
     made.arm = arm.params();
     made.positions = arm.positions();
@@ -310,9 +289,8 @@ void keep_target(MorseCall& call, const Reach& reach) {
 
 json place_ik_target(MorseCall& call) {
   const Reach reach = reach_of(call);
-  MorseState::command(call.from.commander(), id_of(call),
-                      sim::JointCommand{sim::JointCommand::Mode::kPlace, 0,
-                                        reach.solve(reach.to_W, reach.positions, kToTheEnd)});
+  command(call, sim::JointCommand{sim::JointCommand::Mode::kPlace, 0,
+                                  reach.solve(reach.to_W, reach.positions, kToTheEnd)});
   keep_target(call, reach);
   return nullptr;
 }
@@ -346,7 +324,7 @@ json move_ik_target(MorseCall& call) {
     command.times_s.push_back(t_s);
     command.positions.insert(command.positions.end(), positions.begin(), positions.end());
   }
-  call.state.answer_when(call.from, call.id, id_of(call), command, has_come_to_its_end);
+  answer_when(call, command, has_come_to_its_end);
   keep_target(call, reach);
   return nullptr;
 }

@@ -327,9 +327,11 @@ sim::Command place_command(const json& object, const StreamFormat& format) {
 sim::Command twist_command(const json& object) {
   // MORSE's MotionXYW has x, y and w, its MotionVW v and w.
   if (!object.contains("v") && object.contains("x")) {
-    return sim::TwistCommand{{number(object, "x"), number(object, "w"), number(object, "y", 0.0)}};
+    return sim::TwistCommand{{.v_mps = number(object, "x"),
+                              .omega_radps = number(object, "w"),
+                              .lateral_mps = number(object, "y", 0.0)}};
   }
-  return sim::TwistCommand{{number(object, "v"), number(object, "w"), 0.0}};
+  return sim::TwistCommand{{.v_mps = number(object, "v"), .omega_radps = number(object, "w")}};
 }
 
 // The values of joints by their names; the others keep their positions.

@@ -30,8 +30,7 @@ bool head_rests(const sim::Device& device) {
 
 // MORSE's tilt is positive downwards.
 json point(MorseCall& call, double pan_rad, double tilt_rad) {
-  call.state.answer_when(call.from, call.id, id_of(call),
-                         sim::PointCommand{pan_rad, -tilt_rad, 0.0, 0.0, 0.0}, head_rests);
+  answer_when(call, sim::PointCommand{pan_rad, -tilt_rad, 0.0, 0.0, 0.0}, head_rests);
   return nullptr;
 }
 
@@ -41,8 +40,7 @@ json set_pan_tilt(MorseCall& call) {
 }
 
 json get_pan_tilt(MorseCall& call) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    const auto& head = device_in<sim::Ptz>(simulation, id_of(call));
+  return ask<sim::Ptz>(call, [](const sim::Ptz& head) {
     return json::array({head.pan_rad(), -head.tilt_rad()});
   });
 }
@@ -54,9 +52,8 @@ json aim(MorseCall& call, const Eigen::Vector3d& p_W) {
     double pan;
     double tilt;
   };
-  const Angles wanted = call.state.with([&](const sim::Simulation& simulation) {
-    const sim::BodyState& body = simulation.body(call.component->robot);
-    const auto& head = device_in<sim::Ptz>(simulation, id_of(call));
+  const Angles wanted = ask<sim::Ptz>(call, [&](const sim::Ptz& head, const sim::Simulation& all) {
+    const sim::BodyState& body = all.body(call.component->robot);
     const Eigen::Isometry3d X_WH =
         sim::in_space(body.X_WB, body.elevation) * head.mount().transform();
     const Eigen::Vector3d way = p_W - X_WH.translation();
@@ -75,13 +72,10 @@ json look_at_point(MorseCall& call) {
 json look_at_object(MorseCall& call) {
   require_truth(call);
   const std::string name = call.arguments.text(0);
-  const auto place = call.state.with([&](const sim::Simulation& simulation) {
-    std::optional<Eigen::Vector3d> found;
-    for (const sim::SceneObject& object : simulation.scene_objects()) {
-      if (object.name == name) found.emplace(object.pose.x_m, object.pose.y_m, 0.0);
-    }
-    return found;
-  });
+  std::optional<Eigen::Vector3d> place;
+  for (const sim::SceneObject& object : scene_of(call)) {
+    if (object.name == name) place.emplace(object.pose.x_m, object.pose.y_m, 0.0);
+  }
   if (!place) throw MorseRefusal("Object '" + name + "' not found in scene. Can not look at it");
   return aim(call, *place);
 }
@@ -95,11 +89,7 @@ constexpr MorseService kHead[] = {
 
 // --- posture
 
-json posture_joints(MorseCall& call) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    return json(device_in<sim::Posture>(simulation, id_of(call)).joints());
-  });
-}
+json posture_joints(MorseCall& call) { return ask<sim::Posture>(call, &sim::Posture::joints); }
 
 // An object of the joints' values by their names.
 json by_joint(const std::vector<std::string>& joints, const std::vector<double>& values) {
@@ -112,8 +102,7 @@ json by_joint(const std::vector<std::string>& joints, const std::vector<double>&
 }
 
 json posture_state(MorseCall& call) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    const auto& posture = device_in<sim::Posture>(simulation, id_of(call));
+  return ask<sim::Posture>(call, [](const sim::Posture& posture) {
     return by_joint(posture.joints(), posture.positions());
   });
 }
@@ -129,8 +118,7 @@ json posture_joint(MorseCall& call) {
 }
 
 json joints_length(MorseCall& call) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    const auto& posture = device_in<sim::Posture>(simulation, id_of(call));
+  return ask<sim::Posture>(call, [](const sim::Posture& posture) {
     return by_joint(posture.joints(), posture.lengths_m());
   });
 }
@@ -145,13 +133,11 @@ constexpr MorseService kPosture[] = {
 // --- proximity
 
 json set_range(MorseCall& call) {
-  MorseState::command(call.from.commander(), id_of(call),
-                      sim::TrackCommand{call.arguments.number(0, 1e-3, 1000.0), {}});
+  command(call, sim::TrackCommand{call.arguments.number(0, 1e-3, 1000.0), {}});
   return nullptr;
 }
 json set_tracked_tag(MorseCall& call) {
-  MorseState::command(call.from.commander(), id_of(call),
-                      sim::TrackCommand{{}, call.arguments.text(0)});
+  command(call, sim::TrackCommand{{}, call.arguments.text(0)});
   return nullptr;
 }
 
@@ -162,32 +148,25 @@ constexpr MorseService kProximity[] = {
 
 // --- hand
 
-json grab(MorseCall& call) {
-  const auto held = [&] {
-    return call.state.with([&](const sim::Simulation& simulation) {
-      return device_in<sim::Hand>(simulation, id_of(call))
-          .held(simulation.world(), call.component->robot);
-    });
-  };
-  const bool reaches = call.state.with([&](const sim::Simulation& simulation) {
-    return device_in<sim::Hand>(simulation, id_of(call))
-               .nearest(simulation.world(), simulation.body(call.component->robot)) >= 0;
+// The name of the object that the hand holds; empty: none.
+std::string held_by(MorseCall& call) {
+  return ask<sim::Hand>(call, [&](const sim::Hand& hand, const sim::Simulation& all) {
+    return hand.held(all.world(), call.component->robot);
   });
-  if (!reaches && held().empty()) return nullptr;
-  MorseState::command(call.from.commander(), id_of(call),
-                      sim::GripCommand{sim::GripCommand::Action::kClose});
-  return held();
+}
+
+json grab(MorseCall& call) {
+  const bool reaches = ask<sim::Hand>(call, [&](const sim::Hand& hand, const sim::Simulation& all) {
+    return hand.nearest(all.world(), all.body(call.component->robot)) >= 0;
+  });
+  if (!reaches && held_by(call).empty()) return nullptr;
+  command(call, sim::GripCommand{sim::GripCommand::Action::kClose});
+  return held_by(call);
 }
 
 json release(MorseCall& call) {
-  const bool holds = call.state.with([&](const sim::Simulation& simulation) {
-    return !device_in<sim::Hand>(simulation, id_of(call))
-                .held(simulation.world(), call.component->robot)
-                .empty();
-  });
-  if (!holds) return nullptr;
-  MorseState::command(call.from.commander(), id_of(call),
-                      sim::GripCommand{sim::GripCommand::Action::kOpen});
+  if (held_by(call).empty()) return nullptr;
+  command(call, sim::GripCommand{sim::GripCommand::Action::kOpen});
   return true;
 }
 
@@ -201,11 +180,8 @@ constexpr MorseService kHand[] = {
 json toggle(MorseCall& call) {
   // As in MORSE, anything but true switches the light to the other state.
   const bool on = call.arguments.has(0) && call.arguments.any(0) == json(true);
-  const bool is_on = call.state.with([&](const sim::Simulation& simulation) {
-    return device_in<sim::Blinkenlight>(simulation, id_of(call)).enabled();
-  });
-  MorseState::command(call.from.commander(), id_of(call),
-                      sim::LightCommand{on || !is_on, {}, {}, {}});
+  const bool is_on = ask<sim::Blinkenlight>(call, &sim::Blinkenlight::enabled);
+  command(call, sim::LightCommand{on || !is_on, {}, {}, {}});
   return true;
 }
 
@@ -221,13 +197,11 @@ json capture(MorseCall& call) {
   const auto pictures_of = [](const sim::Device& device) {
     return device.sensor()->reading().sequence;
   };
-  const DeviceId id = id_of(call);
-  const std::uint64_t last = call.state.with([&](const sim::Simulation& simulation) {
-    return pictures_of(simulation.device(id.robot, id.device)) + static_cast<std::uint64_t>(wanted);
-  });
-  call.state.answer_when(call.from, call.id, id, [pictures_of, last](const sim::Device& device) {
-    return pictures_of(device) >= last;
-  });
+  const std::uint64_t last =
+      ask<sim::Device>(call, pictures_of) + static_cast<std::uint64_t>(wanted);
+  call.state.answer_when(
+      call.from, call.id, id_of(call),
+      [pictures_of, last](const sim::Device& device) { return pictures_of(device) >= last; });
   return nullptr;
 }
 
@@ -240,7 +214,7 @@ constexpr MorseService kCamera[] = {
 json distance_and_view(MorseCall& call) {
   require_truth(call);
   const std::string names[] = {call.arguments.text(0), call.arguments.text(1)};
-  return call.state.with([&](const sim::Simulation& simulation) {
+  return call.state.host().with_simulation([&](const sim::Simulation& simulation) {
     int robots[2] = {};
     for (std::size_t i = 0; i < 2; ++i) {
       const auto found = simulation.find_robot(names[i]);

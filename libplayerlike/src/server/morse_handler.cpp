@@ -205,7 +205,7 @@ void MorseConnection::playpen(const std::string& id, std::string_view service,
       present(token);
       if (rights_.connect == before.connect && rights_.watch == before.watch &&
           rights_.command == before.command) {
-        throw MorseRefusal("access/denied: this token gives no rights that are not there already");
+        throw MorseRefusal("access/denied: this token gives no further rights");
       }
       answer(id, "SUCCESS", nullptr);
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "server/morse_services.h"
 #include "sim/world/view_mode.h"
@@ -36,11 +37,10 @@ json here(MorseCall& call) {
   return kPen({*call.state.client(), call.arguments});
 }
 
-json draw(MorseCall& call, std::span<const sim::DrawOperation> operations) {
-  call.state.with([&](sim::Simulation& simulation) {
-    simulation.layers().draw(operations);
-    return true;
-  });
+json draw(EventClient& client, std::vector<sim::DrawOperation> operations) {
+  DrawWork work{std::move(operations), {}};
+  while (!client.draw_some(work, kSliceCells)) {
+  }
   return nullptr;
 }
 
@@ -49,7 +49,7 @@ json set_pixel(MorseCall& call) {
   pixel.x0 = call.arguments.integer(0, kLeastCell, kMostCell);
   pixel.y0 = call.arguments.integer(1, kLeastCell, kMostCell);
   pixel.value = colour_from(call.arguments, 2);
-  return draw(call, {&pixel, 1});
+  return draw(*call.state.client(), {pixel});
 }
 
 json set_line(MorseCall& call) {
@@ -60,15 +60,13 @@ json set_line(MorseCall& call) {
   line.x1 = call.arguments.integer(2, kLeastCell, kMostCell);
   line.y1 = call.arguments.integer(3, kLeastCell, kMostCell);
   line.value = colour_from(call.arguments, 4);
-  return draw(call, {&line, 1});
+  return draw(*call.state.client(), {line});
 }
 
 json clear(const PenCall& call) {
-  DrawWork fill;
-  fill.operations.emplace_back().kind = sim::DrawOperation::Kind::kFill;
-  while (!call.client.draw_some(fill, kSliceCells)) {
-  }
-  return nullptr;
+  sim::DrawOperation fill;
+  fill.kind = sim::DrawOperation::Kind::kFill;
+  return draw(call.client, {fill});
 }
 
 json get_pixel(MorseCall& call) {
@@ -152,7 +150,7 @@ json update_image_data(MorseCall& call) {
     pixel.y0 = entry[1].get<int>();
     pixel.value = colour_in(call.arguments, entry, 2, entry.size() == 6);
   }
-  return draw(call, pixels);
+  return draw(*call.state.client(), std::move(pixels));
 }
 
 json size_of_canvas(const PenCall& call) {

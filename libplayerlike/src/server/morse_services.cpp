@@ -21,8 +21,6 @@ constexpr double kTurns_rad = 1e6;
 /// Maximum length of a client's value in error texts [bytes].
 constexpr std::size_t kShownBytes = 60;
 
-DeviceId device_of(const MorseCall& call) { return call.component->device.value(); }
-
 const RobotInfo& robot_of(const MorseCall& call) {
   return call.state.host().robots().at(static_cast<std::size_t>(call.component->robot));
 }
@@ -37,27 +35,28 @@ void require_own(const MorseCall& call) {
 }
 
 const DeviceInfo& info_of(const MorseCall& call) {
-  return robot_of(call).devices.at(static_cast<std::size_t>(device_of(call).device));
+  return robot_of(call).devices.at(static_cast<std::size_t>(id_of(call).device));
 }
 
 // --- motion
 
-json drive(MorseCall& call, double v_mps, double omega_radps) {
-  MorseState::command(call.from.commander(), device_of(call),
-                      sim::TwistCommand{{v_mps, omega_radps, 0.0}});
+json drive(MorseCall& call, const sim::Twist& twist) {
+  command(call, sim::TwistCommand{twist});
   return nullptr;
+}
+// A speed in m/s or rad/s.
+double speed_from(const MorseCall& call, std::size_t index) {
+  return call.arguments.number(index, -kFar_m, kFar_m);
 }
 json set_speed(MorseCall& call) {
-  return drive(call, call.arguments.number(0, -kFar_m, kFar_m),
-               call.arguments.number(1, -kFar_m, kFar_m));
+  return drive(call, {.v_mps = speed_from(call, 0), .omega_radps = speed_from(call, 1)});
 }
-json stop_motion(MorseCall& call) { return drive(call, 0.0, 0.0); }
+json stop_motion(MorseCall& call) { return drive(call, {}); }
 json set_holonomic_speed(MorseCall& call) {
-  MorseState::command(call.from.commander(), device_of(call),
-                      sim::TwistCommand{{call.arguments.number(0, -kFar_m, kFar_m),
-                                         call.arguments.number(2, -kFar_m, kFar_m),
-                                         call.arguments.number(1, -kFar_m, kFar_m)}});
-  return nullptr;
+  // The first wrong argument is the one that the answer names: x, w, y.
+  return drive(call, {.v_mps = speed_from(call, 0),
+                      .omega_radps = speed_from(call, 2),
+                      .lateral_mps = speed_from(call, 1)});
 }
 
 constexpr MorseService kMotion[] = {
@@ -71,14 +70,8 @@ constexpr MorseService kHolonomicMotion[] = {
 
 // --- waypoint
 
-const sim::Waypoint& waypoint_in(const sim::Simulation& simulation, DeviceId device) {
-  return dynamic_cast<const sim::Waypoint&>(simulation.device(device.robot, device.device));
-}
-
 sim::GotoCommand goal_of(MorseCall& call) {
-  const sim::WaypointParams params = call.state.with([&](const sim::Simulation& simulation) {
-    return waypoint_in(simulation, device_of(call)).params();
-  });
+  const sim::WaypointParams params = ask<sim::Waypoint>(call, &sim::Waypoint::params);
   static_cast<void>(call.arguments.number(2, -kFar_m, kFar_m));  // z: the floor is flat
   constexpr double kLeast = 1e-6;
   return {{call.arguments.number(0, -kFar_m, kFar_m), call.arguments.number(1, -kFar_m, kFar_m)},
@@ -87,32 +80,30 @@ sim::GotoCommand goal_of(MorseCall& call) {
 }
 
 json go_to(MorseCall& call) {
-  call.state.answer_on_arrival(call.from, call.id, device_of(call), goal_of(call));
+  call.state.answer_on_arrival(call.from, call.id, id_of(call), goal_of(call));
   return nullptr;
 }
 
 json setdest(MorseCall& call) {
   const sim::GotoCommand goal = goal_of(call);
-  const double distance_m = call.state.with([&](const sim::Simulation& simulation) {
-    const sim::Pose& X_WB = simulation.body(call.component->robot).X_WB;
-    return (goal.goal_m - X_WB.position()).norm();
-  });
-  if (distance_m <= goal.tolerance_m) return false;
-  MorseState::command(call.from.commander(), device_of(call), goal);
+  const sim::Pose X_WB =
+      ask<sim::Waypoint>(call, [&](const sim::Waypoint&, const sim::Simulation& all) {
+        return all.body(call.component->robot).X_WB;
+      });
+  if ((goal.goal_m - X_WB.position()).norm() <= goal.tolerance_m) return false;
+  command(call, goal);
   return true;
 }
 
 json status_of(MorseCall& call) {
-  return call.state.with([&](const sim::Simulation& simulation) {
-    return json(std::string(to_string(waypoint_in(simulation, device_of(call)).status())));
-  });
+  return std::string(to_string(ask<sim::Waypoint>(call, &sim::Waypoint::status)));
 }
 json stop_waypoint(MorseCall& call) {
-  MorseState::command(call.from.commander(), device_of(call), sim::StopCommand{});
+  command(call, sim::StopCommand{});
   return status_of(call);
 }
 json resume(MorseCall& call) {
-  MorseState::command(call.from.commander(), device_of(call), sim::ResumeCommand{});
+  command(call, sim::ResumeCommand{});
   return status_of(call);
 }
 json get_status(MorseCall& call) {
@@ -135,9 +126,8 @@ json translate(MorseCall& call) {
   if (call.arguments.number(2, -kFar_m, kFar_m, 0.0) != 0.0) {
     call.arguments.refuse(2, "0, as the floor is flat");
   }
-  MorseState::command(call.from.commander(), device_of(call),
-                      sim::TranslateCommand{{call.arguments.number(0, -kFar_m, kFar_m),
-                                             call.arguments.number(1, -kFar_m, kFar_m, 0.0)}});
+  command(call, sim::TranslateCommand{{call.arguments.number(0, -kFar_m, kFar_m),
+                                       call.arguments.number(1, -kFar_m, kFar_m, 0.0)}});
   return nullptr;
 }
 
@@ -147,8 +137,7 @@ json rotate(MorseCall& call) {
       call.arguments.refuse(index, "0, as the floor is flat: robots turn by yaw only");
     }
   }
-  MorseState::command(call.from.commander(), device_of(call),
-                      sim::RotateCommand{call.arguments.number(2, -kTurns_rad, kTurns_rad, 0.0)});
+  command(call, sim::RotateCommand{call.arguments.number(2, -kTurns_rad, kTurns_rad, 0.0)});
   return nullptr;
 }
 
@@ -164,14 +153,13 @@ json get_local_data(MorseCall& call) {
   if (!call.component->device) {
     return morse_properties_record(robot_of(call), call.state.host().time().sim_time_ns);
   }
-  const DeviceId device = device_of(call);
-  return call.state.with([&](const sim::Simulation& simulation) {
-    const sim::Sensor& sensor = *simulation.device(device.robot, device.device).sensor();
-    if (sensor.reading().sequence == 0) {
+  return ask<sim::Device>(call, [&](const sim::Device& device, const sim::Simulation& all) {
+    const sim::Reading& reading = device.sensor()->reading();
+    if (reading.sequence == 0) {
       throw MorseRefusal(call.component->name +
-                         " has no reading yet: simulated time has not come so far");
+                         " has no reading yet: its first measurement is later");
     }
-    return morse_record(sensor.reading(), stream_format(simulation, device));
+    return morse_record(reading, stream_format(all, id_of(call)));
   });
 }
 
@@ -219,7 +207,7 @@ json set_property(MorseCall& call) {
   if (value.is_number() && value.get<double>() == it->second) return nullptr;
   throw MorseRefusal("Property " + name + " of " + call.component->name + " is " +
                      json(it->second).dump() +
-                     ", as the world gives it, and stays so while it runs");
+                     ": a setting of the world, which does not change during a run");
 }
 
 constexpr MorseService kComponent[] = {
@@ -242,6 +230,21 @@ std::string shown(const json& value) {
   std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
   if (text.size() > kShownBytes) text = text.substr(0, kShownBytes) + "...";
   return text;
+}
+
+void command(const MorseCall& call, const sim::Command& what) {
+  MorseState::command(call.from.commander(), id_of(call), what);
+}
+
+void answer_when(const MorseCall& call, const sim::Command& what,
+                 std::function<bool(const sim::Device&)> done) {
+  command(call, what);
+  call.state.answer_when(call.from, call.id, id_of(call), std::move(done));
+}
+
+std::vector<sim::SceneObject> scene_of(const MorseCall& call) {
+  return call.state.host().with_simulation(
+      [](const sim::Simulation& simulation) { return simulation.scene_objects(); });
 }
 
 void require_command(const MorseCall& call, int robot) {
@@ -350,7 +353,8 @@ std::optional<json> call_service(MorseState& state, MorseConnection& from, const
                                  std::string_view component, std::string_view service,
                                  const json& list) {
   if (!from.rights().connect) {
-    throw MorseRefusal("access/denied: this server wants a token first: playpen token [\"...\"]");
+    throw MorseRefusal(
+        "access/denied: this server requires a token first: playpen token [\"...\"]");
   }
   const MorseComponent* found = state.find(component);
   std::vector<const MorseService*> services;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "server/morse_state.h"
@@ -55,10 +57,30 @@ struct MorseCall {
 [[nodiscard]] inline DeviceId id_of(const MorseCall& call) {
   return call.component->device.value();
 }
-template <typename Kind>
-[[nodiscard]] const Kind& device_in(const sim::Simulation& simulation, DeviceId id) {
-  return dynamic_cast<const Kind&>(simulation.device(id.robot, id.device));
+/// Asks the device of a request, between two steps.
+/// @param question  a function of `const Kind&`, such as a getter, or of that and
+///                  `const sim::Simulation&`. It must not command devices or wait.
+/// @return its result, as a value.
+template <typename Kind, typename Question>
+[[nodiscard]] auto ask(const MorseCall& call, const Question& question) {
+  return call.state.host().with_simulation([&](const sim::Simulation& simulation) {
+    const DeviceId id = id_of(call);
+    const auto& device = dynamic_cast<const Kind&>(simulation.device(id.robot, id.device));
+    if constexpr (std::is_invocable_v<const Question&, const Kind&>) {
+      return std::invoke(question, device);
+    } else {
+      return question(device, simulation);
+    }
+  });
 }
+
+/// Sends a command to the device of a request; see MorseState::command().
+void command(const MorseCall& call, const sim::Command& what);
+/// The same, and answers without a result when done(device) is true; see MorseState::answer_when().
+void answer_when(const MorseCall& call, const sim::Command& what,
+                 std::function<bool(const sim::Device&)> done);
+/// All objects of the scene, see sim::Simulation::scene_objects().
+[[nodiscard]] std::vector<sim::SceneObject> scene_of(const MorseCall& call);
 
 /// A request about the canvas, on the server's thread or in the worker thread.
 struct PenCall {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "server/morse_services.h"
 #include "server/morse_streams.h"
@@ -20,9 +21,14 @@ const MorseComponent& require_component(MorseCall& call, std::size_t argument) {
   return *component;
 }
 
-// Throws the simulation's refusal, if there is one.
-void require_done(const std::optional<std::string>& refusal) {
-  if (refusal) throw MorseRefusal(*refusal);
+// Executes a request whose refusal clients get without the id of an error, as in MORSE.
+template <typename What>
+void execute(MorseCall& call, const What& what) {
+  try {
+    call.state.session().request(what);
+  } catch (const SessionError& error) {
+    throw MorseRefusal(error.what());
+  }
 }
 
 // --- simulation
@@ -51,8 +57,8 @@ json details(MorseCall& call) {
     robots[static_cast<std::size_t>(component.robot)]["components"][component.name] =
         std::move(entry);
   }
-  const std::string world =
-      call.state.with([](const sim::Simulation& simulation) { return simulation.world().name; });
+  const std::string world = call.state.host().with_simulation(
+      [](const sim::Simulation& simulation) { return simulation.world().name; });
   return {{"robots", std::move(robots)}, {"environment", world}};
 }
 
@@ -86,7 +92,7 @@ json get_all_stream_ports(MorseCall& call) {
 }
 
 json reset_objects(MorseCall& call) {
-  require_done(call.state.with([](sim::Simulation& simulation) { return simulation.reset(); }));
+  execute(call, ResetRequest{});
   call.state.forget_targets();
   return "Objects restored to initial position";
 }
@@ -104,59 +110,56 @@ json set_active(MorseCall& call, bool active) {
   if (!component.device) {
     throw MorseRefusal(component.name + " is no device: it cannot be switched off or on");
   }
-  require_done(call.state.host().set_active(*component.device, active));
+  call.state.session().request(SetActiveRequest{*component.device, active});
   return nullptr;
 }
 json activate(MorseCall& call) { return set_active(call, true); }
 json deactivate(MorseCall& call) { return set_active(call, false); }
 
 json suspend_dynamics(MorseCall& call) {
-  require_done(call.state.with([](sim::Simulation& s) { return s.set_dynamics(false); }));
+  execute(call, SetDynamicsRequest{std::nullopt, false});
   return "Physics is suspended";
 }
 
 json restore_dynamics(MorseCall& call) {
-  require_done(call.state.with([](sim::Simulation& s) { return s.set_dynamics(true); }));
+  execute(call, SetDynamicsRequest{std::nullopt, true});
   return "Physics is resumed";
 }
 
 json get_scene_objects(MorseCall& call) {
   require_truth(call);
-  return call.state.with([](const sim::Simulation& simulation) {
-    json objects = json::object();
-    for (const sim::SceneObject& object : simulation.scene_objects()) {
-      objects.emplace(object.name, morse_scene_object(object));
-    }
-    return objects;
-  });
+  json objects = json::object();
+  for (const sim::SceneObject& object : scene_of(call)) {
+    objects.emplace(object.name, morse_scene_object(object));
+  }
+  return objects;
 }
 
 json set_object_visibility(MorseCall& call) {
   const std::string name = call.arguments.text(0);
   const bool visible = call.arguments.boolean(1);
   static_cast<void>(call.arguments.boolean(2));  // checked, but not used: objects have no children
-  return call.state.with([&](sim::Simulation& simulation) {
-    const auto objects = simulation.scene_objects();
-    // A block takes precedence over a robot of the same name, since only blocks can be hidden.
-    const auto is_block = [&](const sim::SceneObject& o) {
-      return o.name == name && o.kind == "block" && o.dynamic;
-    };
-    if (std::any_of(objects.begin(), objects.end(), is_block)) {
-      if (simulation.world().simulation.objects_locked) {
-        throw MorseRefusal(
-            "this world keeps its obstacles as they are (\"lock_objects\" in its "
-            "\"simulation\")");
-      }
-      const auto state = visible ? sim::ObstacleState::kExtended : sim::ObstacleState::kRetracted;
-      require_done(simulation.set_obstacle_state(name, state));
-      return json(visible);
+  const std::vector<sim::SceneObject> objects = scene_of(call);
+  // A block takes precedence over a robot of the same name, since only blocks can be hidden.
+  const auto is_block = [&](const sim::SceneObject& o) {
+    return o.name == name && o.kind == "block" && o.dynamic;
+  };
+  if (std::any_of(objects.begin(), objects.end(), is_block)) {
+    const bool locked = call.state.host().with_simulation(
+        [](const sim::Simulation& all) { return all.world().simulation.objects_locked; });
+    if (locked) {
+      throw MorseRefusal(
+          "this world locks its obstacles (\"lock_objects\" in its "
+          "\"simulation\")");
     }
-    if (std::none_of(objects.begin(), objects.end(),
-                     [&](const sim::SceneObject& o) { return o.name == name; })) {
-      throw MorseRefusal("Object '" + name + "' does not appear in the scene.");
-    }
-    return json(true);  // no effect: other objects cannot be hidden
-  });
+    execute(call, SetBlockRequest{name, visible});
+    return visible;
+  }
+  if (std::none_of(objects.begin(), objects.end(),
+                   [&](const sim::SceneObject& o) { return o.name == name; })) {
+    throw MorseRefusal("Object '" + name + "' does not appear in the scene.");
+  }
+  return true;  // no effect: other objects cannot be hidden
 }
 
 json set_object_dynamics(MorseCall& call) {
@@ -170,8 +173,7 @@ json set_object_dynamics(MorseCall& call) {
   } else {
     require_command_all(call);
   }
-  require_done(call.state.with(
-      [&](sim::Simulation& simulation) { return simulation.set_object_dynamics(name, on); }));
+  execute(call, SetDynamicsRequest{name, on});
   return on;
 }
 
@@ -242,7 +244,8 @@ json statistics(MorseCall& call) {
 }
 
 json set_time_scale(MorseCall& call) {
-  require_done(call.state.host().set_time_factor(call.arguments.number(0, 1e-3, 1e6)));
+  const double factor = call.arguments.number(0, 1e-3, 1e6);
+  if (const auto refusal = call.state.host().set_time_factor(factor)) throw MorseRefusal(*refusal);
   return true;
 }
 

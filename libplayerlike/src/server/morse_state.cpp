@@ -25,7 +25,7 @@ sim::Command stop_command(std::string_view type) {
 MorseState::MorseState(Hub& hub)
     : hub_(hub),
       postbox_(std::make_shared<Postbox>(hub)),
-      components_(with([&](const sim::Simulation& simulation) {
+      components_(host().with_simulation([&](const sim::Simulation& simulation) {
         return morse_components(hub.host().robots(), simulation);
       })),
       streams_(std::make_unique<MorseStreams>(*this)) {}
@@ -87,7 +87,7 @@ void MorseState::answer_after(MorseConnection& from, const std::string& id, doub
 void MorseState::answer_on_arrival(MorseConnection& from, const std::string& id, DeviceId waypoint,
                                    const sim::GotoCommand& goal) {
   command(from.commander(), waypoint, goal);
-  const std::uint64_t goal_number = with([&](const sim::Simulation& simulation) {
+  const std::uint64_t goal_number = host().with_simulation([&](const sim::Simulation& simulation) {
     return waypoint_of(simulation, waypoint).goal_number();
   });
   for (auto it = pending_.begin(); it != pending_.end();) {
@@ -111,13 +111,6 @@ void MorseState::answer_on_arrival(MorseConnection& from, const std::string& id,
     return *outcome != Outcome::kNone;
   };
   add_pending(std::move(pending), std::move(alarm));
-}
-
-void MorseState::answer_when(MorseConnection& from, const std::string& id, DeviceId device,
-                             const sim::Command& command,
-                             std::function<bool(const sim::Device&)> done) {
-  MorseState::command(from.commander(), device, command);
-  answer_when(from, id, device, std::move(done));
 }
 
 void MorseState::answer_when(MorseConnection& from, const std::string& id, DeviceId device,
@@ -185,11 +178,11 @@ void MorseState::cancel(MorseConnection& from, const std::string& id) {
     it = end(it, "PREEMPTED", nullptr);
   }
   for (const DeviceId device : stopped) {
-    const std::string type = with([&](const sim::Simulation& simulation) {
-      return simulation.device(device.robot, device.device).type();
-    });
+    const DeviceInfo& info = host()
+                                 .robots()[static_cast<std::size_t>(device.robot)]
+                                 .devices[static_cast<std::size_t>(device.device)];
     // A refusal means that the device is off, the run is over, or there is nothing to stop.
-    static_cast<void>(from.commander().command(device, stop_command(type)));
+    static_cast<void>(from.commander().command(device, stop_command(info.type)));
   }
 }
 

@@ -76,14 +76,6 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   [[nodiscard]] Session& session() { return client()->session(); }
   [[nodiscard]] const std::shared_ptr<EventClient>& client();
 
-  /// Calls action(simulation) and returns its result.
-  template <typename Action>
-  auto with(Action action) {
-    std::optional<decltype(action(std::declval<sim::Simulation&>()))> result;
-    host().with_simulation(
-        [&](sim::Simulation& simulation) { result.emplace(action(simulation)); });
-    return std::move(*result);
-  }
   /// Sends a command to a device at once, to the real robot if it mirrors one. @throws MorseRefusal
   /// with the reason: the run is over, the device refuses, or the real robot cannot execute it.
   static void command(Commander& commander, DeviceId device, const sim::Command& command);
@@ -97,12 +89,8 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   /// that waits for this device is answered with PREEMPTED. @throws MorseRefusal as command().
   void answer_on_arrival(MorseConnection& from, const std::string& id, DeviceId waypoint,
                          const sim::GotoCommand& goal);
-  /// Sends a command to a device, and answers without a result when done(device) is true. An
-  /// earlier request that waits for this device is answered with PREEMPTED. @throws MorseRefusal as
-  /// command().
-  void answer_when(MorseConnection& from, const std::string& id, DeviceId device,
-                   const sim::Command& command, std::function<bool(const sim::Device&)> done);
-  /// The same without a command.
+  /// Answers without a result when done(device) is true. An earlier request that waits for this
+  /// device is answered with PREEMPTED. @throws MorseRefusal if the run is over.
   void answer_when(MorseConnection& from, const std::string& id, DeviceId device,
                    std::function<bool(const sim::Device&)> done);
   /// Answers the connection's requests with this id with PREEMPTED; the device stops what it does.

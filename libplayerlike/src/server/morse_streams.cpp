@@ -124,9 +124,9 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
       client_ = state_.host().connect_events(kMorsePort, {});
       client_->session().request(ReplaceRequest{std::nullopt, false});
       client_->session().request(SubscribeRequest{device});
-      sequence_ = state_.with([&](sim::Simulation& simulation) {
+      state_.host().with_simulation([&](const sim::Simulation& simulation) {
         format_ = stream_format(simulation, device);
-        return sensor(simulation, device).reading().sequence;
+        sequence_ = newest_of(simulation, device);
       });
     }
     set_alarm();
@@ -143,7 +143,7 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
     if (component_.device) {
       alarm.condition = [device = *component_.device,
                          sequence = sequence_](const sim::Simulation& simulation) {
-        return sensor(simulation, device).reading().sequence > sequence;
+        return newest_of(simulation, device) > sequence;
       };
     } else {
       alarm.until_ns = state_.host().time().sim_time_ns + kPropertiesPeriod_ns;
@@ -160,10 +160,14 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   void ring() {
     alarm_.reset();
     if (component_.device) {
+      // Before the readings are taken, so that none is missed. Those of a real robot have numbers
+      // of their own.
+      sequence_ = state_.host().with_simulation([&](const sim::Simulation& simulation) {
+        return newest_of(simulation, *component_.device);
+      });
       ReadingKeeper kept;
       static_cast<void>(client_->session().take(kept));
       for (const auto& reading : kept.readings) {
-        sequence_ = reading->sequence;
         if (is_silent(*reading)) continue;
         write(std::make_shared<const std::string>(line_of(morse_record(*reading, format_))));
       }
@@ -186,8 +190,9 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
     return line_of(morse_properties_record(robot, state_.host().time().sim_time_ns));
   }
 
-  static const sim::Sensor& sensor(const sim::Simulation& simulation, DeviceId device) {
-    return *simulation.device(device.robot, device.device).sensor();
+  /// The number of a sensor's newest measurement in the simulation.
+  static std::uint64_t newest_of(const sim::Simulation& simulation, DeviceId device) {
+    return simulation.device(device.robot, device.device).sensor()->reading().sequence;
   }
 
   MorseState& state_;
@@ -195,7 +200,7 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   std::vector<StreamConnection*> readers_;
   std::unique_ptr<EventClient> client_;
   StreamFormat format_;
-  std::uint64_t sequence_ = 0;  ///< of the newest reading sent
+  std::uint64_t sequence_ = 0;  ///< number of the measurement after which the alarm is due
   std::optional<AlarmId> alarm_;
   std::uint64_t generation_ = 0;  ///< number of starts; tells a stale alarm from a current one
 };
@@ -249,9 +254,10 @@ class MorseStreams::Writer final : public StreamConnection {
     }
     try {
       const json object = protocol::decode_json_value(line);
-      const sim::Command command = state().with([&](const sim::Simulation& simulation) {
-        return morse_command(component_, object, simulation);
-      });
+      const sim::Command command =
+          state().host().with_simulation([&](const sim::Simulation& simulation) {
+            return morse_command(component_, object, simulation);
+          });
       MorseState::command(commander_, *component_.device, command);
     } catch (const std::runtime_error& e) {
       complain(component_.name, e.what());

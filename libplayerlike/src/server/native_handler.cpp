@@ -93,11 +93,7 @@ NativeHandler::~NativeHandler() {
 
 json NativeHandler::tell_canvas() {
   if (!wait_) {
-    sim::CanvasDescription canvas;
-    hub_.host().with_simulation(
-        [&](sim::Simulation& simulation) { canvas = simulation.layers().description(); });
-    return protocol::encode_canvas(
-        {canvas.width, canvas.height, canvas.cell_size_m, canvas.origin.x(), canvas.origin.y()});
+    return protocol::encode_canvas(state_->watching.session().request(CanvasInfoRequest{}));
   }
   // Read the generation first: a change in between is then reported twice, but never missed.
   canvas_generation_ = session().canvas_generation();
@@ -461,9 +457,9 @@ json NativeHandler::watch(const json& request) {
     throw ProtocolError(
         "access/denied",
         terms_.rights.truth
-            ? "who watches must present a token in hello"
-            : "this world is private (\"privacy\" in its \"simulation\"): who watches "
-              "sees all robots, and must present the tokens of them all in hello");
+            ? "watchers must present a token in hello"
+            : "this world is private (\"privacy\" in its \"simulation\"): watchers see "
+              "all robots, and must present the tokens of all robots in hello");
   }
   state_->watching.forget(peer_);
   if (rate_hz > 0.0) state_->watching.watch(peer_, terms_.encoding, rate_hz, canvas);

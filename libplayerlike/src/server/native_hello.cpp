@@ -90,7 +90,7 @@ NativeHandler::Terms terms_of(Hub& hub, const json& argument) {
   terms.rights = hub.access().rights(tokens, terms.port);
   terms.session = !argument.contains("watch") || !protocol::require_bool(argument, "watch");
   if (terms.session ? !terms.rights.connect : !terms.rights.watch) {
-    throw ProtocolError("access/denied", "this server wants a token that it knows");
+    throw ProtocolError("access/denied", "this server requires a valid token");
   }
   if (argument.contains("follow")) {
     if (!terms.session)

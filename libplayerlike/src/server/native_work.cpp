@@ -52,10 +52,8 @@ struct WorkCells {
 }  // namespace
 
 sim::Vec2 native_arena_m(Host& host) {
-  sim::Vec2 size_m;
-  host.with_simulation(
-      [&](sim::Simulation& simulation) { size_m = simulation.world().arena.size; });
-  return size_m;
+  return host.with_simulation(
+      [](const sim::Simulation& simulation) { return simulation.world().arena.size; });
 }
 
 std::size_t native_work_cells(const Request& request, Session& session, Host& host) {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "host/onlookers.h"
+#include "host/stepping/onlookers.h"
 
 #include <string>
 #include <utility>

@@ -24,13 +24,14 @@ constexpr std::size_t kMaxReason = 200;
 void RequestGuard::require_rights(int robot) const {
   if (robot < 0) {
     if (rights_.command_all()) return note_change();
-    throw ProtocolError("access/denied",
-                        "this concerns all robots: only who may command each of them may do it");
+    throw ProtocolError(
+        "access/denied",
+        "this affects all robots: only clients that may command each of them may do it");
   }
   const auto index = static_cast<std::size_t>(robot);
   if (index < rights_.command.size() && rights_.command[index]) return note_change();
   throw ProtocolError("access/denied", "robot " + host_.robots()[index].name +
-                                           " obeys only those whose hello has its token");
+                                           " obeys only clients whose hello has its token");
 }
 
 int RequestGuard::robot_named(const std::string& name) const {
@@ -49,7 +50,7 @@ void RequestGuard::check_canvas() const {
   if (may_draw()) return note_change();
   throw ProtocolError(
       "access/denied",
-      "only who may command a robot may draw on the canvas that all share, erase or "
+      "only clients that may command a robot may draw on the shared canvas, erase or "
       "resize it: present the token of a robot in hello, or draw on a layer of "
       "your own");
 }
@@ -118,8 +119,8 @@ struct RequestGuard::Check {
   void check(const SetBlackboardRequest&) const {
     if (guard.rights_.change_shared()) return guard.note_change();
     throw ProtocolError("access/denied",
-                        "only who may command a robot may set entries of the blackboard that all "
-                        "share: present the token of a robot in hello");
+                        "only clients that may command a robot may set entries of the shared "
+                        "blackboard: present the token of a robot in hello");
   }
   void check(const NoteGoalRequest& what) const {
     require_device(guard.host_.robots(), what.device);

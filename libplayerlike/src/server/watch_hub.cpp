@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <span>
 #include <utility>
 
 #include "protocol/codec.h"
@@ -176,59 +175,46 @@ void WatchHub::tick(Clock::time_point now) {
 
 WatchHub::Moment WatchHub::look(bool with_canvas, Clock::time_point now) {
   Moment moment;
-  sim::CanvasDescription canvas;
-  bool copied = false;
-  const bool may_copy = with_canvas && now >= next_copy_;
-  hub_.host().with_simulation([&](sim::Simulation& simulation) {
+  std::uint64_t version = 0;
+  hub_.host().with_simulation([&](const sim::Simulation& simulation) {
     moment.t_ns = simulation.now_ns();
     moment.poses.reserve(static_cast<std::size_t>(simulation.robot_count()));
     for (int robot = 0; robot < simulation.robot_count(); ++robot) {
       moment.poses.push_back(simulation.body(robot).X_WB);
     }
-    if (!may_copy) return;
-    sim::LayerStack& layers = simulation.layers();
-    canvas = layers.description();
-    // The size must be compared too: the version is equal for two sizes if neither was composed.
-    const CanvasInfo& known = canvas_.info();
-    if (canvas_.count() != 0 && layers.version() == stack_version_ && canvas.width == known.width &&
-        canvas.height == known.height) {
-      return;
-    }
-    copied = true;
-    stack_version_ = layers.version();
+    version = simulation.layers().version();
   });
-  const Clock::time_point begin = Clock::now();
-  if (copied) copy_picture(canvas);
+  if (with_canvas && now >= next_copy_) copy_canvas(version);
   moment.finished = hub_.host().finished();
-  if (copied) {
-    // A canvas whose copying takes long is copied less often.
-    const auto end = Clock::now();
-    next_copy_ = end + kCopyShare * (end - begin);
-    canvas_.take(
-        {canvas.width, canvas.height, canvas.cell_size_m, canvas.origin.x(), canvas.origin.y()},
-        scratch_);
-  }
   return moment;
 }
 
-// In pieces, between which others can use the simulation. What changes meanwhile has another
-// version, so it is copied again.
-void WatchHub::copy_picture(const sim::CanvasDescription& canvas) {
-  constexpr int kPiece = 1 << 17;  // cells
-  scratch_.clear();
-  if (std::int64_t{canvas.width} * canvas.height > kMaxCells) return;
-  const std::size_t line = 4 * static_cast<std::size_t>(canvas.width);
-  scratch_.resize(line * static_cast<std::size_t>(canvas.height));
-  const int most = std::max(kPiece / canvas.width, 1);
-  for (int row = 0; row < canvas.height; row += most) {
-    const auto rows = static_cast<std::size_t>(std::min(most, canvas.height - row));
-    hub_.host().with_simulation([&](sim::Simulation& simulation) {
-      sim::LayerStack& layers = simulation.layers();
-      if (layers.width() != canvas.width || layers.height() != canvas.height) return;
-      layers.composed_rows(
-          row, std::span(scratch_).subspan(line * static_cast<std::size_t>(row), line * rows));
-    });
+// The host copies in pieces, between which others can use the simulation. What changes meanwhile
+// has another version, so it is copied again.
+void WatchHub::copy_canvas(std::uint64_t version) {
+  CanvasImage image{{}, session().request(CanvasInfoRequest{})};
+  // The size must be compared too: the version is equal for two sizes if neither was composed.
+  const CanvasInfo& known = canvas_.info();
+  if (canvas_.count() != 0 && version == stack_version_ && image.canvas.width == known.width &&
+      image.canvas.height == known.height) {
+    return;
   }
+  stack_version_ = version;
+  const Clock::time_point begin = Clock::now();
+  if (std::int64_t{image.canvas.width} * image.canvas.height <= kMaxCells) {
+    image = session().request(CanvasImageRequest{});
+  }
+  // A canvas whose copying takes long is copied less often.
+  const auto end = Clock::now();
+  next_copy_ = end + kCopyShare * (end - begin);
+  canvas_.take(image.canvas, image.rgba);
+}
+
+Session& WatchHub::session() {
+  if (client_ == nullptr) {
+    client_ = hub_.host().connect_events(kMorsePort, {}, EventRole::kOnlooker);
+  }
+  return client_->session();
 }
 
 std::shared_ptr<const std::string> WatchHub::record(const Moment& moment,

@@ -68,6 +68,9 @@ class WatchHub {
   /// Stops sending events. Must be called before the peer is destroyed.
   void forget(const Peer& peer) noexcept;
 
+  /// An onlooker's session, for requests about the canvas.
+  [[nodiscard]] Session& session();
+
   /// Sends all events that are due. Called by the timer; public for tests.
   void tick(Clock::time_point now);
 
@@ -89,7 +92,8 @@ class WatchHub {
 
   [[nodiscard]] Clock::time_point next_due(const Watcher& watcher, Clock::time_point now) const;
   [[nodiscard]] Moment look(bool with_canvas, Clock::time_point now);
-  void copy_picture(const sim::CanvasDescription& canvas);
+  /// Copies the canvas, if it has another version or size than the last copy.
+  void copy_canvas(std::uint64_t version);
   [[nodiscard]] std::shared_ptr<const std::string> record(const Moment& moment,
                                                           const Watcher& watcher) const;
   void schedule(Clock::time_point now);
@@ -98,9 +102,9 @@ class WatchHub {
   Clock::time_point epoch_;
   std::vector<Watcher> watchers_;
   CanvasCopy canvas_;
-  std::vector<std::uint8_t> scratch_;
-  std::uint64_t stack_version_ = 0;  ///< sim::LayerStack::version() of canvas_
-  Clock::time_point next_copy_{};    ///< earliest time of the next copy of the canvas, see look()
+  std::unique_ptr<EventClient> client_;  ///< created on first use
+  std::uint64_t stack_version_ = 0;      ///< sim::LayerStack::version() of canvas_
+  Clock::time_point next_copy_{};  ///< earliest time of the next copy of the canvas, see look()
   std::uint64_t timer_ = 0;
   Clock::time_point timer_due_;      ///< max(): no timer is set
   std::shared_ptr<WatchHub*> self_;  ///< expires with this object; pending timers check it

@@ -3,10 +3,51 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "sim/core/utf8.h"
 
 namespace playerlike {
+namespace {
+
+using GripAction = sim::GripCommand::Action;
+
+// A value and its code in Player's interface.
+template <typename Value>
+struct Code {
+  Value value;
+  std::uint8_t code;
+};
+
+constexpr Code<sim::GripperState> kGripperStates[] = {
+    {sim::GripperState::kOpen, PLAYER_GRIPPER_STATE_OPEN},
+    {sim::GripperState::kClosed, PLAYER_GRIPPER_STATE_CLOSED},
+    {sim::GripperState::kMoving, PLAYER_GRIPPER_STATE_MOVING},
+    {sim::GripperState::kError, PLAYER_GRIPPER_STATE_ERROR}};
+constexpr Code<GripAction> kGripActions[] = {{GripAction::kOpen, PLAYER_GRIPPER_CMD_OPEN},
+                                             {GripAction::kClose, PLAYER_GRIPPER_CMD_CLOSE},
+                                             {GripAction::kStop, PLAYER_GRIPPER_CMD_STOP},
+                                             {GripAction::kStore, PLAYER_GRIPPER_CMD_STORE},
+                                             {GripAction::kRetrieve, PLAYER_GRIPPER_CMD_RETRIEVE}};
+constexpr Code<sim::JointState> kJointStates[] = {
+    {sim::JointState::kIdle, PLAYER_ACTARRAY_ACTSTATE_IDLE},
+    {sim::JointState::kMoving, PLAYER_ACTARRAY_ACTSTATE_MOVING},
+    {sim::JointState::kBraked, PLAYER_ACTARRAY_ACTSTATE_BRAKED},
+    {sim::JointState::kStalled, PLAYER_ACTARRAY_ACTSTATE_STALLED}};
+
+// The tables contain all values.
+template <typename Value, std::size_t kCount>
+std::uint8_t code_of(const Code<Value> (&table)[kCount], Value value) noexcept {
+  return std::ranges::find(table, value, &Code<Value>::value)->code;
+}
+
+template <typename Value, std::size_t kCount>
+std::optional<Value> value_of(const Code<Value> (&table)[kCount], int code) noexcept {
+  const auto* row = std::ranges::find(table, code, &Code<Value>::code);
+  return row != std::end(table) ? std::optional(row->value) : std::nullopt;
+}
+
+}  // namespace
 
 std::optional<std::string> text_property(const RobotInfo& robot, const DeviceInfo& device,
                                          std::string_view name) {
@@ -16,54 +57,27 @@ std::optional<std::string> text_property(const RobotInfo& robot, const DeviceInf
   return std::nullopt;
 }
 
-std::uint8_t gripper_state_code(sim::GripperState state) {
-  switch (state) {
-    case sim::GripperState::kOpen:
-      return PLAYER_GRIPPER_STATE_OPEN;
-    case sim::GripperState::kClosed:
-      return PLAYER_GRIPPER_STATE_CLOSED;
-    case sim::GripperState::kMoving:
-      return PLAYER_GRIPPER_STATE_MOVING;
-    case sim::GripperState::kError:
-      break;
-  }
-  return PLAYER_GRIPPER_STATE_ERROR;
+std::uint8_t gripper_state_code(sim::GripperState state) noexcept {
+  return code_of(kGripperStates, state);
+}
+sim::GripperState gripper_state(int code) noexcept {
+  return value_of(kGripperStates, code).value_or(sim::GripperState::kError);
 }
 
-std::optional<sim::GripCommand::Action> grip_action(int command) noexcept {
-  using Action = sim::GripCommand::Action;
-  switch (command) {
-    case PLAYER_GRIPPER_CMD_OPEN:
-      return Action::kOpen;
-    case PLAYER_GRIPPER_CMD_CLOSE:
-      return Action::kClose;
-    case PLAYER_GRIPPER_CMD_STOP:
-      return Action::kStop;
-    case PLAYER_GRIPPER_CMD_STORE:
-      return Action::kStore;
-    case PLAYER_GRIPPER_CMD_RETRIEVE:
-      return Action::kRetrieve;
-    default:
-      return std::nullopt;
-  }
+std::optional<GripAction> grip_action(int command) noexcept {
+  return value_of(kGripActions, command);
 }
+std::uint8_t grip_command(GripAction action) noexcept { return code_of(kGripActions, action); }
 
 double joint_setting(const DeviceSettings& settings, const char* name, std::size_t joint) {
   return setting_of(settings, std::string(name) + '_' + std::to_string(joint));
 }
 
-std::uint8_t joint_state_code(sim::JointState state) {
-  switch (state) {
-    case sim::JointState::kIdle:
-      return PLAYER_ACTARRAY_ACTSTATE_IDLE;
-    case sim::JointState::kMoving:
-      return PLAYER_ACTARRAY_ACTSTATE_MOVING;
-    case sim::JointState::kBraked:
-      return PLAYER_ACTARRAY_ACTSTATE_BRAKED;
-    case sim::JointState::kStalled:
-      break;
-  }
-  return PLAYER_ACTARRAY_ACTSTATE_STALLED;
+std::uint8_t joint_state_code(sim::JointState state) noexcept {
+  return code_of(kJointStates, state);
+}
+sim::JointState joint_state(int code) noexcept {
+  return value_of(kJointStates, code).value_or(sim::JointState::kIdle);
 }
 
 AxisVector axis_vector(double axis) {

@@ -35,22 +35,40 @@ namespace playerlike {
                                                        const DeviceInfo& device,
                                                        std::string_view name);
 
-/// @name Gripper
-/// @{
-/// Bits of broken beams, as Player's drivers for Pioneers set them.
 /// Properties of position2d by which a mirror takes charge of a robot of a Playpen server, see
 /// TakeChargeRequest: a number of seconds, and a truth value that must be set before.
 inline constexpr const char* kWatchdogProperty = "watchdog";
 inline constexpr const char* kTakeOverProperty = "take_over";
 
+/// A number of a message, which is unsigned; readings count with int.
+[[nodiscard]] constexpr int as_int(std::uint32_t value) {
+  return static_cast<int>(value < 0x7fffffffU ? value : 0x7fffffffU);
+}
+
+/// @name Gripper
+/// @{
+/// Bits of broken beams, as Player's drivers for Pioneers set them.
 inline constexpr std::uint32_t kOuterBeam = 0x04;
 inline constexpr std::uint32_t kInnerBeam = 0x08;
 
-[[nodiscard]] std::uint8_t gripper_state_code(sim::GripperState state);
+[[nodiscard]] std::uint8_t gripper_state_code(sim::GripperState state) noexcept;
+/// The state of a code PLAYER_GRIPPER_STATE_...; kError if there is none.
+[[nodiscard]] sim::GripperState gripper_state(int code) noexcept;
 /// The action of a command PLAYER_GRIPPER_CMD_...; nullopt if there is none.
 [[nodiscard]] std::optional<sim::GripCommand::Action> grip_action(int command) noexcept;
+[[nodiscard]] std::uint8_t grip_command(sim::GripCommand::Action action) noexcept;
 [[nodiscard]] inline std::uint32_t broken_beams(const sim::GripperReading& reading) {
   return (reading.outer_beam ? kOuterBeam : 0) | (reading.inner_beam ? kInnerBeam : 0);
+}
+
+template <typename Data>
+[[nodiscard]] sim::GripperReading gripper_reading(const Data& data) {
+  sim::GripperReading reading;
+  reading.state = gripper_state(data.state);
+  reading.outer_beam = (data.beams & kOuterBeam) != 0;
+  reading.inner_beam = (data.beams & kInnerBeam) != 0;
+  reading.stored = data.stored;
+  return reading;
 }
 
 template <typename Geometry>
@@ -76,7 +94,9 @@ template <typename Geometry>
 /// A joint's setting, e.g. "min" of joint 2 is the property min_2.
 [[nodiscard]] double joint_setting(const DeviceSettings& settings, const char* name,
                                    std::size_t joint);
-[[nodiscard]] std::uint8_t joint_state_code(sim::JointState state);
+[[nodiscard]] std::uint8_t joint_state_code(sim::JointState state) noexcept;
+/// The state of a code PLAYER_ACTARRAY_ACTSTATE_...; kIdle if there is none.
+[[nodiscard]] sim::JointState joint_state(int code) noexcept;
 /// The unit vector along a joint's axis. @param axis  the setting, a sim::JointAxis.
 struct AxisVector {
   double x, y, z;
@@ -136,6 +156,11 @@ template <typename Item>
   return item;
 }
 
+template <typename Item>
+[[nodiscard]] sim::FiducialReading::Mark mark_of(const Item& item) {
+  return {item.id, {item.pose.px, item.pose.py, item.pose.pyaw}};
+}
+
 template <typename Blob>
 [[nodiscard]] Blob blob_of(const sim::BlobfinderReading::Blob& seen) {
   Blob blob = {};
@@ -150,6 +175,22 @@ template <typename Blob>
   blob.range = static_cast<float>(seen.range_m);
   return blob;
 }
+template <typename Blob>
+[[nodiscard]] sim::BlobfinderReading::Blob seen_blob(const Blob& blob) {
+  sim::BlobfinderReading::Blob seen;
+  seen.colour = {static_cast<std::uint8_t>(blob.color >> 16U),
+                 static_cast<std::uint8_t>(blob.color >> 8U), static_cast<std::uint8_t>(blob.color),
+                 255};
+  seen.area = as_int(blob.area);
+  seen.x = as_int(blob.x);
+  seen.y = as_int(blob.y);
+  seen.left = as_int(blob.left);
+  seen.right = as_int(blob.right);
+  seen.top = as_int(blob.top);
+  seen.bottom = as_int(blob.bottom);
+  seen.range_m = static_cast<double>(blob.range);
+  return seen;
+}
 
 /// Acceleration, turning rate and magnetic field of an inertial unit.
 template <typename Calibrated>
@@ -160,6 +201,12 @@ template <typename Calibrated>
   return {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2]),
           static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2]),
           static_cast<float>(b[0]), static_cast<float>(b[1]), static_cast<float>(b[2])};
+}
+template <typename Calibrated>
+void set_imu_values(const Calibrated& data, sim::ImuReading& reading) {
+  reading.acceleration_mps2 = {double{data.accel_x}, double{data.accel_y}, double{data.accel_z}};
+  reading.rate_radps = {double{data.gyro_x}, double{data.gyro_y}, double{data.gyro_z}};
+  reading.field_ut = {double{data.magn_x}, double{data.magn_y}, double{data.magn_z}};
 }
 
 /// The one hypothesis of a localisation: the measured pose, with the variances of its noise.
@@ -210,7 +257,8 @@ inline constexpr std::int8_t kMapDataRange = 1;
 /// unknown, kMapDataRange: occupied.
 [[nodiscard]] std::vector<std::int8_t> map_cells(const sim::OccupancyMap& map);
 
-/// Removes the characters of a text that cannot be said (control characters, invalid UTF-8).
+/// A text without characters that cannot be said: white space becomes ' ', other control characters
+/// and invalid UTF-8 become '?'.
 /// @return at most sim::kMaxSpeech bytes.
 [[nodiscard]] std::string sayable(std::string_view text);
 

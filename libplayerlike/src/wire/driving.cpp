@@ -63,7 +63,8 @@ class Position2d final : public RobotDevice {
     switch (subtype) {
       case PLAYER_POSITION2D_CMD_VEL: {
         const auto asked = player::decode<player::Position2dCmdVel>(payload);
-        return drive(sim::TwistCommand{{asked.vel.px, asked.vel.pa, asked.vel.py}});
+        return drive(sim::TwistCommand{
+            {.v_mps = asked.vel.px, .omega_radps = asked.vel.pa, .lateral_mps = asked.vel.py}});
       }
       case PLAYER_POSITION2D_CMD_POS:
         return go_to(player::decode<player::Position2dCmdPos>(payload));

@@ -33,6 +33,9 @@ bool is_finite(const Field& field, const void* value) {
     case FieldType::kNumbers:
       return std::ranges::all_of(as<std::vector<double>>(value),
                                  [](double x) { return std::isfinite(x); });
+    case FieldType::kPoints:
+      return std::ranges::all_of(as<std::vector<Vec2>>(value),
+                                 [](const Vec2& point) { return point.allFinite(); });
     case FieldType::kPoses:
       return std::ranges::all_of(as<std::vector<Pose>>(value),
                                  [](const Pose& pose) { return is_finite(pose); });
@@ -108,13 +111,20 @@ void add_field(const Field& field, const void* value, std::map<std::string, doub
     case FieldType::kStruct:
       return add_properties(field.table(), value, properties, suffix);
     case FieldType::kCustom:
-      return field.custom->add_properties(value, properties);
+      return field.add_custom_properties(value, properties);
     default:
       return;  // has no numbers
   }
 }
 
 }  // namespace
+
+const Field& field_named(const FieldTable& table, std::string_view name) {
+  const auto field =
+      std::ranges::find_if(table.fields, [name](const Field& one) { return one.name == name; });
+  SIM_ASSERT(field != table.fields.end());
+  return *field;
+}
 
 std::int64_t integer_at(const Field& field, const void* value) {
   switch (field.type) {

@@ -84,8 +84,12 @@ void StateArchive::value(const Field& field, void* value) {
     case FieldType::kStruct:
     case FieldType::kInclude:
       return table(field.table(), value);
+    case FieldType::kPoints:
+    case FieldType::kMap:
+    case FieldType::kVariant:
     case FieldType::kCustom:
-      SIM_ASSERT(false);  // occurs in settings only, never in states
+    case FieldType::kForm:
+      SIM_ASSERT(false);  // occurs in settings or messages only, never in states
   }
 }
 

@@ -625,8 +625,10 @@ constexpr Field kJointReading[] = {
 SIM_FIELDS(JointReading, kJointReading)
 
 constexpr Field kActArrayReading[] = {
-    field<&ActArrayReading::joints>("joints"),
-    field<&ActArrayReading::is_powered>("power"),
+    field<&ActArrayReading::joints>("joints", "",
+                                    "from the base outwards; `state`: `\"idle\"`, `\"moving\"`, "
+                                    "`\"braked\"` or `\"stalled\"`; m or rad, per s, per s^2, A"),
+    field<&ActArrayReading::is_powered>("power", "", "whether the motors are on"),
 };
 SIM_FIELDS(ActArrayReading, kActArrayReading)
 

@@ -176,8 +176,8 @@ constexpr Field kAioSettings[] = {
 SIM_FIELDS(AioParams, kAioSettings)
 
 constexpr Field kAioReading[] = {
-    field<&AioReading::inputs_v>("inputs", "V"),
-    field<&AioReading::outputs_v>("outputs", "V"),
+    field<&AioReading::inputs_v>("inputs", "V", "voltages of the inputs"),
+    field<&AioReading::outputs_v>("outputs", "V", "voltages of the outputs"),
 };
 SIM_FIELDS(AioReading, kAioReading)
 

@@ -56,7 +56,7 @@ constexpr Field kBarometerSettings[] = {
 SIM_FIELDS(BarometerParams, kBarometerSettings)
 
 constexpr Field kBarometerReading[] = {
-    field<&BarometerReading::pressure_pa>("pressure", "Pa"),
+    field<&BarometerReading::pressure_pa>("pressure", "Pa", "pressure of the air"),
 };
 SIM_FIELDS(BarometerReading, kBarometerReading)
 
@@ -89,7 +89,8 @@ constexpr Field kAirspeedSettings[] = {
 SIM_FIELDS(AirspeedParams, kAirspeedSettings)
 
 constexpr Field kAirspeedReading[] = {
-    field<&AirspeedReading::pressure_pa>("pressure", "Pa"),
+    field<&AirspeedReading::pressure_pa>("pressure", "Pa",
+                                         "dynamic pressure along the sensor's x axis"),
 };
 SIM_FIELDS(AirspeedReading, kAirspeedReading)
 
@@ -124,8 +125,9 @@ constexpr Field kAltimeterSettings[] = {
 SIM_FIELDS(AltimeterParams, kAltimeterSettings)
 
 constexpr Field kAltimeterReading[] = {
-    field<&AltimeterReading::height_m>("height", "m"),
-    field<&AltimeterReading::in_range>("in_range"),
+    field<&AltimeterReading::height_m>("height", "m", "above the floor or an obstacle"),
+    field<&AltimeterReading::in_range>("in_range", "",
+                                       "whether the height is within the sensor's range"),
 };
 SIM_FIELDS(AltimeterReading, kAltimeterReading)
 
@@ -176,7 +178,7 @@ constexpr Field kThermometerSettings[] = {
 SIM_FIELDS(ThermometerParams, kThermometerSettings)
 
 constexpr Field kThermometerReading[] = {
-    field<&ThermometerReading::temperature_c>("temperature", "degrees C"),
+    field<&ThermometerReading::temperature_c>("temperature", "degrees C", "temperature of the air"),
 };
 SIM_FIELDS(ThermometerReading, kThermometerReading)
 

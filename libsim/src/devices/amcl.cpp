@@ -245,13 +245,14 @@ constexpr Field kHypothesis[] = {
 SIM_FIELDS(PoseHypothesis, kHypothesis)
 
 constexpr Field kAmclReading[] = {
-    field<&AmclReading::hypotheses>("hypotheses"),
-    field<&AmclReading::particles>("particles"),
-    field<&AmclReading::pending>("pending"),
-    field<&AmclReading::map_width>("map_width"),
-    field<&AmclReading::map_height>("map_height"),
-    field<&AmclReading::map_resolution_m>("map_resolution", "m"),
-    field<&AmclReading::updates>("updates"),
+    field<&AmclReading::hypotheses>("hypotheses", "",
+                                    "`variance`: of x, y, yaw; `covariance`: of xy, y yaw, x yaw"),
+    field<&AmclReading::particles>("particles", "", "number of particles"),
+    field<&AmclReading::pending>("pending", "", "scans that wait"),
+    field<&AmclReading::map_width>("map_width", "", "columns of its map"),
+    field<&AmclReading::map_height>("map_height", "", "rows of its map"),
+    field<&AmclReading::map_resolution_m>("map_resolution", "m", "side of a cell of its map"),
+    field<&AmclReading::updates>("updates", "", "scans used"),
 };
 SIM_FIELDS(AmclReading, kAmclReading)
 

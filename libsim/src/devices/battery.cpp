@@ -121,12 +121,13 @@ constexpr Field kBatterySettings[] = {
 SIM_FIELDS(BatteryParams, kBatterySettings, check_voltage)
 
 constexpr Field kBatteryReading[] = {
-    field<&BatteryReading::charge_percent>("charge", "percent"),
-    field<&BatteryReading::status>("status").one_of(kBatteryWords),
-    field<&BatteryReading::voltage_v>("voltage", "V"),
-    field<&BatteryReading::energy_wh>("energy", "W h"),
-    field<&BatteryReading::capacity_wh>("capacity", "W h"),
-    field<&BatteryReading::power_w>("power", "W"),
+    field<&BatteryReading::charge_percent>("charge", "percent",
+                                           "charge in percent of the capacity"),
+    field<&BatteryReading::status>("status", "", "what it does").one_of(kBatteryWords),
+    field<&BatteryReading::voltage_v>("voltage", "V", "voltage of its terminals"),
+    field<&BatteryReading::energy_wh>("energy", "W h", "energy in it"),
+    field<&BatteryReading::capacity_wh>("capacity", "W h", "its energy when full"),
+    field<&BatteryReading::power_w>("power", "W", "into the battery; negative: out of it"),
 };
 SIM_FIELDS(BatteryReading, kBatteryReading)
 

@@ -72,11 +72,12 @@ constexpr Field kBlinkenlightSettings[] = {
 SIM_FIELDS(BlinkenlightParams, kBlinkenlightSettings)
 
 constexpr Field kBlinkenlightReading[] = {
-    field<&BlinkenlightReading::enabled>("on"),
-    field<&BlinkenlightReading::colour>("colour"),
-    field<&BlinkenlightReading::period_s>("period", "s"),
-    field<&BlinkenlightReading::duty_cycle>("duty_cycle"),
-    field<&BlinkenlightReading::lit>("lit"),
+    field<&BlinkenlightReading::enabled>("on", "", "whether it is on"),
+    field<&BlinkenlightReading::colour>("colour", "", "`\"#rrggbb\"`"),
+    field<&BlinkenlightReading::period_s>("period", "s", "of its blinking"),
+    field<&BlinkenlightReading::duty_cycle>("duty_cycle", "",
+                                            "part of the period in which it is lit, 0 to 1"),
+    field<&BlinkenlightReading::lit>("lit", "", "whether it is lit at this moment"),
 };
 SIM_FIELDS(BlinkenlightReading, kBlinkenlightReading)
 

@@ -206,9 +206,9 @@ constexpr Field kBlob[] = {
 SIM_FIELDS(BlobfinderReading::Blob, kBlob)
 
 constexpr Field kBlobfinderReading[] = {
-    pixels<&BlobfinderReading::width>("width"),
-    pixels<&BlobfinderReading::height>("height"),
-    field<&BlobfinderReading::blobs>("blobs"),
+    pixels<&BlobfinderReading::width>("width").with<&Field::meaning>("of the picture"),
+    pixels<&BlobfinderReading::height>("height").with<&Field::meaning>("of the picture"),
+    field<&BlobfinderReading::blobs>("blobs", "", "from right to left; `\"#rrggbb\"`, pixels, m"),
 };
 SIM_FIELDS(BlobfinderReading, kBlobfinderReading)
 

@@ -164,7 +164,9 @@ constexpr Field kBumperSettings[] = {
 SIM_FIELDS(BumperParams, kBumperSettings)
 
 constexpr Field kBumperReading[] = {
-    field<&BumperReading::pressed>("pressed").as_octets(),
+    field<&BumperReading::pressed>(
+        "pressed", "", "one per segment: 1 if it was pressed since the last reading, else 0")
+        .as_octets(),
 };
 SIM_FIELDS(BumperReading, kBumperReading)
 

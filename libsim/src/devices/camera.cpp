@@ -160,9 +160,12 @@ constexpr Field kCameraSettings[] = {
 SIM_FIELDS(CameraParams, kCameraSettings)
 
 constexpr Field kCameraReading[] = {
-    field<&CameraReading::width>("width", "pixels").within(0, ViewParams::kMaxWidth),
-    field<&CameraReading::height>("height", "pixels").within(0, ViewParams::kMaxHeight),
-    field<&CameraReading::pixels>("pixels"),
+    field<&CameraReading::width>("width", "pixels", "of the picture")
+        .within(0, ViewParams::kMaxWidth),
+    field<&CameraReading::height>("height", "pixels", "of the picture")
+        .within(0, ViewParams::kMaxHeight),
+    field<&CameraReading::pixels>("pixels", "",
+                                  "red, green and blue of each pixel, row by row from the top"),
 };
 SIM_FIELDS(CameraReading, kCameraReading, check_pixels)
 

@@ -261,12 +261,13 @@ void add_image_properties(const void* object, std::map<std::string, double>& pro
 }  // namespace
 
 constexpr CustomField kImage{
-    read_image, image_text, add_image_properties,
+    read_image, image_text,
     R"("type": "array", "prefixItems": [{"type": "integer", "minimum": 1, "maximum": 640}, )"
     R"({"type": "integer", "minimum": 1, "maximum": 480}], "minItems": 2, "maxItems": 2)"};
 
 constexpr Field kViewSettings[] = {
-    custom("image", kImage, "pixels", "`[columns, rows]` of the picture, at most 640 x 480"),
+    custom("image", kImage, add_image_properties, "pixels",
+           "`[columns, rows]` of the picture, at most 640 x 480"),
     field<&ViewParams::field_of_view_rad>(
         "field_of_view_deg", "degrees",
         "horizontal angle of view; on a head, the head's value is used")

@@ -38,7 +38,7 @@ constexpr Field kCompassSettings[] = {
 SIM_FIELDS(CompassParams, kCompassSettings)
 
 constexpr Field kCompassReading[] = {
-    field<&CompassReading::heading_rad>("heading", "rad"),
+    field<&CompassReading::heading_rad>("heading", "rad", "from magnetic north, counter-clockwise"),
 };
 SIM_FIELDS(CompassReading, kCompassReading)
 

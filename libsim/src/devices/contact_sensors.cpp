@@ -45,8 +45,9 @@ constexpr Field kCollisionSettings[] = {
 SIM_FIELDS(CollisionParams, kCollisionSettings)
 
 constexpr Field kCollisionReading[] = {
-    field<&CollisionReading::collision>("collision"),
-    field<&CollisionReading::objects>("objects"),
+    field<&CollisionReading::collision>("collision", "",
+                                        "whether anything was touched since the last reading"),
+    field<&CollisionReading::objects>("objects", "", "names of what was touched"),
 };
 SIM_FIELDS(CollisionReading, kCollisionReading)
 

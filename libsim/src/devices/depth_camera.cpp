@@ -126,11 +126,14 @@ constexpr Field kDepthCameraSettings[] = {
 SIM_FIELDS(DepthCameraParams, kDepthCameraSettings, check_ranges)
 
 constexpr Field kDepthCameraReading[] = {
-    field<&DepthCameraReading::width>("width", "pixels").within(0, ViewParams::kMaxWidth),
-    field<&DepthCameraReading::height>("height", "pixels").within(0, ViewParams::kMaxHeight),
-    field<&DepthCameraReading::focal_px>("focal", "pixels"),
-    field<&DepthCameraReading::centre_px>("centre", "pixels"),
-    field<&DepthCameraReading::depths_m>("depths", "m"),
+    field<&DepthCameraReading::width>("width", "pixels", "of the picture")
+        .within(0, ViewParams::kMaxWidth),
+    field<&DepthCameraReading::height>("height", "pixels", "of the picture")
+        .within(0, ViewParams::kMaxHeight),
+    field<&DepthCameraReading::focal_px>("focal", "pixels", "focal length"),
+    field<&DepthCameraReading::centre_px>("centre", "pixels", "row of the horizon"),
+    field<&DepthCameraReading::depths_m>("depths", "m",
+                                         "of each pixel, row by row from the top; 0: none"),
 };
 SIM_FIELDS(DepthCameraReading, kDepthCameraReading, check_depths)
 

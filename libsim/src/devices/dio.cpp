@@ -142,10 +142,12 @@ constexpr Field kDioSettings[] = {
 SIM_FIELDS(DioParams, kDioSettings)
 
 constexpr Field kDioReading[] = {
-    field<&DioReading::input_count>("count").within(0, DioParams::kMaxLines),
-    field<&DioReading::inputs>("inputs"),
-    field<&DioReading::output_count>("output_count").within(0, DioParams::kMaxLines),
-    field<&DioReading::outputs>("outputs"),
+    field<&DioReading::input_count>("count", "", "number of inputs")
+        .within(0, DioParams::kMaxLines),
+    field<&DioReading::inputs>("inputs", "", "bits of the inputs, input 0 the lowest"),
+    field<&DioReading::output_count>("output_count", "", "number of outputs")
+        .within(0, DioParams::kMaxLines),
+    field<&DioReading::outputs>("outputs", "", "bits of the outputs"),
 };
 SIM_FIELDS(DioReading, kDioReading)
 

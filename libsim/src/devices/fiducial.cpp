@@ -118,7 +118,8 @@ constexpr Field kMark[] = {
 SIM_FIELDS(FiducialReading::Mark, kMark)
 
 constexpr Field kFiducialReading[] = {
-    field<&FiducialReading::marks>("marks"),
+    field<&FiducialReading::marks>(
+        "marks", "", "nearest first, seen from the sensor; id 0: too far away to be read"),
 };
 SIM_FIELDS(FiducialReading, kFiducialReading)
 

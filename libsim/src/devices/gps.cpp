@@ -168,18 +168,18 @@ constexpr Field kGpsSettings[] = {
 SIM_FIELDS(GpsParams, kGpsSettings)
 
 constexpr Field kGpsReading[] = {
-    field<&GpsReading::latitude_rad>("latitude", "rad"),
-    field<&GpsReading::longitude_rad>("longitude", "rad"),
-    field<&GpsReading::altitude_m>("altitude", "m"),
-    field<&GpsReading::speed_mps>("speed", "m/s"),
-    field<&GpsReading::course_rad>("course", "rad"),
-    field<&GpsReading::utm_easting_m>("utm_easting", "m"),
-    field<&GpsReading::utm_northing_m>("utm_northing", "m"),
-    field<&GpsReading::satellites>("satellites"),
-    field<&GpsReading::quality>("quality"),
-    field<&GpsReading::position_m>("position", "m"),
-    field<&GpsReading::velocity_mps>("velocity", "m/s"),
-    field<&GpsReading::heading_rad>("heading", "rad"),
+    field<&GpsReading::latitude_rad>("latitude", "rad", "north is positive"),
+    field<&GpsReading::longitude_rad>("longitude", "rad", "east is positive"),
+    field<&GpsReading::altitude_m>("altitude", "m", "over the ellipsoid"),
+    field<&GpsReading::speed_mps>("speed", "m/s", "over ground"),
+    field<&GpsReading::course_rad>("course", "rad", "over ground, clockwise from north"),
+    field<&GpsReading::utm_easting_m>("utm_easting", "m", "in the zone of the world's origin"),
+    field<&GpsReading::utm_northing_m>("utm_northing", "m", "in the zone of the world's origin"),
+    field<&GpsReading::satellites>("satellites", "", "in view"),
+    field<&GpsReading::quality>("quality", "", "1: a fix; 0: none, then all other numbers are 0"),
+    field<&GpsReading::position_m>("position", "m", "in the world"),
+    field<&GpsReading::velocity_mps>("velocity", "m/s", "to the east, to the north, upwards"),
+    field<&GpsReading::heading_rad>("heading", "rad", "of the robot, clockwise from north"),
 };
 SIM_FIELDS(GpsReading, kGpsReading)
 

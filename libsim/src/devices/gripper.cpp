@@ -342,12 +342,13 @@ constexpr Field kGripperSettings[] = {
 SIM_FIELDS(GripperParams, kGripperSettings)
 
 constexpr Field kGripperReading[] = {
-    field<&GripperReading::state>("state").one_of(kStateWords),
-    field<&GripperReading::outer_beam>("outer_beam"),
-    field<&GripperReading::inner_beam>("inner_beam"),
-    field<&GripperReading::holding>("holding"),
-    field<&GripperReading::stored>("stored").within(0, GripperParams::kMaxStored),
-    field<&GripperReading::gap_m>("gap", "m"),
+    field<&GripperReading::state>("state", "", "of the paddles").one_of(kStateWords),
+    field<&GripperReading::outer_beam>("outer_beam", "", "whether it is broken"),
+    field<&GripperReading::inner_beam>("inner_beam", "", "whether it is broken"),
+    field<&GripperReading::holding>("holding", "", "whether something is held"),
+    field<&GripperReading::stored>("stored", "", "number of things in the store")
+        .within(0, GripperParams::kMaxStored),
+    field<&GripperReading::gap_m>("gap", "m", "between the paddles"),
 };
 SIM_FIELDS(GripperReading, kGripperReading)
 

@@ -104,8 +104,8 @@ constexpr Field kHandSettings[] = {
 SIM_FIELDS(HandParams, kHandSettings)
 
 constexpr Field kHandReading[] = {
-    field<&HandReading::held>("held"),
-    field<&HandReading::near>("near"),
+    field<&HandReading::held>("held", "", "name of the obstacle that it holds; empty: none"),
+    field<&HandReading::near>("near", "", "name of the obstacle that it would take; empty: none"),
 };
 SIM_FIELDS(HandReading, kHandReading)
 

@@ -123,10 +123,10 @@ constexpr Field kImuSettings[] = {
 SIM_FIELDS(ImuParams, kImuSettings)
 
 constexpr Field kImuReading[] = {
-    field<&ImuReading::acceleration_mps2>("acceleration", "m/s^2"),
-    field<&ImuReading::rate_radps>("rate", "rad/s"),
-    field<&ImuReading::field_ut>("field", "uT"),
-    field<&ImuReading::yaw_rad>("yaw", "rad"),
+    field<&ImuReading::acceleration_mps2>("acceleration", "m/s^2", "in the robot's frame"),
+    field<&ImuReading::rate_radps>("rate", "rad/s", "in the robot's frame"),
+    field<&ImuReading::field_ut>("field", "uT", "magnetic field in the robot's frame"),
+    field<&ImuReading::yaw_rad>("yaw", "rad", "heading integrated from the measured rate"),
 };
 SIM_FIELDS(ImuReading, kImuReading)
 

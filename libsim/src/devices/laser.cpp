@@ -161,10 +161,12 @@ constexpr Field kLaserSettings[] = {
 SIM_FIELDS(LaserParams, kLaserSettings, check_laser_view)
 
 constexpr Field kLaserReading[] = {
-    field<&LaserReading::ranges_m>("ranges", "m"),
-    field<&LaserReading::angle_min_rad>("angle_min", "rad"),
-    field<&LaserReading::resolution_rad>("resolution", "rad"),
-    field<&LaserReading::range_max_m>("range_max", "m"),
+    field<&LaserReading::ranges_m>("ranges", "m",
+                                   "the rightmost beam first; `range_max`: nothing met"),
+    field<&LaserReading::angle_min_rad>("angle_min", "rad",
+                                        "direction of the first beam from the laser's x axis"),
+    field<&LaserReading::resolution_rad>("resolution", "rad", "angle between beams"),
+    field<&LaserReading::range_max_m>("range_max", "m", "limit of the ranges"),
 };
 SIM_FIELDS(LaserReading, kLaserReading)
 

@@ -340,16 +340,22 @@ constexpr Field kOdometrySettings[] = {
 SIM_FIELDS(OdometryParams, kOdometrySettings)
 
 constexpr Field kPoseReading[] = {
-    field<&PoseReading::pose>("", "m, rad"),
-    field<&PoseReading::twist, &Twist::v_mps>("v", "m/s"),
-    field<&PoseReading::twist, &Twist::omega_radps>("omega", "rad/s"),
-    field<&PoseReading::twist, &Twist::lateral_mps>("lateral", "m/s"),
-    field<&PoseReading::stalled>("stalled"),
-    field<&PoseReading::path_length_m>("path_length", "m"),
-    field<&PoseReading::increment>("increment", "m, rad"),
-    field<&PoseReading::elevation, &Elevation::z_m>("z", "m"),
-    field<&PoseReading::elevation, &Elevation::roll_rad>("roll", "rad"),
-    field<&PoseReading::elevation, &Elevation::pitch_rad>("pitch", "rad"),
+    field<&PoseReading::pose>("", "m, rad", "in the world; odometry: from the robot's start"),
+    field<&PoseReading::twist, &Twist::v_mps>("v", "m/s", "forward, in the robot's frame"),
+    field<&PoseReading::twist, &Twist::omega_radps>("omega", "rad/s", "counter-clockwise"),
+    field<&PoseReading::twist, &Twist::lateral_mps>("lateral", "m/s",
+                                                    "to the left, in the robot's frame"),
+    field<&PoseReading::stalled>("stalled", "", "whether something blocks the robot"),
+    field<&PoseReading::path_length_m>(
+        "path_length", "m", "path length of the axle's middle since the last reading; `pose`: 0"),
+    field<&PoseReading::increment>("increment", "m, rad",
+                                   "pose relative to the last reading; `pose`: 0"),
+    field<&PoseReading::elevation, &Elevation::z_m>("z", "m",
+                                                    "height; odometry: 0 except for noise"),
+    field<&PoseReading::elevation, &Elevation::roll_rad>("roll", "rad",
+                                                         "odometry: 0 except for noise"),
+    field<&PoseReading::elevation, &Elevation::pitch_rad>("pitch", "rad",
+                                                          "odometry: 0 except for noise"),
 };
 SIM_FIELDS(PoseReading, kPoseReading)
 

@@ -109,13 +109,13 @@ inline constexpr CustomField kModifiersField{
       read_modifiers(settings, kModifiers, params);
     },
     [](const void*) { return std::string("[]"); },
-    [](const void*, std::map<std::string, double>&) {},
     R"("type": "array", "maxItems": 16, "items": {"type": "object", "required": ["name"], "properties": {"name": {"type": "string"}}, "additionalProperties": {"type": ["number", "boolean"]}})"};
 
 template <const auto& kModifiers>
 [[nodiscard]] constexpr Field modifiers_field() {
-  return custom("modifiers", kModifiersField<kModifiers>, "",
-                "list of MORSE's modifiers, see docs/realism.md");
+  return custom(
+      "modifiers", kModifiersField<kModifiers>, [](const void*, std::map<std::string, double>&) {},
+      "", "list of MORSE's modifiers, see docs/realism.md");
 }
 
 }  // namespace sim

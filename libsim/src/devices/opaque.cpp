@@ -112,9 +112,9 @@ constexpr Field kOpaqueSettings[] = {
 SIM_FIELDS(OpaqueParams, kOpaqueSettings)
 
 constexpr Field kOpaqueReading[] = {
-    field<&OpaqueReading::data>("data"),
-    field<&OpaqueReading::number>("number"),
-    field<&OpaqueReading::lost>("lost"),
+    field<&OpaqueReading::data>("data", "", "the message; empty: none has arrived"),
+    field<&OpaqueReading::number>("number", "", "messages so far"),
+    field<&OpaqueReading::lost>("lost", "", "lost messages so far"),
 };
 SIM_FIELDS(OpaqueReading, kOpaqueReading)
 

@@ -53,8 +53,8 @@ constexpr Field kPostureSettings[] = {
 SIM_FIELDS(PostureParams, kPostureSettings)
 
 constexpr Field kPostureReading[] = {
-    field<&PostureReading::joints>("joints"),
-    field<&PostureReading::positions>("positions", "m or rad"),
+    field<&PostureReading::joints>("joints", "", "names of the joints"),
+    field<&PostureReading::positions>("positions", "m or rad", "of the joints"),
 };
 SIM_FIELDS(PostureReading, kPostureReading)
 

@@ -82,7 +82,8 @@ constexpr Field kNeighbour[] = {
 SIM_FIELDS(ProximityReading::Neighbour, kNeighbour)
 
 constexpr Field kProximityReading[] = {
-    field<&ProximityReading::near_objects>("near_objects"),
+    field<&ProximityReading::near_objects>("near_objects", "",
+                                           "objects within the range, and their distances in m"),
 };
 SIM_FIELDS(ProximityReading, kProximityReading)
 

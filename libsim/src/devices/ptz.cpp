@@ -116,13 +116,13 @@ constexpr Field kPtzSettings[] = {
 SIM_FIELDS(PtzParams, kPtzSettings, check_ptz_view)
 
 constexpr Field kPtzReading[] = {
-    field<&PtzReading::pan_rad>("pan", "rad"),
-    field<&PtzReading::tilt_rad>("tilt", "rad"),
-    field<&PtzReading::view_rad>("view", "rad"),
-    field<&PtzReading::pan_speed_radps>("pan_speed", "rad/s"),
-    field<&PtzReading::tilt_speed_radps>("tilt_speed", "rad/s"),
-    field<&PtzReading::zoom_speed_radps>("zoom_speed", "rad/s"),
-    field<&PtzReading::moving>("moving"),
+    field<&PtzReading::pan_rad>("pan", "rad", "to the left"),
+    field<&PtzReading::tilt_rad>("tilt", "rad", "upwards"),
+    field<&PtzReading::view_rad>("view", "rad", "field of view"),
+    field<&PtzReading::pan_speed_radps>("pan_speed", "rad/s", "of the pan"),
+    field<&PtzReading::tilt_speed_radps>("tilt_speed", "rad/s", "of the tilt"),
+    field<&PtzReading::zoom_speed_radps>("zoom_speed", "rad/s", "of the field of view"),
+    field<&PtzReading::moving>("moving", "", "whether it moves"),
 };
 SIM_FIELDS(PtzReading, kPtzReading)
 

@@ -272,10 +272,11 @@ SIM_FIELDS(SonarParams, kSonar, [](const void* params) {
 })
 
 constexpr Field kRangerReading[] = {
-    field<&RangerReading::ranges_m>("ranges", "m"),
-    field<&RangerReading::X_BS>("mountings", "m, rad"),
-    field<&RangerReading::range_max_m>("range_max", "m"),
-    field<&RangerReading::field_of_view_rad>("field_of_view", "rad"),
+    field<&RangerReading::ranges_m>("ranges", "m", "one per transducer"),
+    field<&RangerReading::X_BS>("mountings", "m, rad", "poses on the robot, one per transducer"),
+    field<&RangerReading::range_max_m>("range_max", "m", "limit of the ranges"),
+    field<&RangerReading::field_of_view_rad>("field_of_view", "rad",
+                                             "full angle of a cone, 0 for a ray"),
 };
 SIM_FIELDS(RangerReading, kRangerReading, check_mountings)
 

@@ -103,7 +103,8 @@ constexpr Field kSemanticObject[] = {
 SIM_FIELDS(SemanticCameraReading::Object, kSemanticObject)
 
 constexpr Field kSemanticCameraReading[] = {
-    field<&SemanticCameraReading::objects>("objects"),
+    field<&SemanticCameraReading::objects>(
+        "objects", "", "seen objects; positions in m; the orientation is a quaternion"),
 };
 SIM_FIELDS(SemanticCameraReading, kSemanticCameraReading)
 

@@ -64,9 +64,9 @@ constexpr Field kVelocitySettings[] = {
 SIM_FIELDS(VelocityParams, kVelocitySettings)
 
 constexpr Field kVelocityReading[] = {
-    field<&VelocityReading::linear_mps>("linear", "m/s"),
-    field<&VelocityReading::angular_radps>("angular", "rad/s"),
-    field<&VelocityReading::world_mps>("world", "m/s"),
+    field<&VelocityReading::linear_mps>("linear", "m/s", "in the sensor's axes"),
+    field<&VelocityReading::angular_radps>("angular", "rad/s", "in the sensor's axes"),
+    field<&VelocityReading::world_mps>("world", "m/s", "in the world's axes"),
 };
 SIM_FIELDS(VelocityReading, kVelocityReading)
 
@@ -120,10 +120,12 @@ constexpr Field kAccelerometerSettings[] = {
 SIM_FIELDS(AccelerometerParams, kAccelerometerSettings)
 
 constexpr Field kAccelerometerReading[] = {
-    field<&AccelerometerReading::distance_m>("distance", "m"),
-    field<&AccelerometerReading::velocity_mps>("velocity", "m/s"),
-    field<&AccelerometerReading::acceleration_mps2>("acceleration", "m/s^2"),
-    field<&AccelerometerReading::angular_radps2>("angular_acceleration", "rad/s^2"),
+    field<&AccelerometerReading::distance_m>("distance", "m", "from its place at the last reading"),
+    field<&AccelerometerReading::velocity_mps>("velocity", "m/s", "in the sensor's axes"),
+    field<&AccelerometerReading::acceleration_mps2>("acceleration", "m/s^2",
+                                                    "in the sensor's axes"),
+    field<&AccelerometerReading::angular_radps2>("angular_acceleration", "rad/s^2",
+                                                 "in the sensor's axes"),
 };
 SIM_FIELDS(AccelerometerReading, kAccelerometerReading)
 
@@ -166,9 +168,9 @@ constexpr Field kGyroscopeSettings[] = {
 SIM_FIELDS(GyroscopeParams, kGyroscopeSettings)
 
 constexpr Field kGyroscopeReading[] = {
-    field<&GyroscopeReading::yaw_rad>("yaw", "rad"),
-    field<&GyroscopeReading::pitch_rad>("pitch", "rad"),
-    field<&GyroscopeReading::roll_rad>("roll", "rad"),
+    field<&GyroscopeReading::yaw_rad>("yaw", "rad", "orientation in the world"),
+    field<&GyroscopeReading::pitch_rad>("pitch", "rad", "orientation in the world"),
+    field<&GyroscopeReading::roll_rad>("roll", "rad", "orientation in the world"),
 };
 SIM_FIELDS(GyroscopeReading, kGyroscopeReading)
 
@@ -223,10 +225,10 @@ constexpr Field kAttitudeSettings[] = {
 SIM_FIELDS(AttitudeParams, kAttitudeSettings)
 
 constexpr Field kAttitudeReading[] = {
-    field<&AttitudeReading::yaw_rad>("yaw", "rad"),
-    field<&AttitudeReading::pitch_rad>("pitch", "rad"),
-    field<&AttitudeReading::roll_rad>("roll", "rad"),
-    field<&AttitudeReading::rate_radps>("rate", "rad/s"),
+    field<&AttitudeReading::yaw_rad>("yaw", "rad", "orientation in the world"),
+    field<&AttitudeReading::pitch_rad>("pitch", "rad", "orientation in the world"),
+    field<&AttitudeReading::roll_rad>("roll", "rad", "orientation in the world"),
+    field<&AttitudeReading::rate_radps>("rate", "rad/s", "turn rates"),
 };
 SIM_FIELDS(AttitudeReading, kAttitudeReading)
 

@@ -160,10 +160,10 @@ constexpr Field kWaypointSettings[] = {
 SIM_FIELDS(WaypointParams, kWaypointSettings)
 
 constexpr Field kWaypointReading[] = {
-    field<&WaypointReading::status>("status").one_of(kWaypointWords),
-    field<&WaypointReading::goal_number>("goal_number"),
-    field<&WaypointReading::goal_m>("", "m"),
-    field<&WaypointReading::distance_m>("distance", "m"),
+    field<&WaypointReading::status>("status", "", "what the robot does").one_of(kWaypointWords),
+    field<&WaypointReading::goal_number>("goal_number", "", "goals so far"),
+    field<&WaypointReading::goal_m>("", "m", "the goal"),
+    field<&WaypointReading::distance_m>("distance", "m", "to the goal"),
 };
 SIM_FIELDS(WaypointReading, kWaypointReading)
 

@@ -101,7 +101,9 @@ void Wifi::archive(StateArchive& archive) {
 }
 
 constexpr Field kAccessPoint[] = {
-    field<&AccessPoint::name>("name", "", "name of its network").needed("the name of its network"),
+    field<&AccessPoint::name>("name", "", "name of its network")
+        .as_name()
+        .needed("the name of its network"),
     field<&AccessPoint::p_W>("", "m", "place in the world").within(-kFarthest_m, kFarthest_m),
 };
 SIM_FIELDS(AccessPoint, kAccessPoint)
@@ -136,10 +138,10 @@ constexpr Field kLink[] = {
 SIM_FIELDS(WifiReading::Link, kLink)
 
 constexpr Field kWifiReading[] = {
-    field<&WifiReading::links>("links"),
-    field<&WifiReading::own_ip>("own.ip"),
-    field<&WifiReading::floor_dbm>("floor", "dBm"),
-    field<&WifiReading::channel_mhz>("channel", "MHz"),
+    field<&WifiReading::links>("links", "", "`level` in dBm"),
+    field<&WifiReading::own_ip>("own.ip", "", "this robot's own address"),
+    field<&WifiReading::floor_dbm>("floor", "dBm", "noise of the channel"),
+    field<&WifiReading::channel_mhz>("channel", "MHz", "carrier"),
 };
 SIM_FIELDS(WifiReading, kWifiReading)
 

@@ -6,13 +6,14 @@
 #include <utility>
 #include <variant>
 
+#include "io/check_ranges.h"
 #include "io/controller_io.h"
 #include "io/controller_work.h"
 #include "io/document.h"
 #include "io/robot_io.h"
 #include "io/solid_limits.h"
-#include "sim/world/limits.h"
 #include "sim/world/robot_model.h"
+#include "world/controller_fields.h"
 
 namespace sim::io {
 namespace {
@@ -43,7 +44,7 @@ class ControllerChecker {
   }
 
   std::vector<ConfigIssue> run() {
-    check_blocks();
+    check_numbers();
     check_configurations();
     check_unique_names();
     for (std::size_t i = 0; i < controller_.timers.size(); ++i) {
@@ -78,22 +79,14 @@ class ControllerChecker {
         in_quotes(name), hint);
   }
 
-  void need_number(const std::string& pointer, double x, double least, double most,
-                   const char* unit) {
-    if (x >= least && x <= most) return;
-    add("world/out-of-range", pointer,
-        "a number from " + number_text(least) + " to " + number_text(most) + ' ' + unit,
-        number_text(x));
-  }
-  void need_time(const std::string& pointer, double x) {
-    need_number(pointer, x, 0.0, kLongestArenaTime_s, "s");
-  }
-
-  void need_text(const std::string& pointer, const std::string& text) {
-    if (text.size() <= kMaxArenaText) return;
-    add("world/out-of-range", pointer,
-        "a text of at most " + std::to_string(kMaxArenaText) + " bytes",
-        std::to_string(text.size()) + " bytes");
+  /// Checks what the ranges of the fields say.
+  void check_numbers() {
+    const std::function<void(SolidError)> report = [this](SolidError error) {
+      if (!trusted_(error.key)) return;
+      add(error.id, std::move(error.key), std::move(error.expected), std::move(error.found),
+          std::move(error.hint));
+    };
+    check_ranges(fields_of<ControllerDescription>(), &controller_, "/controller", report);
   }
 
   void need_obstacle(const std::string& pointer, const std::string& name) {
@@ -159,13 +152,6 @@ class ControllerChecker {
     add_unknown("world/unknown-trap", pointer, "the name of a timer or trap", name, switches_);
   }
 
-  void check_blocks() {
-    for (std::size_t i = 0; arena_trusted_ && i < world_.arena.obstacles.size(); ++i) {
-      need_number(at("/arena/obstacles", i) + "/rise_speed",
-                  world_.arena.obstacles[i].rise_speed_mps, 0.0, kMaxRiseSpeed_mps, "m/s");
-    }
-  }
-
   void check_configurations() {
     for (const ArenaConfiguration& configuration : controller_.configurations) {
       const std::string pointer =
@@ -228,34 +214,20 @@ class ControllerChecker {
   }
 
   void check_timer(const TimerDescription& timer, const std::string& pointer) {
-    if (trusted_(pointer)) {
-      need_time(pointer + "/at", timer.at_s);
-      need_time(pointer + "/jitter", timer.jitter_s);
-      if (timer.every_s != 0.0) {
-        need_number(pointer + "/every", timer.every_s, kLeastArenaPeriod_s, kLongestArenaTime_s,
-                    "s");
-        if (timer.jitter_s > 0.5 * timer.every_s) {
-          add("world/out-of-range", pointer + "/jitter",
-              "at most half of \"every\": " + number_text(0.5 * timer.every_s) + " s",
-              number_text(timer.jitter_s), "otherwise the order of the times would change");
-        }
-      }
-      if (timer.within_s) {
-        const auto [from_s, to_s] = *timer.within_s;
-        need_time(pointer + "/within/0", from_s);
-        need_time(pointer + "/within/1", to_s);
-        if (from_s > to_s) {
-          add("world/out-of-range", pointer + "/within", "[from, to] with from not above to",
-              '[' + number_text(from_s) + ", " + number_text(to_s) + ']');
-        }
-      }
+    if (trusted_(pointer) && timer.every_s != 0.0 && timer.jitter_s > 0.5 * timer.every_s) {
+      add("world/out-of-range", pointer + "/jitter",
+          "at most half of \"every\": " + number_text(0.5 * timer.every_s) + " s",
+          number_text(timer.jitter_s), "otherwise the order of the times would change");
+    }
+    if (trusted_(pointer) && timer.within_s && timer.within_s->x() > timer.within_s->y()) {
+      add("world/out-of-range", pointer + "/within", "[from, to] with from not above to",
+          '[' + number_text(timer.within_s->x()) + ", " + number_text(timer.within_s->y()) + ']');
     }
     check_conditions(timer.conditions, pointer + "/if", true);
     check_actions(timer.actions, pointer + "/do", true);
   }
 
   void check_trap(const TrapDescription& trap, const std::string& pointer) {
-    need_time(pointer + "/for", trap.stay_s);
     if (robots_trusted_ && trusted_(pointer + "/robots")) {
       for (std::size_t i = 0; i < trap.robots.size(); ++i) {
         if (robots_.contains(trap.robots[i])) continue;
@@ -269,36 +241,23 @@ class ControllerChecker {
       add_unknown("world/unknown-model", pointer + "/model", "the model of a robot of this world",
                   trap.model, models);
     }
-    check_region(trap.region, pointer);
+    if (const auto* near = std::get_if<NearRegion>(&trap.region)) check_near(*near, pointer);
     check_conditions(trap.conditions, pointer + "/if", false);
     check_actions(trap.actions, pointer + "/do", false);
   }
 
-  void check_region(const TrapRegion& region, const std::string& pointer) {
-    const auto need_length = [this](const std::string& place, double length_m) {
-      if (length_m > 0.0 && length_m <= kGreatestLength_m) return;
-      add("world/out-of-range", place,
-          "a number greater than 0 and at most " + number_text(kGreatestLength_m) + " m",
-          number_text(length_m));
-    };
-    if (const auto* box = std::get_if<BoxRegion>(&region)) {
-      need_length(pointer + "/region/box/size", box->size.minCoeff());
-    } else if (const auto* circle = std::get_if<CircleRegion>(&region)) {
-      need_length(pointer + "/region/circle/radius", circle->radius_m);
-    } else if (const auto* polygon = std::get_if<PolygonRegion>(&region)) {
-      if (polygon->corners.size() >= 3 || !trusted_(pointer + "/region")) return;
-      add("world/out-of-range", pointer + "/region/polygon", "at least 3 corners",
-          std::to_string(polygon->corners.size()));
-    } else if (const auto* near = std::get_if<NearRegion>(&region)) {
-      need_length(pointer + "/near/distance", near->distance_m);
-      if (!trusted_(pointer + "/near") || !arena_trusted_ || !robots_trusted_) return;
-      if (robots_.contains(near->object) || obstacles_.contains(near->object)) return;
-      std::vector<std::string> names = robot_names();
-      names.insert(names.end(), obstacles_.begin(), obstacles_.end());
-      add_unknown("world/unknown-obstacle", pointer + "/near/object",
-                  "the name of a robot or an obstacle", near->object, names);
-    }
+  void check_near(const NearRegion& near, const std::string& pointer) {
+    if (!trusted_(pointer + "/near") || !arena_trusted_ || !robots_trusted_) return;
+    if (robots_.contains(near.object) || obstacles_.contains(near.object)) return;
+    std::vector<std::string> names = robot_names();
+    names.insert(names.end(), obstacles_.begin(), obstacles_.end());
+    add_unknown("world/unknown-obstacle", pointer + "/near/object",
+                "the name of a robot or an obstacle", near.object, names);
   }
+
+  /// Most conditions and actions name other parts of the world; the others need no check.
+  template <typename Simple>
+  static void check(const Simple&, const std::string&, bool) {}
 
   // --- Conditions
 
@@ -360,28 +319,16 @@ class ControllerChecker {
   void check(const PlaceAction& action, const std::string& pointer, bool) {
     need_obstacle(pointer + "/place/obstacle", action.obstacle);
   }
-  void check(const MessageAction& action, const std::string& pointer, bool) {
-    need_text(pointer + "/message", action.text);
-  }
-  void check(const TextAction& action, const std::string& pointer, bool) {
-    need_text(pointer + "/text/text", action.text);
-    need_time(pointer + "/text/duration", action.duration_s);
-  }
-  static void check(const CanvasAction&, const std::string&, bool) {}
   void check(const RestartAction& action, const std::string& pointer, bool of_timer) {
     static_cast<void>(need_robot(pointer + "/restart", action.robot, of_timer));
   }
   void check(const ScoreAction& action, const std::string& pointer, bool of_timer) {
     static_cast<void>(need_robot(pointer + "/score", action.robot, of_timer));
-    need_number(pointer + "/score/points", action.points, -1e6, 1e6, "points");
   }
   void check(const SwitchAction& action, const std::string& pointer, bool) {
     for (std::size_t i = 0; i < action.names.size(); ++i) {
       need_switch(at(pointer + (action.on ? "/enable" : "/disable"), i), action.names[i]);
     }
-  }
-  void check(const EndAction& action, const std::string& pointer, bool) {
-    need_text(pointer + "/end/reason", action.reason);
   }
   void check(const MoveAction& action, const std::string& pointer, bool) {
     need_obstacle(pointer + "/move/obstacle", action.obstacle);
@@ -400,8 +347,6 @@ class ControllerChecker {
       if (auto error = check_movable(driven)) {
         add(error->id, place + "/obstacle", error->expected, error->found + " of " + obstacle.name,
             error->hint);
-      } else if (const auto wrong = check_motion(motion)) {
-        add(wrong->id, place + wrong->key, wrong->expected, wrong->found, wrong->hint);
       }
     }
   }
@@ -424,9 +369,7 @@ class ControllerChecker {
 
 std::vector<ConfigIssue> check_controller(const WorldDescription& world,
                                           const std::function<bool(const std::string&)>& trusted) {
-  const auto& blocks = world.arena.obstacles;
-  const auto moves = [](const ObstacleDescription& block) { return block.rise_speed_mps != 0.0; };
-  if (world.controller.empty() && std::none_of(blocks.begin(), blocks.end(), moves)) return {};
+  if (world.controller.empty()) return {};
   return ControllerChecker(world, trusted).run();
 }
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "io/check_ranges.h"
 #include "io/controller_io.h"
 #include "io/document.h"
 #include "io/solid_limits.h"
@@ -19,6 +20,7 @@
 #include "sim/io/world_io.h"
 #include "sim/world/limits.h"
 #include "sim/world/robot_model.h"
+#include "world/world_fields.h"
 
 namespace sim::io {
 namespace {
@@ -233,9 +235,10 @@ class Checker {
     for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
       const ObstacleDescription& obstacle = arena.obstacles[i];
       all &= passes(check_obstacle(obstacle), obstacle_pointer(i), obstacle.name) &&
-             passes(check_movable(obstacle), obstacle_pointer(i), obstacle.name);
-      if (!obstacle.motion) continue;
-      all &= passes(check_motion(*obstacle.motion), obstacle_pointer(i) + "/motion", obstacle.name);
+             passes(check_movable(obstacle), obstacle_pointer(i), obstacle.name) &&
+             passes(out_of_range(fields_of<ObstacleDescription>(), &obstacle,
+                                 {"rise_speed", "motion", "mass", "friction"}),
+                    obstacle_pointer(i), obstacle.name);
     }
     for (std::size_t i = 0; i < arena.dock_separators.size(); ++i) {
       const ObstacleDescription& separator = arena.dock_separators[i];

@@ -13,11 +13,8 @@
 /// Reading and checking of a world's arena controller (docs/arena_controller.md).
 namespace sim::io {
 
-/// Reads the key "when_blocked" of an obstacle.
-[[nodiscard]] WhenBlocked read_when_blocked(Reader& reader);
-
 /// Reads the member "controller" of a world. Names of other parts are not checked.
-[[nodiscard]] ControllerDescription read_controller(Reader& root, const ArenaDescription& arena);
+[[nodiscard]] ControllerDescription read_controller(Reader& root);
 
 /// Checks the names in a world's controller and its combinations of values.
 /// @param trusted  see check_world_parts().

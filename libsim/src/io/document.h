@@ -91,6 +91,9 @@ std::string escape_pointer_part(std::string_view part);
 /// A number in everyday notation: 2, 0.05, 1e+20.
 std::string number_text(double value);
 
+/// "a number greater than 0 and at most 100 m".
+std::string describe_range(const NumberRange& range);
+
 /// "a, b or c".
 std::string list_text(const std::vector<std::string>& words, const char* last_joint = " or ");
 

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "io/document.h"
 #include "sim/core/assert.h"
+#include "sim/core/time.h"
 
 namespace sim::io {
 namespace {
@@ -19,17 +21,42 @@ double read_number(Reader& settings, const Field& field, double fallback) {
 
 void read_choice(Reader& settings, const Field& field, void* value) {
   const std::vector<std::string> words(field.words.begin(), field.words.end());
-  const auto now = static_cast<std::size_t>(integer_at(field, value));
+  const bool is_bool = field.type == FieldType::kBool;
+  const std::size_t now = is_bool ? (*static_cast<bool*>(value) == field.first_word ? 0 : 1)
+                                  : static_cast<std::size_t>(integer_at(field, value));
   const std::string word = settings.choice(field.name, words.at(now), words);
-  set_integer(field, value, std::find(words.begin(), words.end(), word) - words.begin());
+  const auto index = std::find(words.begin(), words.end(), word) - words.begin();
+  if (is_bool) {
+    *static_cast<bool*>(value) = (index == 0) == field.first_word;
+  } else {
+    set_integer(field, value, index);
+  }
 }
 
-void read_text(Reader& settings, const Field& field, std::string& text) {
-  if (field.needed_for == nullptr) {
-    text = settings.string(field.name, text);
-  } else if (settings.require(field.name, field.needed_for)) {
-    text = settings.name(field.name, "");
+std::string read_name(Reader& element) {
+  if (element.is_string()) return *element.scalar_text();
+  element.issue("world/wrong-type", "a name in double quotes", element.description_for_message());
+  return {};
+}
+
+void read_names(Reader& settings, const Field& field, std::vector<std::string>& names) {
+  if (!settings.has(field.name)) return;
+  names.clear();
+  for (Reader& element : settings.array(field.name, field.max_count)) {
+    names.push_back(read_name(element));
   }
+}
+
+void read_points(Reader& settings, const Field& field, std::vector<Vec2>& points) {
+  const std::optional<Reader> list = settings.child(field.name);
+  if (!list) return;
+  points.clear();
+  for (Reader& point : settings.array(field.name, field.max_count)) {
+    points.push_back(point.as_vec2({0.0, 0.0}, field.range));
+  }
+  if (field.issue_id == nullptr || !list->is_array() || points.size() >= field.min_count) return;
+  settings.issue(field.issue_id, field.issue_expected, list->description_for_message(), "",
+                 field.name);
 }
 
 void read_optional_pose(Reader& settings, const Field& field, void* object) {
@@ -49,7 +76,11 @@ void read_element(Reader& element, const Field& field, void* list) {
   } else if (field.element == nullptr) {
     void* const made = field.list->append(list);
     if (!element.expect_object()) return;
-    read_fields(element, field.table(), made);
+    if (!field.kinds.empty()) {
+      read_kind(element, field.kinds, field.issue_expected, made);
+    } else {
+      read_fields(element, field.table(), made);
+    }
     element.finish();
   } else if (!field.element->read(element, field.list->append(list))) {
     element.issue(field.issue_id, field.issue_expected, element.description_for_message());
@@ -73,11 +104,71 @@ void read_list(Reader& settings, const Field& field, void* list) {
   for (Reader& element : elements) read_element(element, field, list);
 }
 
+/// An object of elements by name.
+void read_keyed_list(Reader& settings, const Field& field, void* list) {
+  std::optional<Reader> all = settings.object(field.name);
+  if (!all) return;
+  field.list->clear(list);
+  const Field& name_field = field.table().fields.front();
+  for (const std::string& name : all->keys()) {
+    if (field.list->size(list) == field.max_count) {
+      settings.issue("world/too-many", "at most " + std::to_string(field.max_count), "more", "",
+                     field.name);
+      return;
+    }
+    std::optional<Reader> one = all->object(name);
+    if (name_field.is_name && !is_valid_name(name)) {
+      all->issue("world/bad-name", "a name of 1 to 64 letters, digits, _ or -", in_quotes(name),
+                 "English letters only, no blanks", name);
+    }
+    if (!one) continue;
+    void* const made = field.list->append(list);
+    *static_cast<std::string*>(name_field.set(made)) = name;
+    read_fields(*one, field.table(), made);
+    one->finish();
+  }
+}
+
+/// A struct, as an object of its own, or with its keys among those of its owner.
+void read_struct(Reader& settings, const Field& field, void* object) {
+  if (*field.name != '\0') {
+    std::optional<Reader> own = settings.object(field.name);
+    if (!own) return;
+    read_fields(*own, field.table(), field.set(object));
+    own->finish();
+    return;
+  }
+  bool is_given = field.drop == nullptr;
+  for (const Field& one : field.table().fields) is_given |= settings.has(one.name);
+  if (is_given) read_fields(settings, field.table(), field.set(object));
+}
+
+/// Whether the file leaves a field out. @param object  in which null drops an optional member.
+bool is_left_out(Reader& settings, const Field& field, void* object) {
+  if (field.needed_for != nullptr) return !settings.require(field.name, field.needed_for);
+  if (field.drop == nullptr || *field.name == '\0') return false;
+  const std::optional<Reader> value = settings.child(field.name);
+  if (!value || !field.may_be_null || !value->is_null()) return !value;
+  field.drop(object);
+  return true;
+}
+
 void read_field(Reader& settings, const Field& field, void* object) {
+  if (field.custom != nullptr) {
+    field.custom->read(settings, field, object);
+  } else {
+    read_as_usual(settings, field, object);
+  }
+}
+
+}  // namespace
+
+void read_as_usual(Reader& settings, const Field& field, void* object) {
   if (field.type == FieldType::kPose && field.drop != nullptr) {
     return read_optional_pose(settings, field, object);
   }
-  if (field.drop != nullptr && !settings.has(field.name)) return;
+  if (is_left_out(settings, field, object)) return;
+  if (field.type == FieldType::kStruct) return read_struct(settings, field, object);
   void* const value = field.set(object);
   switch (field.type) {
     case FieldType::kNumber:
@@ -88,11 +179,29 @@ void read_field(Reader& settings, const Field& field, void* object) {
           field, value,
           settings.integer(field.name, integer_at(field, value), field.least, field.greatest));
       return;
+    case FieldType::kInt64: {
+      auto& time_ns = *static_cast<SimTime*>(value);
+      time_ns = from_seconds(settings.number(field.name, to_seconds(time_ns), field.range));
+      return;
+    }
+    case FieldType::kUint64: {
+      auto& number = *static_cast<std::uint64_t*>(value);
+      number = settings.unsigned_integer(field.name, number);
+      return;
+    }
     case FieldType::kBool:
+      if (!field.words.empty()) return read_choice(settings, field, value);
       *static_cast<bool*>(value) = settings.boolean(field.name, *static_cast<bool*>(value));
       return;
-    case FieldType::kText:
-      return read_text(settings, field, *static_cast<std::string*>(value));
+    case FieldType::kText: {
+      auto& text = *static_cast<std::string*>(value);
+      text = field.is_name ? settings.name(field.name, text) : settings.string(field.name, text);
+      return;
+    }
+    case FieldType::kTexts:
+      return read_names(settings, field, *static_cast<std::vector<std::string>*>(value));
+    case FieldType::kPoints:
+      return read_points(settings, field, *static_cast<std::vector<Vec2>*>(value));
     case FieldType::kChoice:
       return read_choice(settings, field, value);
     case FieldType::kColour:
@@ -105,22 +214,69 @@ void read_field(Reader& settings, const Field& field, void* object) {
                                            settings.number("y", point.y(), field.range));
       return;
     }
-    case FieldType::kPose:
-      *static_cast<Pose*>(value) = settings.pose(field.name, *static_cast<Pose*>(value));
+    case FieldType::kPose: {
+      auto& pose = *static_cast<Pose*>(value);
+      pose = *field.name != '\0' ? settings.pose(field.name, pose) : settings.as_pose(pose);
       return;
+    }
     case FieldType::kPoses:
     case FieldType::kList:
+      if (field.is_keyed) return read_keyed_list(settings, field, value);
       return read_list(settings, field, value);
     case FieldType::kInclude:
       return read_fields(settings, field.table(), value);
-    case FieldType::kCustom:
-      return field.custom->read(settings, field, value);
     default:
-      SIM_ASSERT(false);  // other types occur in messages only
+      SIM_ASSERT(false);  // other types occur in messages only, or have a format of their own
   }
 }
 
-}  // namespace
+std::optional<std::string> only_key(Reader& object, const std::vector<std::string>& keys,
+                                    const char* what, bool has_other_keys) {
+  std::vector<std::string> found;
+  for (const std::string& key : keys) {
+    if (object.has(key)) found.push_back(key);
+  }
+  if (found.size() == 1) return found.front();
+  if (found.size() > 1) {
+    object.issue("world/conflicting-keys",
+                 std::string(what) + " with one of the keys " + list_text(keys),
+                 list_text(found, " and "),
+                 has_other_keys ? "leave one of them out" : "write an object for each of them");
+  } else if (has_other_keys || object.keys().empty()) {
+    object.issue("world/missing-key", std::string(what) + ": one of the keys " + list_text(keys),
+                 "none");
+  }
+  return std::nullopt;
+}
+
+void read_kind(Reader& object, std::span<const Kind> kinds, const char* what, void* value) {
+  std::vector<std::string> keys;
+  for (const Kind& kind : kinds) keys.emplace_back(kind.word);
+  const std::optional<std::string> key = only_key(object, keys, what);
+  if (!key) return;
+  const Kind& kind = *std::find_if(kinds.begin(), kinds.end(),
+                                   [&key](const Kind& one) { return one.word == *key; });
+  void* const made = kind.make(value);
+  if (kind.is_bare) return read_fields(object, kind.table(), made);
+  std::optional<Reader> own = object.object(kind.word);
+  if (!own) return;
+  read_fields(*own, kind.table(), made);
+  own->finish();
+}
+
+void read_typed(Reader& object, const char* key, std::span<const Kind> kinds, void* value) {
+  std::vector<std::string> words;
+  for (const Kind& kind : kinds) words.emplace_back(kind.word);
+  const std::string word = object.choice(key, words.front(), words);
+  const Kind& kind = *std::find_if(kinds.begin(), kinds.end(),
+                                   [&word](const Kind& one) { return one.word == word; });
+  read_fields(object, kind.table(), kind.make(value));
+}
+
+void read_named(Reader& settings, const FieldTable& table,
+                std::initializer_list<std::string_view> keys, void* object) {
+  for (const std::string_view key : keys) read_field(settings, field_named(table, key), object);
+}
 
 void read_fields(Reader& settings, const FieldTable& table, void* object) {
   for (const Field& field : table.fields) {

@@ -7,11 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "io/controller_io.h"
 #include "io/document.h"
-#include "io/motion_io.h"
-#include "io/robot_io.h"
+#include "sim/io/field_reader.h"
 #include "sim/world/outline.h"
+#include "world/world_fields.h"
 
 namespace sim::io {
 namespace {
@@ -36,7 +35,8 @@ std::optional<Polygon> read_outline(Reader& reader) {
   return outline;
 }
 
-void read_shape(Reader& reader, ObstacleDescription& block) {
+void read_shape(Reader& reader, const Field& /*field*/, void* object) {
+  auto& block = *static_cast<ObstacleDescription*>(object);
   const std::string shape = reader.choice("shape", "box", {"box", "circle", "polygon"});
   const std::optional<Reader> given = reader.child("shape");
   const bool known = !given || given->scalar_text() == shape;
@@ -48,10 +48,10 @@ void read_shape(Reader& reader, ObstacleDescription& block) {
                  other.key);
   }
   if (!known) return;
-  if (shape == "box") block.size = reader.vec2("size", block.size, kArenaLength);
+  if (shape == "box") read_some(reader, block, {"size"});
   if (shape == "circle" && reader.require("radius", "the radius of the circle, in m")) {
-    constexpr NumberRange kRadius{kLeastLength_m, 0.5 * kGreatestLength_m, false, "m"};
-    make_circle(block, reader.number("radius", radius_m(block), kRadius));
+    const Field& radius = field_named(fields_of<ObstacleDescription>(), "radius");
+    make_circle(block, reader.number(radius.name, radius_m(block), radius.range));
   }
   if (shape == "polygon" &&
       reader.require("outline", "the outline: a list of points [x, y] round the obstacle, in m")) {
@@ -61,30 +61,26 @@ void read_shape(Reader& reader, ObstacleDescription& block) {
   }
 }
 
-void read_kind(Reader& reader, ObstacleDescription& block) {
-  if (reader.choice("type", "static", {"static", "dynamic"}) == "dynamic") {
-    block.type = ObstacleType::kDynamic;
-  }
-  if (reader.choice("state", "extended", {"extended", "retracted"}) == "retracted") {
-    block.state = ObstacleState::kRetracted;
-    if (block.type == ObstacleType::kStatic) {
-      reader.issue("world/static-obstacle", "\"extended\" (or no state) for a static obstacle",
-                   "\"retracted\"", "only an obstacle of type \"dynamic\" can be retracted",
-                   "state");
-    }
-  }
-  block.rise_speed_mps =
-      reader.number("rise_speed", block.rise_speed_mps, {0.0, kMaxRiseSpeed_mps, false, "m/s"});
-  block.when_blocked = read_when_blocked(reader);
-  for (const char* key : {"rise_speed", "when_blocked"}) {
-    if (block.type == ObstacleType::kDynamic || !reader.has(key)) continue;
-    reader.issue("world/static-obstacle", "a dynamic obstacle", in_quotes(key) + " of a static one",
-                 "add \"type\": \"dynamic\"", key);
-  }
+void read_state(Reader& reader, const Field& field, void* object) {
+  read_as_usual(reader, field, object);
+  const auto& block = *static_cast<const ObstacleDescription*>(object);
+  if (block.state != ObstacleState::kRetracted || block.type != ObstacleType::kStatic) return;
+  reader.issue("world/static-obstacle", "\"extended\" (or no state) for a static obstacle",
+               "\"retracted\"", "only an obstacle of type \"dynamic\" can be retracted",
+               field.name);
 }
 
-void read_bottom(Reader& reader, ObstacleDescription& block) {
-  block.bottom_m = reader.number("bottom", block.bottom_m, {0.0, 10.0, false, "m"});
+void read_of_dynamic(Reader& reader, const Field& field, void* object) {
+  read_as_usual(reader, field, object);
+  const auto type = static_cast<const ObstacleDescription*>(object)->type;
+  if (type == ObstacleType::kDynamic || !reader.has(field.name)) return;
+  reader.issue("world/static-obstacle", "a dynamic obstacle",
+               in_quotes(field.name) + " of a static one", "add \"type\": \"dynamic\"", field.name);
+}
+
+void read_bottom(Reader& reader, const Field& field, void* object) {
+  read_as_usual(reader, field, object);
+  const auto& block = *static_cast<const ObstacleDescription*>(object);
   if (block.bottom_m == 0.0) return;
   if (block.type == ObstacleType::kDynamic || is_movable(block) || block.portable) {
     reader.issue("world/bottom", "an obstacle that neither moves, nor rises, nor is carried",
@@ -97,16 +93,30 @@ void read_bottom(Reader& reader, ObstacleDescription& block) {
 
 }  // namespace
 
+const CustomField kShapeFormat{.read = read_shape, .rules = R"("allOf": [
+      {"if": {"properties": {"shape": {"const": "box"}}},
+       "then": {"properties": {"radius": false, "outline": false}}},
+      {"if": {"properties": {"shape": {"const": "circle"}}, "required": ["shape"]},
+       "then": {"required": ["radius"], "properties": {"size": false, "outline": false}}},
+      {"if": {"properties": {"shape": {"const": "polygon"}}, "required": ["shape"]},
+       "then": {"required": ["outline"], "properties": {"size": false, "radius": false}}}])"};
+const CustomField kStateFormat{read_state};
+const CustomField kDynamicFormat{read_of_dynamic};
+const CustomField kBottomFormat{read_bottom};
+
+namespace {
+
+constexpr const char* kSeparatorKeys[] = {"name", "center", "size", "yaw_deg", "height"};
+
+}  // namespace
+
+const CustomField kSeparatorsFormat{.only_keys = kSeparatorKeys};
+
 std::string free_name(const std::string& prefix, std::size_t number, std::set<std::string>& taken) {
   for (;; ++number) {
     std::string name = prefix + std::to_string(number);
     if (taken.insert(name).second) return name;
   }
-}
-
-int read_fiducial(Reader& reader) {
-  return static_cast<int>(
-      reader.integer("fiducial", 0, 0, std::numeric_limits<std::int32_t>::max()));
 }
 
 void read_blocks(Reader& arena, const char* key, const char* prefix, bool separators,
@@ -115,23 +125,10 @@ void read_blocks(Reader& arena, const char* key, const char* prefix, bool separa
   for (Reader& reader : arena.array(key, kMaxObstacles)) {
     ObstacleDescription block;
     if (reader.expect_object()) {
-      block.name = reader.name("name", "");
-      if (reader.require("center", "[x, y] of the middle of the box, in m")) {
-        block.center = reader.vec2("center", block.center, kPositionInWorld);
-      }
-      if (separators) block.size = reader.vec2("size", block.size, kArenaLength);
-      if (!separators) read_shape(reader, block);
-      block.yaw_rad = normalize_angle(reader.angle_deg("yaw_deg", block.yaw_rad));
-      block.height_m = reader.number("height", block.height_m, kHeight);
-      if (!separators) {
-        read_kind(reader, block);
-        block.fiducial = read_fiducial(reader);
-        block.tags = read_tags(reader);
-        block.portable = reader.boolean("portable", block.portable);
-        block.solid = reader.boolean("solid", block.solid);
-        if (reader.has("colour")) block.colour = reader.colour("colour", {});
-        read_motion(reader, block);
-        read_bottom(reader, block);
+      if (separators) {
+        for (const char* of_separator : kSeparatorKeys) read_some(reader, block, {of_separator});
+      } else {
+        read_fields(reader, fields_of<ObstacleDescription>(), &block);
       }
       reader.finish();
     }

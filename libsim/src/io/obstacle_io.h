@@ -22,9 +22,6 @@ inline constexpr NumberRange kHeight{kLeastLength_m, 10.0, false, "m"};
 [[nodiscard]] std::string free_name(const std::string& prefix, std::size_t number,
                                     std::set<std::string>& taken);
 
-/// Reads the number of an obstacle or a robot for fiducial devices.
-[[nodiscard]] int read_fiducial(Reader& reader);
-
 /// Appends the obstacles or dock separators of the list `key` to `blocks`.
 /// @param prefix      of the names of those that have none.
 /// @param separators  they are static boxes without further properties.

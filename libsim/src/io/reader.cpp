@@ -14,6 +14,25 @@
 #include "sim/world/limits.h"
 
 namespace sim::io {
+
+std::string describe_range(const NumberRange& range) {
+  std::string text = "a number";
+  const bool has_min = range.min > -1e9;
+  const bool has_max = range.max < 1e9;
+  if (has_min && range.min_exclusive) {
+    text += " greater than " + number_text(range.min);
+    if (has_max) text += " and at most " + number_text(range.max);
+  } else if (has_min && has_max) {
+    text += " from " + number_text(range.min) + " to " + number_text(range.max);
+  } else if (has_min) {
+    text += " of at least " + number_text(range.min);
+  } else if (has_max) {
+    text += " of at most " + number_text(range.max);
+  }
+  if (range.unit != nullptr && *range.unit != '\0') text += std::string(" ") + range.unit;
+  return text;
+}
+
 namespace {
 
 using Kind = Reader::Value::Kind;
@@ -39,25 +58,6 @@ std::string describe(const Reader::Value& value) {
       return "an object {...}";
   }
   return "";
-}
-
-/// "a number greater than 0 and at most 100 m".
-std::string describe(const NumberRange& range) {
-  std::string text = "a number";
-  const bool has_min = range.min > -1e9;
-  const bool has_max = range.max < 1e9;
-  if (has_min && range.min_exclusive) {
-    text += " greater than " + number_text(range.min);
-    if (has_max) text += " and at most " + number_text(range.max);
-  } else if (has_min && has_max) {
-    text += " from " + number_text(range.min) + " to " + number_text(range.max);
-  } else if (has_min) {
-    text += " of at least " + number_text(range.min);
-  } else if (has_max) {
-    text += " of at most " + number_text(range.max);
-  }
-  if (range.unit != nullptr && *range.unit != '\0') text += std::string(" ") + range.unit;
-  return text;
 }
 
 bool looks_like_number(const std::string& text) {
@@ -125,7 +125,7 @@ struct Reader::State {
   [[nodiscard]] std::optional<double> number(const Value& found, const std::string& place,
                                              const NumberRange& range) const {
     if (found.kind != Kind::kNumber) {
-      wrong_type(place, found, describe(range));
+      wrong_type(place, found, describe_range(range));
       return std::nullopt;
     }
     const double v = found.real;
@@ -140,7 +140,7 @@ struct Reader::State {
         hint =
             "the physics cannot build anything thinner than 1 mm: make it larger or leave it out";
       }
-      add("world/out-of-range", place, huge ? "a number from -1e9 to 1e9" : describe(range),
+      add("world/out-of-range", place, huge ? "a number from -1e9 to 1e9" : describe_range(range),
           describe(found), std::move(hint), found.line);
       return std::nullopt;
     }

@@ -10,18 +10,16 @@
 #include <utility>
 
 #include "io/solid_limits.h"
+#include "sim/io/field_reader.h"
 #include "sim/io/player_options.h"
-#include "sim/world/limits.h"
 #include "sim/world/outline.h"
+#include "world/world_fields.h"
 
 namespace sim::io {
 namespace {
 
 // The type of device that a world may write as a driver, as Player's configuration files do.
 constexpr const char* kDriverDevice = "amcl";
-
-constexpr NumberRange kVertex{-100.0, 100.0, false, "m"};
-constexpr NumberRange kRobotLength{kLeastLength_m, 100.0, false, "m"};
 
 std::vector<std::string> type_names(const std::vector<DeviceType>& types) {
   std::vector<std::string> names;
@@ -66,23 +64,21 @@ void read_device(Reader& settings, const std::string& name,
 }
 
 // Reads points; in the result they are counter-clockwise. nullopt if one is none.
-std::optional<Polygon> read_points(std::vector<Reader> vertices) {
+std::optional<Polygon> read_points(std::vector<Reader> vertices, const NumberRange& range) {
   Polygon outline;
   const Vec2 not_read = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
   for (Reader& vertex : vertices) {
-    outline.push_back(vertex.as_vec2(not_read, kVertex));
+    outline.push_back(vertex.as_vec2(not_read, range));
     if (!outline.back().allFinite()) return std::nullopt;
   }
   if (area_m2(outline) < 0.0) std::reverse(outline.begin(), outline.end());
   return outline;
 }
 
-std::optional<Polygon> read_points(Reader& owner, const char* key) {
-  if (!owner.require(key, "the outline: a list of points [x, y] round it, in m")) {
-    return std::nullopt;
-  }
-  const Reader list = *owner.child(key);
-  std::optional<Polygon> outline = read_points(owner.array(key));
+std::optional<Polygon> read_points(Reader& owner, const Field& field) {
+  if (!owner.require(field.name, field.needed_for)) return std::nullopt;
+  const Reader list = *owner.child(field.name);
+  std::optional<Polygon> outline = read_points(owner.array(field.name), field.range);
   return list.is_array() ? outline : std::nullopt;
 }
 
@@ -96,19 +92,20 @@ bool has_parts(Reader& model) {
   return !points.empty() && points.front().is_array();
 }
 
-void read_footprint(Reader& reader, RobotModel& model) {
+void read_footprint(Reader& reader, const Field& field, void* object) {
+  auto& model = *static_cast<RobotModel*>(object);
   std::optional<SolidError> error;
   if (has_parts(reader)) {
     std::vector<Vec2> corners;
     for (const Reader& part : reader.array("footprint")) {
-      std::optional<Polygon> outline = read_points(part.elements());
+      std::optional<Polygon> outline = read_points(part.elements(), field.range);
       if (!outline) return;
       corners.insert(corners.end(), outline->begin(), outline->end());
       model.parts.push_back(*std::move(outline));
     }
     error = check_parts(model);
     if (!error) model.footprint = convex_outline(std::move(corners));
-  } else if (std::optional<Polygon> outline = read_points(reader, "footprint")) {
+  } else if (std::optional<Polygon> outline = read_points(reader, field)) {
     error = check_footprint(*outline);
     model.footprint = *std::move(outline);
   }
@@ -117,70 +114,38 @@ void read_footprint(Reader& reader, RobotModel& model) {
                std::move(error->hint), "footprint");
 }
 
-std::vector<Superstructure> read_superstructures(Reader& model, double body_height_m) {
-  std::vector<Superstructure> all;
-  for (Reader& reader : model.array("superstructures", kMostSuperstructures)) {
+void read_superstructures(Reader& model_reader, const Field& field, void* object) {
+  auto& model = *static_cast<RobotModel*>(object);
+  for (Reader& reader : model_reader.array(field.name, field.max_count)) {
     if (!reader.expect_object()) continue;
     Superstructure part;
-    part.bottom_m =
-        reader.number("bottom", part.bottom_m, {0.0, kGreatestRobotHeight_m, false, "m"});
-    const std::optional<Polygon> outline = read_points(reader, "outline");
-    const bool has_height = reader.require("height", "the height of its top above the floor, in m");
-    part.height_m = reader.number("height", part.height_m,
-                                  {kLeastLength_m, kGreatestRobotHeight_m, false, "m"});
+    read_some(reader, part, {"bottom"});
+    std::optional<Polygon> outline =
+        read_points(reader, field_named(fields_of<Superstructure>(), "outline"));
+    read_some(reader, part, {"height"});
     reader.finish();
-    if (!outline || !has_height || part.height_m <= 0.0) continue;
-    part.outline = *outline;
-    if (auto error = check_superstructure(part, body_height_m)) {
+    if (!outline || part.height_m <= 0.0) continue;
+    part.outline = *std::move(outline);
+    if (auto error = check_superstructure(part, model.height_m)) {
       reader.issue("world/bad-superstructure", std::move(error->expected), std::move(error->found),
                    std::move(error->hint), error->key.substr(1));
     }
-    all.push_back(std::move(part));
+    model.superstructures.push_back(std::move(part));
   }
-  return all;
 }
 
-DriveDescription read_drive(Reader& model) {
-  DriveDescription drive;
-  std::optional<Reader> reader = model.object("drive");
-  if (!reader) return drive;
-  const std::string kind =
-      reader->choice("kind", "differential", {"differential", "omnidirectional", "car"});
-  drive.wheel_radius_m = reader->number("wheel_radius", drive.wheel_radius_m, kRobotLength);
-  drive.wheel_separation_m =
-      reader->number("wheel_separation", drive.wheel_separation_m, kRobotLength);
-  if (kind == "omnidirectional") drive.kind = DriveKind::kOmnidirectional;
-  if (kind == "car") {
-    drive.kind = DriveKind::kCar;
-    drive.wheelbase_m = reader->number("wheelbase", drive.wheelbase_m, kRobotLength);
-    drive.max_steering_rad =
-        reader->angle_deg("max_steering_deg", drive.max_steering_rad, {0.0, 80.0, true, "degrees"});
-    drive.max_steering_rate_radps = reader->angle_deg(
-        "max_steering_rate_deg", drive.max_steering_rate_radps, {0.0, 3600.0, false, "degrees/s"});
-    drive.steering_commands =
-        reader->choice("commands", "turn_rate", {"turn_rate", "steering"}) == "steering";
-  }
+void read_drive(Reader& model_reader, const Field& field, void* object) {
+  std::optional<Reader> reader = model_reader.object(field.name);
+  if (!reader) return;
+  read_typed(*reader, "kind", drive_kinds(), field.set(object));
   reader->finish();
-  return drive;
 }
 
 RobotModel read_model_document(Reader& root, const std::vector<DeviceType>& types) {
   RobotModel model;
   if (!root.expect_object()) return model;
   static_cast<void>(root.string("$schema", ""));
-  if (root.require("name", "what to call the model")) model.name = root.name("name", "");
-  model.description = root.string("description", "");
-  read_footprint(root, model);
-  model.solid = root.boolean("solid", model.solid);
-  model.height_m =
-      root.number("height", model.height_m, {kLeastLength_m, kGreatestRobotHeight_m, false, "m"});
-  model.superstructures = read_superstructures(root, model.height_m);
-  model.mass_kg =
-      root.number("mass", model.mass_kg, {kLeastMass_kg, kGreatestMass_kg, false, "kg"});
-  model.drive = read_drive(root);
-  model.max_speed_mps = root.number("max_speed", model.max_speed_mps, {0.0, 20.0, true, "m/s"});
-  model.max_turn_rate_radps = root.angle_deg("max_turn_rate_deg", model.max_turn_rate_radps,
-                                             {0.0, 3600.0, true, "degrees/s"});
+  read_fields(root, fields_of<RobotModel>(), &model);
   model.devices = read_devices(root, {}, types);
   model.interfaces = read_interfaces(root, model.devices, {});
   root.finish();
@@ -204,6 +169,10 @@ bool is_file_name(const std::string& name) {
 }
 
 }  // namespace
+
+const CustomField kFootprintFormat{.read = read_footprint, .or_field = "parts"};
+const CustomField kSuperstructureFormat{read_superstructures};
+const CustomField kDriveFormat{read_drive};
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
   const std::string near = nearest_word(word, known);
@@ -317,72 +286,6 @@ std::map<std::string, std::vector<std::string>> read_interfaces(
     interfaces[interface] = std::move(names);
   }
   return interfaces;
-}
-
-Elevation read_elevation(Reader& robot) {
-  Elevation elevation;
-  std::optional<Reader> reader = robot.object("elevation");
-  if (!reader) return elevation;
-  elevation.z_m = reader->number("z", 0.0, {-kFarthest_m, kFarthest_m, false, "m"});
-  elevation.roll_rad = reader->angle_deg("roll_deg", 0.0);
-  elevation.pitch_rad = reader->angle_deg("pitch_deg", 0.0);
-  reader->finish();
-  return elevation;
-}
-
-std::vector<std::string> read_tags(Reader& owner) {
-  std::set<std::string> tags;
-  for (Reader& element : owner.array("tags", 64)) {
-    const std::string tag = element.is_string() ? element.scalar_text().value_or("") : "";
-    if (!is_valid_name(tag)) {
-      element.issue("world/bad-name", "a tag of 1 to 64 letters, digits, _ or -",
-                    element.description_for_message());
-    } else {
-      tags.insert(tag);
-    }
-  }
-  return {tags.begin(), tags.end()};
-}
-
-std::optional<RealRobotDescription> read_real_robot(Reader& robot) {
-  std::optional<Reader> reader = robot.object("real");
-  if (!reader) return std::nullopt;
-  RealRobotDescription real;
-  if (reader->require("server", kRealServerExpected)) {
-    real.server = reader->string("server", "");
-    if (!is_real_server(real.server)) {
-      reader->issue("world/bad-real-server", kRealServerExpected, in_quotes(real.server), "",
-                    "server");
-    }
-  }
-  real.port = static_cast<int>(reader->integer("port", real.port, 1, 65535));
-  if (reader->choice("drive", "real", {"real", "both"}) == "both") {
-    real.drive = RealRobotDescription::Drive::kBoth;
-  }
-  const std::string on_lost =
-      reader->choice("on_lost", "continue", {"continue", "end", "reconnect"});
-  if (on_lost == "end") real.on_lost = RealRobotDescription::OnLost::kEnd;
-  if (on_lost == "reconnect") real.on_lost = RealRobotDescription::OnLost::kReconnect;
-  real.watchdog_s = reader->number("watchdog", real.watchdog_s, {0.05, 600.0, false, "s"});
-  real.take_over = reader->boolean("take_over", real.take_over);
-  if (reader->has("pose")) {
-    const std::string text = reader->string("pose", "position2d:0");
-    const std::size_t colon = text.find(':');
-    const std::string interface = text.substr(0, colon);
-    const std::string index = colon == std::string::npos ? "" : text.substr(colon + 1);
-    const bool is_number = !index.empty() && index.size() <= 5 &&
-                           index.find_first_not_of("0123456789") == std::string::npos;
-    if (is_number && (interface == "position2d" || interface == "localize")) {
-      real.pose_interface = interface;
-      real.pose_index = std::stoi(index);
-    } else {
-      reader->issue("world/bad-real-pose", "\"position2d:INDEX\" or \"localize:INDEX\"",
-                    in_quotes(text), "", "pose");
-    }
-  }
-  real.X_WF = reader->pose("offset", real.X_WF);
-  reader->finish();
-  return real;
 }
 
 std::optional<RobotModel> read_model(Reader& robot, const std::string& name,

@@ -46,16 +46,6 @@ void read_driver_device(Reader& driver, std::vector<DeviceDescription>& devices,
     Reader& owner, const std::vector<DeviceDescription>& devices,
     const std::map<std::string, std::vector<std::string>>& base);
 
-/// Reads the member "elevation" of a robot: its height and inclination at the start.
-[[nodiscard]] Elevation read_elevation(Reader& robot);
-
-/// Reads the member "tags" of a robot or an obstacle: names of properties, in alphabetical order.
-[[nodiscard]] std::vector<std::string> read_tags(Reader& owner);
-
-/// Reads the member "real" of a robot: the real robot that it mirrors. @return nullopt if there is
-/// none.
-[[nodiscard]] std::optional<RealRobotDescription> read_real_robot(Reader& robot);
-
 /// Reads the model that a robot of a world names. It is one of shipped_models(), or a file relative
 /// to the folder of the world's file if the name has a '/' or ends in ".json".
 /// @param robot  the robot in the world's file; an unknown or unreadable model is an issue at its

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "io/check_ranges.h"
 #include "io/document.h"
 #include "sim/world/limits.h"
 #include "sim/world/outline.h"
+#include "world/world_fields.h"
 
 namespace sim::io {
 namespace {
@@ -29,7 +31,7 @@ bool within(double value, double least, double most) { return value >= least && 
 double greatest_coordinate(const Vec2& p) { return p.cwiseAbs().maxCoeff(); }
 
 std::string range_text(double least, double most, const char* unit) {
-  return "a number from " + number_text(least) + " to " + number_text(most) + ' ' + unit;
+  return describe_range(NumberRange{least, most, false, unit});
 }
 
 std::optional<SolidError> check_length(const char* key, double value, double most) {
@@ -221,55 +223,6 @@ std::optional<SolidError> check_movable(const ObstacleDescription& obstacle) {
                            : std::string("a concave outline"),
                        "use a simpler outline, or several obstacles");
   }
-  if (obstacle.mass_kg && !within(*obstacle.mass_kg, kLeastMass_kg, kGreatestMass_kg)) {
-    return SolidError{"/mass", range_text(kLeastMass_kg, kGreatestMass_kg, "kg"),
-                      number_text(*obstacle.mass_kg) + " kg", ""};
-  }
-  if (!within(obstacle.friction, 0.0, 10.0)) {
-    return SolidError{"/friction", "a number from 0 to 10", number_text(obstacle.friction), ""};
-  }
-  return std::nullopt;
-}
-
-std::optional<SolidError> check_motion(const ObstacleMotion& motion) {
-  const auto wrong = [](const char* key, double value, double most, const char* unit) {
-    return SolidError{
-        key, std::string("a number greater than 0 and at most ") + number_text(most) + ' ' + unit,
-        number_text(value), ""};
-  };
-  if (!(motion.speed_mps > 0.0 && motion.speed_mps <= kMaxObstacleSpeed_mps)) {
-    return wrong("/speed", motion.speed_mps, kMaxObstacleSpeed_mps, "m/s");
-  }
-  if (!(motion.turn_rate_radps > 0.0 && motion.turn_rate_radps <= kMaxObstacleTurnRate_radps)) {
-    return wrong("/turn_rate_deg", motion.turn_rate_radps, kMaxObstacleTurnRate_radps, "rad/s");
-  }
-  if (!within(motion.wait_s, 0.0, kLongestArenaTime_s)) {
-    return SolidError{"/wait", range_text(0.0, kLongestArenaTime_s, "s"),
-                      number_text(motion.wait_s), ""};
-  }
-  if (!within(motion.leg_m, kLeastLength_m, kGreatestLength_m)) {
-    return SolidError{"/leg", range_text(kLeastLength_m, kGreatestLength_m, "m"),
-                      number_text(motion.leg_m), ""};
-  }
-  if (motion.final_yaw_rad && !std::isfinite(*motion.final_yaw_rad)) {
-    return SolidError{"/yaw_deg", "a number", number_text(*motion.final_yaw_rad), ""};
-  }
-  if (!(motion.area_size.minCoeff() >= 0.0 && motion.area_size.allFinite() &&
-        motion.area_center.allFinite())) {
-    return SolidError{"/area", "finite numbers", "others", ""};
-  }
-  for (const Vec2& point : motion.points) {
-    if (within(greatest_coordinate(point), 0.0, kFarthest_m)) continue;
-    return SolidError{"/points", range_text(-kFarthest_m, kFarthest_m, "m") + " for x and y",
-                      number_text(point.x()) + " and " + number_text(point.y()), ""};
-  }
-  const SocialForce& force = motion.force;
-  if (!(force.relaxation_s > 0.0 && force.repulsion_range_m > 0.0 && force.wall_range_m > 0.0 &&
-        force.repulsion_m2ps2 >= 0.0 && force.wall_repulsion_m2ps2 >= 0.0 &&
-        std::isfinite(force.repulsion_m2ps2 + force.wall_repulsion_m2ps2))) {
-    return SolidError{"/force", "times and ranges greater than 0, and forces of at least 0",
-                      "others", ""};
-  }
   return std::nullopt;
 }
 
@@ -364,25 +317,14 @@ std::optional<SolidError> check_model(const RobotModel& model) {
   } else if (auto error = check_parts(model)) {
     return error;
   }
-  const DriveDescription& drive = model.drive;
-  using Length = std::pair<const char*, double>;
-  for (const auto& [key, value_m] :
-       {Length("/height", model.height_m), Length("/drive/wheel_radius", drive.wheel_radius_m),
-        Length("/drive/wheel_separation", drive.wheel_separation_m),
-        Length("/drive/wheelbase", drive.wheelbase_m)}) {
-    if (auto error = check_length(key, value_m, kGreatestRobot_m)) return error;
-  }
+  if (auto error = check_length("/height", model.height_m, kGreatestRobot_m)) return error;
   for (std::size_t i = 0; i < model.superstructures.size(); ++i) {
     if (auto error = check_superstructure(model.superstructures[i], model.height_m)) {
       error->key = "/superstructures/" + std::to_string(i) + error->key;
       return error;
     }
   }
-  if (!within(model.mass_kg, kLeastMass_kg, kGreatestMass_kg)) {
-    return SolidError{"/mass", range_text(kLeastMass_kg, kGreatestMass_kg, "kg"),
-                      number_text(model.mass_kg) + " kg", ""};
-  }
-  return std::nullopt;
+  return out_of_range(fields_of<RobotModel>(), &model, {"mass", "drive"});
 }
 
 bool is_valid_pose(const Pose& X_WB) noexcept {

@@ -30,11 +30,8 @@ struct SolidError {
 [[nodiscard]] std::optional<SolidError> check_obstacle(const ObstacleDescription& obstacle);
 
 /// Checks what only obstacles need that move or can be pushed: a circle, a box, or a convex polygon
-/// of at most 8 vertices; neither dynamic nor portable; its mass and friction. nullopt for others.
+/// of at most 8 vertices; neither dynamic nor portable. nullopt for others.
 [[nodiscard]] std::optional<SolidError> check_movable(const ObstacleDescription& obstacle);
-
-/// Checks the numbers of a motion; the keys are those of a file's "motion".
-[[nodiscard]] std::optional<SolidError> check_motion(const ObstacleMotion& motion);
 
 /// Checks the size and the position of a floor.
 [[nodiscard]] std::optional<SolidError> check_floor(const ArenaDescription& arena);

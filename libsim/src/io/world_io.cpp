@@ -22,20 +22,16 @@
 #include "io/robot_io.h"
 #include "io/stage/stage_world.h"
 #include "io/world_document.h"
+#include "sim/io/field_reader.h"
 #include "sim/io/player_options.h"
 #include "sim/world/limits.h"
-#include "sim/world/realism.h"
-#include "sim/world/view_mode.h"
 #include "world/find_named.h"
+#include "world/world_fields.h"
 
 namespace sim::io {
 namespace {
 
 constexpr int kFirstPort = 6665;  ///< Player's default
-constexpr int kMorsePort = 4000;  ///< on this port all robots are visible
-
-/// Side of a canvas cell, to which the limits of the physics do not apply.
-constexpr NumberRange kCellSide{1e-4, 10.0, false, "m"};
 
 /// Colours of robots without one in the file: easy to distinguish, and different from the red of
 /// dynamic blocks.
@@ -64,13 +60,12 @@ class WorldReader {
     Reader root(document_, document_.root, "");
     if (!root.expect_object()) return world_;
     static_cast<void>(root.string("$schema", ""));
-    world_.name = root.string("name", world_.name);
-    world_.description = root.string("description", "");
+    read_some(root, world_, {"name", "description"});
     read_arena(root);
     read_simulation(root);
     read_canvas(root);
     read_robots(root);
-    world_.controller = read_controller(root, world_.arena);
+    world_.controller = read_controller(root);
     root.finish();
     for (ConfigIssue& issue : check_world_parts(world_, [this](const std::string& pointer) {
            return !document_.has_issue_at(pointer);
@@ -101,12 +96,10 @@ class WorldReader {
     } else {
       const bool has_size = reader->has("size");
       const bool has_origin = reader->has("origin");
-      arena.size = reader->vec2("size", arena.size, kArenaLength);
-      arena.origin = reader->vec2("origin", arena.origin, kPositionInWorld);
+      read_some(*reader, arena, {"size", "origin"});
       read_maps(*reader, has_size, has_origin);
     }
-    arena.border = reader->boolean("border", arena.border);
-    arena.border_height_m = reader->number("border_height", arena.border_height_m, kHeight);
+    read_some(*reader, arena, {"border", "border_height"});
     read_blocks(*reader, "obstacles", "o", false, arena.obstacles);
     read_docks(*reader);
     read_blocks(*reader, "dock_separators", "separator", true, arena.dock_separators);
@@ -114,26 +107,18 @@ class WorldReader {
     reader->finish();
   }
 
+  /// Reads docks that are added to those of the preset.
   void read_docks(Reader& arena) {
-    std::vector<std::size_t> unnamed;
+    ArenaDescription given;
+    read_some(arena, given, {"docks"});
     std::vector<DockDescription>& docks = world_.arena.docks;
-    for (Reader& reader : arena.array("docks", kMaxObstacles)) {
-      DockDescription dock;
-      if (reader.expect_object()) {
-        dock.name = reader.name("name", "");
-        if (reader.require("pose", "{\"x\", \"y\", \"yaw_deg\"} of its middle")) {
-          dock.pose = reader.pose("pose", dock.pose);
-        }
-        dock.size = reader.vec2("size", dock.size, kArenaLength);
-        reader.finish();
-      }
-      if (dock.name.empty()) unnamed.push_back(docks.size());
-      docks.push_back(std::move(dock));
-    }
+    docks.insert(docks.end(), given.docks.begin(), given.docks.end());
     std::set<std::string> taken;
     for (const DockDescription& dock : docks) taken.insert(dock.name);
     std::size_t number = 0;
-    for (const std::size_t i : unnamed) docks[i].name = free_name("dock", ++number, taken);
+    for (DockDescription& dock : docks) {
+      if (dock.name.empty()) dock.name = free_name("dock", ++number, taken);
+    }
   }
 
   /// Reads the lists "extended" and "retracted" with names of dynamic obstacles.
@@ -256,40 +241,14 @@ class WorldReader {
     return std::nullopt;
   }
 
-  /// The keys that place a picture: "size" and "pose", or "resolution" and "origin".
-  void read_map_place(Reader& reader, MapDescription& map) {
-    if (!reader.has("size")) {
-      map.resolution_m =
-          reader.number("resolution", map.resolution_m, {kLeastLength_m, 10.0, false, "m"});
-      map.origin = reader.vec2("origin", world_.arena.origin, kPositionInWorld);
-      if (!reader.has("pose")) return;
-      reader.issue("world/conflicting-keys", "\"pose\" together with \"size\"", "it alone",
-                   "a map without a size has an \"origin\"", "pose");
-      return;
-    }
-    map.size = reader.vec2("size", {1.0, 1.0}, kArenaLength);
-    map.pose = reader.pose("pose", map.pose);
-    for (const char* key : {"resolution", "origin"}) {
-      if (!reader.has(key)) continue;
-      reader.issue("world/conflicting-keys", "either \"size\" or \"" + std::string(key) + "\"",
-                   "both", "leave one of the two out", key);
-    }
-  }
-
   void read_map(Reader& reader) {
     ArenaDescription& arena = world_.arena;
     MapDescription map;
-    const bool named = reader.require("image", "a PNG or PGM file, relative to this file");
-    map.image = reader.string("image", "");
-    read_map_place(reader, map);
-    map.occupied_threshold =
-        reader.number("occupied_threshold", map.occupied_threshold, {0.0, 1.0, true, ""});
-    map.simplify_m = reader.number("simplify", map.simplify_m, {0.0, 10.0, false, "m"});
-    if (reader.has("height")) map.height_m = reader.number("height", 1.0, kHeight);
-    map.solid = reader.boolean("solid", map.solid);
+    map.origin = arena.origin;
+    read_fields(reader, fields_of<MapDescription>(), &map);
     reader.finish();
     arena.maps.push_back(map);
-    if (!named || document_.has_issue_at(reader.pointer())) return;
+    if (!reader.has("image") || document_.has_issue_at(reader.pointer())) return;
     std::optional<GreyImage> image = read_map_image(reader, map.image);
     if (!image) return;
     OccupancyGrid grid{image->width, image->height, std::move(image->pixels)};
@@ -325,38 +284,9 @@ class WorldReader {
   }
 
   void read_simulation(Reader& root) {
-    SimulationDescription& simulation = world_.simulation;
     std::optional<Reader> reader = root.object("simulation");
     if (!reader) return;
-    simulation.step_ns = from_seconds(
-        reader->number("step", to_seconds(simulation.step_ns), {1e-4, 0.1, false, "s"}));
-    simulation.seed = reader->unsigned_integer("seed", simulation.seed);
-    if (const std::optional<Reader> duration = reader->child("duration");
-        duration && !duration->is_null()) {
-      simulation.duration_ns = from_seconds(reader->number("duration", 0.0, {0.0, 1e9, true, "s"}));
-    }
-    simulation.start_gate_clients =
-        static_cast<int>(reader->integer("clients", simulation.start_gate_clients, 1, 1000));
-    simulation.objects_locked = reader->boolean("lock_objects", simulation.objects_locked);
-    simulation.realism =
-        parse_realism(reader->choice("realism", "course", {"ideal", "course", "real"}))
-            .value_or(simulation.realism);
-    simulation.own_sensors_only = reader->choice("privacy", "none", {"none", "own"}) == "own";
-    if (const std::optional<Reader> time = reader->child("time")) {
-      simulation.time_mode_given = true;
-      if (time->is_string()) {
-        if (reader->choice("time", "lockstep", {"lockstep", "real"}) == "real") {
-          simulation.time_mode = TimeMode::kPaced;
-        }
-      } else if (time->is_number()) {
-        simulation.time_mode = TimeMode::kPaced;
-        simulation.time_factor = reader->number("time", 1.0, {0.0, 1e6, true, "times real time"});
-      } else {
-        reader->issue("world/wrong-type",
-                      "\"lockstep\", \"real\" or a number: how many times real time",
-                      time->description_for_message(), "", "time");
-      }
-    }
+    read_fields(*reader, fields_of<SimulationDescription>(), &world_.simulation);
     reader->finish();
   }
 
@@ -373,40 +303,30 @@ class WorldReader {
       canvas.cell_size_m = coarser_m;
     }
     canvas.origin = arena.origin;
-    if (reader) {
-      canvas.cell_size_m = reader->number("cell_size", canvas.cell_size_m, kCellSide);
-      canvas.origin = reader->vec2("origin", canvas.origin, kPositionInWorld);
-    }
+    if (reader) read_some(*reader, canvas, {"cell_size", "origin"});
     // Rounded up to an even number, as films require; 1e-9 compensates 3.42 / 0.02 > 171.
     const auto cells = [&canvas](double length_m) {
       const double count = 2.0 * std::ceil(0.5 * (length_m / canvas.cell_size_m - 1e-9));
-      return static_cast<std::int64_t>(std::clamp(count, 1.0, 1e9));
+      return static_cast<int>(std::clamp(count, 1.0, 1e9));
     };
-    const std::array<std::int64_t, 2> covering{cells(arena.size.x()), cells(arena.size.y())};
-    std::array<std::int64_t, 2> size = covering;
+    canvas.width = cells(arena.size.x());
+    canvas.height = cells(arena.size.y());
     if (reader) {
       if (!reader->has("size") && !document_.has_issue_at("/arena") &&
-          (size[0] > kMaxCanvasSide || size[1] > kMaxCanvasSide)) {
+          (canvas.width > kMaxCanvasSide || canvas.height > kMaxCanvasSide)) {
         reader->issue("world/canvas-too-large", "at most 8192 cells a side to cover the floor",
-                      std::to_string(size[0]) + " x " + std::to_string(size[1]),
+                      std::to_string(canvas.width) + " x " + std::to_string(canvas.height),
                       "enlarge cell_size, or give the size", "cell_size");
       }
-      size = reader->integer_pair("size", size, 1, kMaxCanvasSide);
-      std::vector<std::string> modes;
-      for (const ViewMode mode : kViewModes) modes.emplace_back(to_string(mode));
-      canvas.view_mode =
-          parse_view_mode(
-              reader->choice("view_mode", std::string(to_string(canvas.view_mode)), modes))
-              .value_or(canvas.view_mode);
-      canvas.view_mode_locked = reader->boolean("lock_view_mode", canvas.view_mode_locked);
+      read_some(*reader, canvas, {"size", "view_mode", "lock_view_mode"});
       reader->finish();
     }
-    canvas.width = static_cast<int>(std::min<std::int64_t>(size[0], kMaxCanvasSide));
-    canvas.height = static_cast<int>(std::min<std::int64_t>(size[1], kMaxCanvasSide));
+    canvas.width = std::min(canvas.width, kMaxCanvasSide);
+    canvas.height = std::min(canvas.height, kMaxCanvasSide);
   }
 
   void read_robots(Reader& root) {
-    world_.robots_on_port = read_port(root, "robots_on_port");
+    read_some(root, world_, {"robots_on_port"});
     std::vector<std::size_t> unplaced;
     if (!root.has("robots")) {
       RobotDescription robot;
@@ -480,28 +400,11 @@ class WorldReader {
     }
   }
 
-  /// @return 0 if there is none.
-  static int read_port(Reader& reader, const char* key) {
-    constexpr int kFirstFree = 1024;  // lower ports are reserved by the system
-    constexpr int kLast = 65535;
-    if (!reader.has(key)) return 0;
-    const int port = static_cast<int>(reader.integer(key, 0, kFirstFree, kLast));
-    if (port != kMorsePort) return port;
-    reader.issue("world/reserved-port", "a port other than 4000", "4000",
-                 "on port 4000 all robots are visible", key);
-    return 0;
-  }
-
   void read_robot(Reader& reader, RobotDescription& robot) {
-    robot.name = reader.name("name", "");
-    robot.model = reader.string("model", robot.model);
+    read_some(reader, robot, {"name", "model"});
     const bool model_is_valid = load_model(reader, robot.model);
     if (!model_is_valid) robot.model = default_robot_model().name;
-    robot.pose = reader.pose("pose", robot.pose);
-    robot.elevation = read_elevation(reader);
-    robot.tags = read_tags(reader);
-    robot.colour = reader.colour("colour", robot.colour);
-    robot.port = read_port(reader, "port");
+    read_some(reader, robot, {"pose", "elevation", "tags", "colour", "port"});
     if (!model_is_valid) return;  // the rest depends on the model
     const RobotModel& model = *find_robot_model(world_, robot.model);
     robot.devices = read_devices(reader, default_devices(reader, model, types_), types_);
@@ -518,8 +421,7 @@ class WorldReader {
         robot.proxies[interface] = static_cast<int>(proxies->integer(interface, 0, 0, 65535));
       }
     }
-    robot.fiducial = read_fiducial(reader);
-    robot.real = read_real_robot(reader);
+    read_some(reader, robot, {"fiducial", "real"});
     robot.interfaces = read_interfaces(reader, robot.devices, model.interfaces);
     reader.finish();
   }
@@ -541,9 +443,7 @@ class WorldReader {
 
   static DriverDescription read_driver(Reader& reader) {
     DriverDescription driver;
-    if (reader.require("type", "which driver, for example \"snd\"")) {
-      driver.type = reader.name("type", "");
-    }
+    read_some(reader, driver, {"type"});
     for (const std::string& key : reader.keys()) {
       if (key == "type") continue;
       Reader setting = *reader.child(key);

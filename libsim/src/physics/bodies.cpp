@@ -224,7 +224,7 @@ void Bodies::set_corners(const Parts& parts, const std::vector<Vec2>& corners, d
 
 void Bodies::change_obstacle(int index, const ObstacleDescription& now) {
   if (const int moving = body_of(index); moving >= 0) {
-    Robot& r = robot(moving);
+    Body& r = at(moving);
     const Pose X_WO = pose_of(now);
     const Vec2 p_WB = X_WO * Vec2(-r.details->obstacle.p_BO);
     set_pose(r, {p_WB.x(), p_WB.y(), X_WO.yaw_rad});
@@ -265,8 +265,8 @@ void Bodies::set_height(int index, double height_m) {
 }
 
 int Bodies::add_robot(const RobotModel& model, const Pose& X_WB) {
-  const int index = static_cast<int>(robots_.size());
-  Robot r;
+  const int index = static_cast<int>(all_.size());
+  Body r;
   r.state = &states_.emplace_back();
   r.details = &details_.emplace_back();
   const std::span<const Polygon> parts = body_parts(model);
@@ -308,10 +308,10 @@ int Bodies::add_robot(const RobotModel& model, const Pose& X_WB) {
 
 int Bodies::add_moving_obstacle(int index, const ObstacleDescription& o) {
   SIM_ASSERT(is_movable(o) && body_of(index) < 0);
-  Robot r;
+  Body r;
   r.state = &states_.emplace_back();
   r.details = &details_.emplace_back();
-  RobotDetails& d = *r.details;
+  BodyDetails& d = *r.details;
   d.round = o.shape == ObstacleShape::kCircle;
   r.drive = DriveKind::kOmnidirectional;
   r.pushable = is_pushable(o);
@@ -346,22 +346,22 @@ int Bodies::add_moving_obstacle(int index, const ObstacleDescription& o) {
   }
   has_pushable_ = has_pushable_ || r.pushable;
   if (r.pushable) d.obstacle.friction_mps2 = o.friction * kGravity_mps2;
-  body_of_[static_cast<std::size_t>(index)] = static_cast<int>(robots_.size());
+  body_of_[static_cast<std::size_t>(index)] = static_cast<int>(all_.size());
   const int body = add_body(std::move(r));
   d.obstacle.friction_arm_m = 2.0 / 3.0 * std::sqrt(2.0 * d.inertia_kgm2 / d.mass_kg);
   return body;
 }
 
 // Adds a body that is complete except for what all bodies have in common.
-int Bodies::add_body(Robot&& r) {
-  const int index = static_cast<int>(robots_.size());
+int Bodies::add_body(Body&& r) {
+  const int index = static_cast<int>(all_.size());
   r.state->X_WB = {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
   r.details->info->body = index;
   ensure_box2d_body(r);
   r.details->inertia_kgm2 = static_cast<double>(r.body->GetInertia()) / (kScale * kScale);
   largest_radius_m_ = std::max(largest_radius_m_, r.radius_m);
   by_x_.push_back({r.X_WB.x_m, r.X_WB.y_m, r.radius_m, index});
-  robots_.push_back(std::move(r));
+  all_.push_back(std::move(r));
   order_fresh_ = false;
   return index;
 }
@@ -372,7 +372,7 @@ int Bodies::body_of(const Contact& target) const {
   return body_of(target.index);
 }
 
-Pose Bodies::obstacle_pose(const Robot& r) {
+Pose Bodies::obstacle_pose(const Body& r) {
   const Vec2& p_BO = r.details->obstacle.p_BO;
   if (p_BO.isZero(0.0)) return {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
   const Vec2 p_WO = r.X_WB * p_BO;
@@ -381,13 +381,13 @@ Pose Bodies::obstacle_pose(const Robot& r) {
 
 std::vector<b2FrictionJoint*> Bodies::joints() const {
   std::vector<b2FrictionJoint*> joints;
-  for (const Robot& r : robots_) {
+  for (const Body& r : all_) {
     if (r.details->obstacle.joint != nullptr) joints.push_back(r.details->obstacle.joint);
   }
   return joints;
 }
 
-void Bodies::set_pose(Robot& r, const Pose& X_WB) {
+void Bodies::set_pose(Body& r, const Pose& X_WB) {
   r.X_WB = X_WB;
   if (r.body != nullptr) {
     r.body->SetTransform(to_box2d(X_WB.position()), static_cast<float>(X_WB.yaw_rad));
@@ -403,7 +403,7 @@ void Bodies::set_pose(Robot& r, const Pose& X_WB) {
   order_fresh_ = false;
 }
 
-void Bodies::set_suspended(Robot& r, bool suspended) {
+void Bodies::set_suspended(Body& r, bool suspended) {
   if (suspended == r.suspended) return;
   r.suspended = suspended;
   if (suspended) {
@@ -423,18 +423,18 @@ void Bodies::set_suspended(Robot& r, bool suspended) {
 }
 
 int Bodies::robot_within(const b2Shape& shape, const b2Transform& xf, int ignored) const {
-  const auto it = std::find_if(robots_.begin(), robots_.end(), [&](const Robot& r) {
+  const auto it = std::find_if(all_.begin(), all_.end(), [&](const Body& r) {
     if (r.details->info->body == ignored || !r.details->info->solid) return false;
     for (std::size_t i = 0; i < r.details->part_count(); ++i) {
       if (b2TestOverlap(&shape, 0, &r.details->part(i), 0, xf, transform_of(r))) return true;
     }
     return false;
   });
-  return it == robots_.end() ? -1 : static_cast<int>(it - robots_.begin());
+  return it == all_.end() ? -1 : static_cast<int>(it - all_.begin());
 }
 
 int Bodies::robot_within(const std::vector<Vec2>& outline, int ignored) const {
-  const auto overlaps = [&outline, ignored](const Robot& r) {
+  const auto overlaps = [&outline, ignored](const Body& r) {
     if (r.details->info->body == ignored || !r.details->info->solid) return false;
     const b2Transform xf = transform_of(r);
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -451,8 +451,8 @@ int Bodies::robot_within(const std::vector<Vec2>& outline, int ignored) const {
            std::any_of(r.details->further.begin(), r.details->further.end(),
                        [&](const b2PolygonShape& part) { return is_within(part.m_vertices[0]); });
   };
-  const auto it = std::find_if(robots_.begin(), robots_.end(), overlaps);
-  return it == robots_.end() ? -1 : static_cast<int>(it - robots_.begin());
+  const auto it = std::find_if(all_.begin(), all_.end(), overlaps);
+  return it == all_.end() ? -1 : static_cast<int>(it - all_.begin());
 }
 
 int Bodies::robot_within(const ObstacleDescription& solid, int ignored) const {
@@ -486,14 +486,14 @@ bool Bodies::is_inside_edged(const Vec2& p_W, double height_m) const {
 }
 
 // Creates a Box2D body for a robot, at rest.
-void Bodies::create_box2d_body(Robot& r) {
+void Bodies::create_box2d_body(Body& r) {
   b2BodyDef def;
   def.type = b2_dynamicBody;
   def.position = to_box2d(r.X_WB.position());
   def.angle = static_cast<float>(r.X_WB.yaw_rad);
   r.body = world_.CreateBody(&def);
   ++in_box2d_;
-  RobotDetails& d = *r.details;
+  BodyDetails& d = *r.details;
   float area = 0.0F;
   for (std::size_t i = 0; i < d.part_count(); ++i) {
     b2MassData unit;
@@ -510,21 +510,21 @@ void Bodies::create_box2d_body(Robot& r) {
   if (r.pushable) add_joint(r);
 }
 
-void Bodies::add_joint(Robot& r) {
+void Bodies::add_joint(Body& r) {
   b2FrictionJointDef def;
   def.Initialize(static_body_, r.body, r.body->GetPosition());
   def.collideConnected = true;
   r.details->obstacle.joint = static_cast<b2FrictionJoint*>(world_.CreateJoint(&def));
 }
 
-void Bodies::destroy_box2d_body(Robot& r) {
+void Bodies::destroy_box2d_body(Body& r) {
   world_.DestroyBody(r.body);  // and its joint
   r.body = nullptr;
   r.details->obstacle.joint = nullptr;
   --in_box2d_;
 }
 
-void Bodies::ensure_box2d_body(Robot& r) {
+void Bodies::ensure_box2d_body(Body& r) {
   if (r.body == nullptr) create_box2d_body(r);
   r.substeps_in_box2d = kSubstepsInBox2d;
 }
@@ -533,7 +533,7 @@ const std::vector<Bodies::Circle>& Bodies::by_x() {
   if (order_fresh_) return by_x_;
   order_fresh_ = true;
   for (Circle& circle : by_x_) {
-    const Robot& r = robot(circle.robot);
+    const Body& r = at(circle.robot);
     circle.x = r.X_WB.x_m;
     circle.y = r.X_WB.y_m;
   }

@@ -10,8 +10,8 @@
 #include <memory>
 #include <vector>
 
+#include "physics/body.h"
 #include "physics/fixtures.h"
-#include "physics/robot_body.h"
 #include "sim/core/state_archive.h"
 #include "sim/world/description.h"
 
@@ -34,15 +34,15 @@ class Bodies {
   // --- Robots
   /// Adds a robot at rest, with a Box2D body.
   int add_robot(const RobotModel& model, const Pose& X_WB);
-  /// Adds an obstacle that moves, after all robots. @return its index in robots().
+  /// Adds an obstacle that moves, after all robots. @return its index in all().
   int add_moving_obstacle(int index, const ObstacleDescription& o);
-  /// The number of robots; the moving obstacles follow them in robots().
+  /// The number of robots; the moving obstacles follow them in all().
   [[nodiscard]] std::size_t robot_count() const noexcept { return robot_count_; }
-  /// The index in robots() of an obstacle that moves; -1: it is static.
+  /// The index in all() of an obstacle that moves; -1: it is static.
   [[nodiscard]] int body_of(int obstacle) const {
     return body_of_[static_cast<std::size_t>(obstacle)];
   }
-  /// The index in robots() of a robot or an obstacle that moves; -1: it is static, or there is
+  /// The index in all() of a robot or an obstacle that moves; -1: it is static, or there is
   /// none.
   [[nodiscard]] int body_of(const Contact& target) const;
   /// Whether robots can push any obstacle.
@@ -50,28 +50,26 @@ class Bodies {
   /// Whether any robot has a body of several parts.
   [[nodiscard]] bool has_parts() const noexcept { return has_parts_; }
   /// Pose X_WO of an obstacle that moves.
-  [[nodiscard]] static Pose obstacle_pose(const Robot& r);
-  [[nodiscard]] std::vector<Robot>& robots() noexcept { return robots_; }
-  [[nodiscard]] const std::vector<Robot>& robots() const noexcept { return robots_; }
-  [[nodiscard]] Robot& robot(int index) { return robots_[static_cast<std::size_t>(index)]; }
-  [[nodiscard]] const Robot& robot(int index) const {
-    return robots_[static_cast<std::size_t>(index)];
-  }
+  [[nodiscard]] static Pose obstacle_pose(const Body& r);
+  [[nodiscard]] std::vector<Body>& all() noexcept { return all_; }
+  [[nodiscard]] const std::vector<Body>& all() const noexcept { return all_; }
+  [[nodiscard]] Body& at(int index) { return all_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] const Body& at(int index) const { return all_[static_cast<std::size_t>(index)]; }
   /// Places a robot at a pose, at rest.
-  void set_pose(Robot& r, const Pose& X_WB);
-  void set_suspended(Robot& r, bool suspended);
-  /// The indices in robots() of those that have superstructures.
+  void set_pose(Body& r, const Pose& X_WB);
+  void set_suspended(Body& r, bool suspended);
+  /// The indices in all() of those that have superstructures.
   [[nodiscard]] const std::vector<int>& with_superstructures() const noexcept {
     return with_superstructures_;
   }
   [[nodiscard]] double largest_radius_m() const noexcept { return largest_radius_m_; }
-  /// The first of robots() that overlaps a solid; -1 if there is none.
-  /// @param ignored  index in robots() that does not count, or -1.
+  /// The first of all() that overlaps a solid; -1 if there is none.
+  /// @param ignored  index in all() that does not count, or -1.
   [[nodiscard]] int robot_within(const ObstacleDescription& solid, int ignored) const;
 
   /// Gives a robot a Box2D body for the next substeps.
-  void ensure_box2d_body(Robot& r);
-  void destroy_box2d_body(Robot& r);
+  void ensure_box2d_body(Body& r);
+  void destroy_box2d_body(Body& r);
   /// Whether any robot has a Box2D body.
   [[nodiscard]] bool has_robots_in_box2d() const noexcept { return in_box2d_ > 0; }
 
@@ -107,7 +105,7 @@ class Bodies {
   /// Whether a point is inside an extended obstacle that is higher than `height_m` and consists of
   /// edges for Box2D.
   [[nodiscard]] bool is_inside_edged(const Vec2& p_W, double height_m) const;
-  /// The first of robots() that overlaps a static obstacle, extended or not; -1 if there is none.
+  /// The first of all() that overlaps a static obstacle, extended or not; -1 if there is none.
   [[nodiscard]] int robot_on(int index) const;
   [[nodiscard]] std::size_t separator_count() const noexcept { return separator_count_; }
   void change_obstacle(int index, const ObstacleDescription& now);
@@ -115,7 +113,7 @@ class Bodies {
   void set_height(int index, double height_m);
   /// Writes or reads the state, including the shapes of obstacles.
   void archive(StateArchive& archive);
-  /// The friction joints of pushed obstacles, in the order of robots().
+  /// The friction joints of pushed obstacles, in the order of all().
   [[nodiscard]] std::vector<b2FrictionJoint*> joints() const;
   /// All existing fixtures, by FixtureInfo::id; nullptr if Box2D has none of that id.
   [[nodiscard]] std::vector<b2Fixture*> fixtures();
@@ -138,13 +136,13 @@ class Bodies {
   void set_corners(const Parts& parts, const std::vector<Vec2>& corners, double height_m);
   [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf, int ignored) const;
   [[nodiscard]] int robot_within(const std::vector<Vec2>& outline, int ignored) const;
-  int add_body(Robot&& r);
+  int add_body(Body&& r);
   void add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int index);
   void add_obstacles(const ArenaDescription& arena);
   void add_border(const ArenaDescription& arena);
   void add_wall(const WallLoop& loop);
-  void create_box2d_body(Robot& r);
-  void add_joint(Robot& r);
+  void create_box2d_body(Body& r);
+  void add_joint(Body& r);
   void archive_obstacle(StateArchive& archive, int index);
   void archive_cylinder(StateArchive& archive, b2Body& body, bool enabled, const FixtureInfo& info);
 
@@ -161,12 +159,12 @@ class Bodies {
   double wall_right_m_ = -std::numeric_limits<double>::infinity();
   EdgeList edges_;
 
-  std::vector<Robot> robots_;  // robots, then obstacles that move
+  std::vector<Body> all_;  // robots, then obstacles that move
   std::size_t robot_count_ = 0;
   bool has_pushable_ = false;
   bool has_parts_ = false;
-  std::deque<BodyState> states_;      // of `robots_`
-  std::deque<RobotDetails> details_;  // of `robots_`
+  std::deque<BodyState> states_;     // of `all_`
+  std::deque<BodyDetails> details_;  // of `all_`
   std::vector<int> with_superstructures_;
   double largest_radius_m_ = 0.0;
   int in_box2d_ = 0;          // number of robots with a Box2D body

@@ -56,7 +56,7 @@ void Contacts::count_contact(const b2Contact& contact, const b2Fixture* robot_fi
   const FixtureInfo& mine = info_of(robot_fixture);
   if (mine.kind != Contact::Kind::kRobot) return;  // of moving obstacles none are noted
   const FixtureInfo& theirs = info_of(other);
-  std::vector<int>& touching = bodies_.robot(mine.index).details->touching;
+  std::vector<int>& touching = bodies_.at(mine.index).details->touching;
   const std::size_t where = slot(theirs);
   if (touching.size() <= where) touching.resize(where + 1, 0);
   touching[where] += change;
@@ -88,7 +88,7 @@ void Contacts::PreSolve(b2Contact* contact, const b2Manifold*) {
     const FixtureInfo& info = info_of(fixture);
     if (info.kind != Contact::Kind::kRobot) return false;
     const b2Transform& xf = fixture->GetBody()->GetTransform();
-    return is_between_parts(*bodies_.robot(info.index).details, info.part, b2MulT(xf, point),
+    return is_between_parts(*bodies_.at(info.index).details, info.part, b2MulT(xf, point),
                             sign * b2MulT(xf.q, points.normal));
   };
   for (int32 i = 0; i < contact->GetManifold()->pointCount; ++i) {
@@ -102,7 +102,7 @@ void Contacts::PreSolve(b2Contact* contact, const b2Manifold*) {
 
 std::vector<Contact> Contacts::of(int robot) const {
   std::vector<Contact> contacts;
-  const b2Body* body = bodies_.robot(robot).body;
+  const b2Body* body = bodies_.at(robot).body;
   for (const b2ContactEdge* e = contact_list(body); e != nullptr; e = e->next) {
     if (!e->contact->IsTouching()) continue;
     const b2Fixture* a = e->contact->GetFixtureA();
@@ -115,7 +115,7 @@ std::vector<Contact> Contacts::of(int robot) const {
 
 std::vector<Touch> Contacts::touches_of(int robot) const {
   std::vector<Touch> touches;
-  const b2Body* body = bodies_.robot(robot).body;
+  const b2Body* body = bodies_.at(robot).body;
   for (const b2ContactEdge* e = contact_list(body); e != nullptr; e = e->next) {
     if (e->contact->IsTouching()) add_touch(*e->contact, robot, touches);
   }

@@ -22,12 +22,12 @@ struct FixtureInfo {
   int index;  ///< of the obstacle, separator or robot; -1 for borders and walls
   double height_m;
   double bottom_m = 0.0;
-  int body = -1;  ///< index in Bodies::robots() of a robot or a moving obstacle; -1: it is static
+  int body = -1;  ///< index in Bodies::all() of a robot or a moving obstacle; -1: it is static
   std::size_t first_edge = 0;  ///< into Bodies::edges(); unused for bodies that move
   std::size_t edge_count = 0;
   std::size_t id = 0;    ///< its index in Bodies::infos()
   int cylinder = -1;     ///< index in Bodies::cylinders(), for round obstacles; these have no edges
-  std::size_t part = 0;  ///< of a robot's body, see RobotDetails::part()
+  std::size_t part = 0;  ///< of a robot's body, see BodyDetails::part()
   bool solid = true;     ///< false: sensors see it, but nothing collides with it
 };
 

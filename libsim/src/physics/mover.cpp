@@ -56,7 +56,7 @@ inline double sinc(double x) {
 
 // Upper bound of how far any corner of a robot moves along a direction in W, if the twist were a
 // straight motion.
-double advance_m(const Robot& r, const b2Transform& xf, const b2Vec2& direction, const Twist& twist,
+double advance_m(const Body& r, const b2Transform& xf, const b2Vec2& direction, const Twist& twist,
                  double dt_s) {
   const b2Vec2 n = b2MulT(xf.q, direction);
   // About B, in the direction of the rotation.
@@ -113,16 +113,16 @@ void slow_down(ObstacleBody& o, double dt_s) {
 }
 
 // Whether a robot touches an obstacle that it can push.
-bool touches_pushable(const Bodies& bodies, const Robot& r) {
+bool touches_pushable(const Bodies& bodies, const Body& r) {
   for (const b2ContactEdge* e = contact_list(r.body); e != nullptr; e = e->next) {
     const int other = info_of(e->other->GetFixtureList()).body;
-    if (other >= 0 && bodies.robot(other).pushable && e->contact->IsTouching()) return true;
+    if (other >= 0 && bodies.at(other).pushable && e->contact->IsTouching()) return true;
   }
   return false;
 }
 
 // Reverts changes that Box2D's solver made to a body that must not move.
-inline void restore_pose(Robot& r) {
+inline void restore_pose(Body& r) {
   const b2Vec2 p = to_box2d(r.X_WB.position());
   const float angle = static_cast<float>(r.X_WB.yaw_rad);
   if (r.body->GetPosition() == p && r.body->GetAngle() == angle) return;
@@ -132,13 +132,13 @@ inline void restore_pose(Robot& r) {
 }
 
 // Keeps angles small, where single precision suffices.
-inline void wrap_yaw(Robot& r) {
+inline void wrap_yaw(Body& r) {
   r.X_WB.yaw_rad = normalize_angle(r.X_WB.yaw_rad);
   if (r.body == nullptr) return;
   r.body->SetTransform(r.body->GetPosition(), static_cast<float>(r.X_WB.yaw_rad));
 }
 
-inline void finish_step(Robot& r, double dt_s) {
+inline void finish_step(Body& r, double dt_s) {
   BodyState& s = *r.state;
   s.X_WB = {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
   s.twist = {s.travel_m / dt_s, s.turn_rad / dt_s, s.side_m / dt_s};
@@ -157,7 +157,7 @@ inline void finish_step(Robot& r, double dt_s) {
 // These functions are inline because they are called for every robot in every step.
 
 // Records that a robot has travelled and turned this much.
-inline void Mover::record_travel(Robot& r, double way_m, double turn_rad) {
+inline void Mover::record_travel(Body& r, double way_m, double turn_rad) {
   r.state->turn_rad += turn_rad;
   if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) wrap_yaw(r);
   const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // bound for all its points
@@ -167,7 +167,7 @@ inline void Mover::record_travel(Robot& r, double way_m, double turn_rad) {
 }
 
 // Moves a robot to the end of its arc.
-inline void Mover::move_to_goal(Robot& r, const Pose& goal, const Twist& twist, double dt_s) {
+inline void Mover::move_to_goal(Body& r, const Pose& goal, const Twist& twist, double dt_s) {
   r.X_WB = goal;
   if (bodies_.has_pushable()) r.details->achieved = twist;
   const double travel = twist.v_mps * dt_s;
@@ -179,7 +179,7 @@ inline void Mover::move_to_goal(Robot& r, const Pose& goal, const Twist& twist, 
 }
 
 // For Box2D, a free robot that still has a body is at rest and is placed at a new pose.
-inline void Mover::move_freely(Robot& r, double dt_s) {
+inline void Mover::move_freely(Body& r, double dt_s) {
   if (r.body != nullptr) {
     if (--r.substeps_in_box2d == 0) {
       bodies_.destroy_box2d_body(r);
@@ -201,7 +201,7 @@ inline void Mover::move_freely(Robot& r, double dt_s) {
 void Mover::step(double dt_s) {
   double travel_m = 0.0;
   set_obstacle_targets(dt_s);
-  for (const Robot& r : bodies_.robots()) travel_m = std::max(travel_m, most_travel_m(r, dt_s));
+  for (const Body& r : bodies_.all()) travel_m = std::max(travel_m, most_travel_m(r, dt_s));
   const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
   neighbours_.begin_step(std::max(travel_m / substeps, kLeastTravel_m));
   step_s_ = dt_s;
@@ -215,8 +215,8 @@ void Mover::step(double dt_s) {
 // other are moved in several Box2D steps.
 void Mover::substep(double dt_s, bool first, bool last) {
   if (bodies_.has_pushable()) {
-    for (std::size_t i = bodies_.robot_count(); i < bodies_.robots().size(); ++i) {
-      if (bodies_.robots()[i].pushable) slow_down(bodies_.robots()[i].details->obstacle, dt_s);
+    for (std::size_t i = bodies_.robot_count(); i < bodies_.all().size(); ++i) {
+      if (bodies_.all()[i].pushable) slow_down(bodies_.all()[i].details->obstacle, dt_s);
     }
   }
   // Otherwise step() has just set them.
@@ -227,7 +227,7 @@ void Mover::substep(double dt_s, bool first, bool last) {
     bodies_.world().Step(0.0F, 1, 1);
     neighbours_.note_contacts_found();
   }
-  std::vector<Robot>& robots = bodies_.robots();
+  std::vector<Body>& robots = bodies_.all();
   goals_.resize(robots.size());
   twists_.resize(robots.size());
   wanted_.resize(robots.size());
@@ -235,7 +235,7 @@ void Mover::substep(double dt_s, bool first, bool last) {
   find_contact_groups(dt_s);
   hindered_.clear();
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    Robot& r = robots[i];
+    Body& r = robots[i];
     r.moved_m = 0.0;
     if (first) r.state->travel_m = r.state->turn_rad = r.state->side_m = 0.0;
     if (r.in_contact_group || !neighbours_.is_free(i, dt_s)) {
@@ -246,7 +246,7 @@ void Mover::substep(double dt_s, bool first, bool last) {
     if (last) finish_step(r, step_s_);
   }
   std::erase_if(hindered_, [&](std::size_t i) {
-    Robot& r = robots[i];
+    Body& r = robots[i];
     if (!r.in_contact_group) {
       twists_[i] = allowed_twist(i, dt_s);
       if (clears_all(r, twists_[i], dt_s)) {
@@ -257,7 +257,7 @@ void Mover::substep(double dt_s, bool first, bool last) {
     }
     bodies_.ensure_box2d_body(r);
     for (const Neighbours::Neighbour& near : neighbours_.near_to(i)) {
-      bodies_.ensure_box2d_body(bodies_.robot(near.robot));
+      bodies_.ensure_box2d_body(bodies_.at(near.robot));
     }
     return false;
   });
@@ -280,7 +280,7 @@ void Mover::substep(double dt_s, bool first, bool last) {
 // direction from the nearest point of the robot to the circle. Besides that point, each corner is
 // limited by the gap along this direction, so that a side beside a large circle cannot turn into
 // it.
-void Mover::add_round_constraints(const Robot& r, std::size_t part, const b2CircleShape& circle,
+void Mover::add_round_constraints(const Body& r, std::size_t part, const b2CircleShape& circle,
                                   const b2Transform& circle_xf, double share, double dt_s) {
   const b2Vec2 center = b2Mul(circle_xf, circle.m_p);
   const auto& shape = static_cast<const b2PolygonShape&>(r.details->part(part));
@@ -330,7 +330,7 @@ void Mover::add_round_constraints(const Robot& r, std::size_t part, const b2Circ
 // Adds the limit of the closing speed of a round obstacle `r` towards another shape. The distance
 // of its centre from a convex shape is a convex function of its position, so the limit along the
 // direction to the nearest point is sufficient.
-void Mover::add_disc_constraint(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
+void Mover::add_disc_constraint(const Body& r, const b2Shape& other, const b2Transform& other_xf,
                                 double share, double dt_s) {
   b2SimplexCache cache;
   cache.count = 0;
@@ -355,7 +355,7 @@ void Mover::add_disc_constraint(const Robot& r, const b2Shape& other, const b2Tr
 }
 
 // Adds the limits of the closing speed that a solid implies for all parts of robot `r`.
-void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
+void Mover::add_constraints(const Body& r, const b2Shape& other, const b2Transform& other_xf,
                             double share, double dt_s) {
   for (std::size_t part = 0; part < r.details->part_count(); ++part) {
     add_constraints(r, part, other, other_xf, share, dt_s);
@@ -364,7 +364,7 @@ void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transf
 
 // Adds the limits of the closing speed that a pair of shapes implies for robot `r` to constraints_.
 // `share` is the fraction of the gap that r may close in this step.
-void Mover::add_constraints(const Robot& r, std::size_t part, const b2Shape& other,
+void Mover::add_constraints(const Body& r, std::size_t part, const b2Shape& other,
                             const b2Transform& other_xf, double share, double dt_s) {
   if (r.details->round) {
     add_disc_constraint(r, other, other_xf, share, dt_s);
@@ -408,14 +408,14 @@ void Mover::add_constraints(const Robot& r, std::size_t part, const b2Shape& oth
 }
 
 // Whether a robot that follows its target stays clear of a wall, or of the line through its edge.
-bool Mover::clears_wall(const Robot& r, const Wall& wall, const b2Transform& xf, double dt_s) {
+bool Mover::clears_wall(const Body& r, const Wall& wall, const b2Transform& xf, double dt_s) {
   const LineDistance line = distance_to_line(r, wall, xf);
   return line.apart_m > 0.0 && advance_m(r, xf, line.direction, r.target, dt_s) + kSecondOrder_m <=
                                    line.apart_m - kTouchingGap_m;
 }
 
 Twist Mover::allowed_twist(std::size_t index, double dt_s) {
-  Robot& r = bodies_.robots()[index];
+  Body& r = bodies_.all()[index];
   constraints_.clear();
   if (r.target == Twist{}) return r.target;
   const double way_m = most_travel_m(r, dt_s);
@@ -430,7 +430,7 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
     }
   }
   for (const Neighbours::Neighbour& near : neighbours_.near_to(index)) {
-    const Robot& other = bodies_.robot(near.robot);
+    const Body& other = bodies_.at(near.robot);
     const double share = other.suspended ? 1.0 : 0.5;  // a suspended robot is like a wall
     const double apart_m = near.apart_m - r.moved_m - other.moved_m;
     const double mine_m = share * (apart_m - kTouchingGap_m);
@@ -462,7 +462,7 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
 
 // Whether a robot that is not free can follow its target after all: it touches nothing, and the
 // constraints just computed show that it will touch nothing.
-bool Mover::clears_all(const Robot& r, const Twist& allowed, double dt_s) const {
+bool Mover::clears_all(const Body& r, const Twist& allowed, double dt_s) const {
   if (allowed != r.target || r.target == Twist{}) return false;
   for (const b2ContactEdge* e = contact_list(r.body); e != nullptr; e = e->next) {
     if (e->contact->IsTouching()) return false;
@@ -475,8 +475,8 @@ bool Mover::clears_all(const Robot& r, const Twist& allowed, double dt_s) const 
 
 // Sets the targets of the moving obstacles to their velocities.
 void Mover::set_obstacle_targets(double dt_s) {
-  for (std::size_t i = bodies_.robot_count(); i < bodies_.robots().size(); ++i) {
-    Robot& r = bodies_.robots()[i];
+  for (std::size_t i = bodies_.robot_count(); i < bodies_.all().size(); ++i) {
+    Body& r = bodies_.all()[i];
     const ObstacleBody& o = r.details->obstacle;
     r.target = r.suspended ? Twist{} : twist_of(o.v_WB, o.omega_radps, r.X_WB.yaw_rad, dt_s);
   }
@@ -485,8 +485,8 @@ void Mover::set_obstacle_targets(double dt_s) {
 // Whether a robot may reach an obstacle that it can push. Box2D exchanges their momentum, so
 // nothing else may stop them.
 bool Mover::may_push(const Neighbours::NearPair& pair, double dt_s) const {
-  const Robot& a = bodies_.robot(pair.first);
-  const Robot& b = bodies_.robot(pair.second);
+  const Body& a = bodies_.at(pair.first);
+  const Body& b = bodies_.at(pair.second);
   if (!a.pushable && !b.pushable) return false;
   const double way_m = std::max(most_travel_m(a, dt_s), most_travel_m(b, dt_s));
   return 0.5 * (pair.apart_m - kTouchingGap_m) <= way_m;
@@ -495,7 +495,7 @@ bool Mover::may_push(const Neighbours::NearPair& pair, double dt_s) const {
 // A drive that pushes an obstacle changes its velocity by at most what the friction of its wheels
 // permits in dt_s. It controls its velocity with an integral part, so that the push does not slow
 // it down as long as the wheels have traction.
-Twist Mover::limit_by_traction(Robot& r, const Twist& wanted, double dt_s) const {
+Twist Mover::limit_by_traction(Body& r, const Twist& wanted, double dt_s) const {
   Twist& excess = r.details->excess;
   if (!touches_pushable(bodies_, r)) {
     excess = {};
@@ -521,14 +521,14 @@ Twist Mover::limit_by_traction(Robot& r, const Twist& wanted, double dt_s) const
 
 // Collects the robots that touch others, those near them, those near these, and so on.
 void Mover::find_contact_groups(double dt_s) {
-  for (const std::size_t i : contact_robots_) bodies_.robots()[i].in_contact_group = false;
+  for (const std::size_t i : contact_robots_) bodies_.all()[i].in_contact_group = false;
   contact_robots_.clear();
   const auto add = [this](int index) {
     const auto i = static_cast<std::size_t>(index);
-    if (!std::exchange(bodies_.robots()[i].in_contact_group, true)) contact_robots_.push_back(i);
+    if (!std::exchange(bodies_.all()[i].in_contact_group, true)) contact_robots_.push_back(i);
   };
   for (const Neighbours::NearPair& pair : neighbours_.near_pairs()) {
-    if (!touches(bodies_.robot(pair.first).body, bodies_.robot(pair.second).body) &&
+    if (!touches(bodies_.at(pair.first).body, bodies_.at(pair.second).body) &&
         !may_push(pair, dt_s)) {
       continue;
     }
@@ -554,7 +554,7 @@ void Mover::contact_substep(double dt_s, double others_dt_s) {
   if (!bodies_.has_robots_in_box2d()) return;
   const float inv_dt = static_cast<float>(1.0 / dt_s);
   for (const std::size_t i : hindered_) {
-    Robot& r = bodies_.robots()[i];
+    Body& r = bodies_.all()[i];
     const double own_dt_s = r.in_contact_group ? dt_s : others_dt_s;
     if (own_dt_s == 0.0) {
       r.body->SetAwake(false);
@@ -580,14 +580,14 @@ void Mover::contact_substep(double dt_s, double others_dt_s) {
   }
   bodies_.world().Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
   for (const std::size_t i : hindered_) {
-    const double own_dt_s = bodies_.robots()[i].in_contact_group ? dt_s : others_dt_s;
+    const double own_dt_s = bodies_.all()[i].in_contact_group ? dt_s : others_dt_s;
     if (own_dt_s > 0.0) follow_body(i, own_dt_s);
   }
 }
 
 // Sets what Box2D needs to know about friction before its step of dt_s.
 void Mover::set_friction(std::size_t index, double dt_s, bool first) {
-  Robot& r = bodies_.robots()[index];
+  Body& r = bodies_.all()[index];
   if (!r.pushable) {
     if (first) wanted_[index] = twists_[index];
     twists_[index] = limit_by_traction(r, wanted_[index], dt_s);
@@ -603,7 +603,7 @@ void Mover::set_friction(std::size_t index, double dt_s, bool first) {
 
 // Updates the robot from its Box2D body; it gets the exact goal if nothing hindered it.
 void Mover::follow_body(std::size_t index, double dt_s) {
-  Robot& r = bodies_.robots()[index];
+  Body& r = bodies_.all()[index];
   if (r.suspended) {
     restore_pose(r);
     return;
@@ -637,14 +637,14 @@ void Mover::follow_body(std::size_t index, double dt_s) {
 }
 
 // Takes over the velocity of a pushed obstacle from Box2D.
-void Mover::note_velocity(Robot& r) {
+void Mover::note_velocity(Body& r) {
   const b2Vec2& v = r.body->GetLinearVelocity();
   r.details->obstacle.v_WB = {metres(v.x), metres(v.y)};
   r.details->obstacle.omega_radps = static_cast<double>(r.body->GetAngularVelocity());
 }
 
 void Mover::plain_box2d_step(double dt_s) {
-  for (Robot& r : bodies_.robots()) {
+  for (Body& r : bodies_.all()) {
     bodies_.ensure_box2d_body(r);
     const double yaw = static_cast<double>(r.body->GetAngle());
     r.body->SetLinearVelocity(

@@ -28,29 +28,29 @@ class Mover {
 
  private:
   void substep(double dt_s, bool first, bool last);
-  void add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
+  void add_constraints(const Body& r, const b2Shape& other, const b2Transform& other_xf,
                        double share, double dt_s);
-  void add_constraints(const Robot& r, std::size_t part, const b2Shape& other,
+  void add_constraints(const Body& r, std::size_t part, const b2Shape& other,
                        const b2Transform& other_xf, double share, double dt_s);
-  void add_round_constraints(const Robot& r, std::size_t part, const b2CircleShape& circle,
+  void add_round_constraints(const Body& r, std::size_t part, const b2CircleShape& circle,
                              const b2Transform& circle_xf, double share, double dt_s);
-  void add_disc_constraint(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
+  void add_disc_constraint(const Body& r, const b2Shape& other, const b2Transform& other_xf,
                            double share, double dt_s);
-  [[nodiscard]] static bool clears_wall(const Robot& r, const Wall& wall, const b2Transform& xf,
+  [[nodiscard]] static bool clears_wall(const Body& r, const Wall& wall, const b2Transform& xf,
                                         double dt_s);
   [[nodiscard]] Twist allowed_twist(std::size_t index, double dt_s);
-  [[nodiscard]] bool clears_all(const Robot& r, const Twist& allowed, double dt_s) const;
+  [[nodiscard]] bool clears_all(const Body& r, const Twist& allowed, double dt_s) const;
   void find_contact_groups(double dt_s);
   [[nodiscard]] bool may_push(const Neighbours::NearPair& pair, double dt_s) const;
   void set_obstacle_targets(double dt_s);
-  [[nodiscard]] Twist limit_by_traction(Robot& r, const Twist& wanted, double dt_s) const;
+  [[nodiscard]] Twist limit_by_traction(Body& r, const Twist& wanted, double dt_s) const;
   void set_friction(std::size_t index, double dt_s, bool first);
-  static void note_velocity(Robot& r);
-  void move_freely(Robot& r, double dt_s);
+  static void note_velocity(Body& r);
+  void move_freely(Body& r, double dt_s);
   void contact_substep(double dt_s, double others_dt_s);
   void follow_body(std::size_t index, double dt_s);
-  void move_to_goal(Robot& r, const Pose& goal, const Twist& twist, double dt_s);
-  void record_travel(Robot& r, double way_m, double turn_rad);
+  void move_to_goal(Body& r, const Pose& goal, const Twist& twist, double dt_s);
+  void record_travel(Body& r, double way_m, double turn_rad);
 
   Bodies& bodies_;
   Neighbours& neighbours_;

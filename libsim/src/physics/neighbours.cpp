@@ -25,7 +25,7 @@ constexpr double kCoarseWallDistance_m = 0.05;
 void Neighbours::invalidate() {
   placed_ = true;
   pairs_until_m_ = cumulative_max_travel_m_;
-  for (Robot& r : bodies_.robots()) {
+  for (Body& r : bodies_.all()) {
     r.wall_until_m = kUnknown;
     r.wall_at_travel_m = kUnknown;
     r.details->walls_until_m = kUnknown;
@@ -80,7 +80,7 @@ void Neighbours::list_pairs() {
 
 // Lower bound of the distance between the outlines of a pair, exact if it is below `enough_m`;
 // updates the pair's direction.
-double Neighbours::distance_m(const Robot& a, const Robot& b, double enough_m, Pair& pair) {
+double Neighbours::distance_m(const Body& a, const Body& b, double enough_m, Pair& pair) {
   // Two cheap lower bounds usually suffice: the distance of the bounding circles, and the gap along
   // the direction of the last nearest points.
   const double circles_m = circles_apart_m(a, b);
@@ -103,7 +103,7 @@ double Neighbours::distance_m(const Robot& a, const Robot& b, double enough_m, P
 
 void Neighbours::find(double dt_s) {
   if (cumulative_max_travel_m_ >= pairs_until_m_) list_pairs();
-  near_to_.resize(bodies_.robots().size());
+  near_to_.resize(bodies_.all().size());
   for (const NearPair& pair : near_pairs_) {
     near_to_[static_cast<std::size_t>(pair.first)].clear();
     near_to_[static_cast<std::size_t>(pair.second)].clear();
@@ -116,7 +116,7 @@ void Neighbours::find(double dt_s) {
     near_to_[static_cast<std::size_t>(pair.second)].push_back(
         {pair.first, pair.apart_m, -pair.direction});
   }
-  for (Robot& r : bodies_.robots()) look_for_walls(r, dt_s);
+  for (Body& r : bodies_.all()) look_for_walls(r, dt_s);
 }
 
 // Appends the pairs whose robots may hinder each other to near_pairs_.
@@ -131,8 +131,8 @@ void Neighbours::find_near_pairs(double dt_s) {
   }
   for (const std::size_t i : std::span(candidate_pairs_).first(count)) {
     Pair& pair = pairs_[i];
-    Robot& a = bodies_.robot(pair.first);
-    Robot& b = bodies_.robot(pair.second);
+    Body& a = bodies_.at(pair.first);
+    Body& b = bodies_.at(pair.second);
     double apart_m = pair.apart_m - (a.cumulative_max_travel_m + b.cumulative_max_travel_m -
                                      pair.pair_at_travel_m);
     if (apart_m > interaction_range_m) continue;
@@ -155,7 +155,7 @@ void Neighbours::find_near_pairs(double dt_s) {
 }
 
 // Updates the distance from a robot to the nearest static solid.
-void Neighbours::look_for_walls(Robot& r, double dt_s) {
+void Neighbours::look_for_walls(Body& r, double dt_s) {
   const double reach_m = wall_reach_m();
   double apart_m = r.wall_until_m - r.cumulative_max_travel_m;
   if (apart_m > reach_m) return;
@@ -178,7 +178,7 @@ void Neighbours::look_for_walls(Robot& r, double dt_s) {
 double Neighbours::wall_reach_m() const { return 1.5 * travel_m_ + kRestingGap_m; }
 
 // Lists everything that may come within reach_m of a robot with the bounding box `box`.
-void Neighbours::collect_candidates(Robot& r, const b2AABB& box, double reach_m) {
+void Neighbours::collect_candidates(Body& r, const b2AABB& box, double reach_m) {
   r.details->candidates.clear();
   r.details->candidates_reach_m = reach_m;
   r.details->candidates_at_travel_m = cumulative_max_travel_m_;
@@ -190,7 +190,7 @@ void Neighbours::collect_candidates(Robot& r, const b2AABB& box, double reach_m)
   const Vec2 p_WB = r.X_WB.position();
   const Vec2 reach(r.radius_m + reach_m, r.radius_m + reach_m);
   bodies_.for_robots_in(p_WB - reach, p_WB + reach, [&](const Bodies::Circle& circle) {
-    const Robot& other = bodies_.robot(circle.robot);
+    const Body& other = bodies_.at(circle.robot);
     if (&other == &r || !other.details->info->solid) return;
     r.details->candidates.push_back({&other.details->solid(), circle.robot, {}, {}});
   });
@@ -214,7 +214,7 @@ Wall Neighbours::wall_of(const b2Fixture& fixture) const {
 
 // Lower bound of the distance from a robot's outline to the nearest static solid, exact where it
 // matters; at most kWallSearch_m [m].
-double Neighbours::distance_to_walls_m(Robot& r) {
+double Neighbours::distance_to_walls_m(Body& r) {
   const b2Transform xf = transform_of(r);
   if (!(r.cumulative_max_travel_m < r.details->walls_until_m)) {
     const b2AABB box = box_of(*r.details, xf);
@@ -248,17 +248,17 @@ double Neighbours::distance_to_walls_m(Robot& r) {
 }
 
 bool Neighbours::is_free(std::size_t index, double dt_s) const {
-  const Robot& r = bodies_.robots()[index];
+  const Body& r = bodies_.all()[index];
   const double way_m = most_travel_m(r, dt_s);
   if (r.wall_until_m - r.cumulative_max_travel_m <= way_m + kTouchingGap_m) return false;
   return std::all_of(near_to_[index].begin(), near_to_[index].end(), [&](const Neighbour& near) {
-    const double share = bodies_.robot(near.robot).suspended ? 1.0 : 0.5;
+    const double share = bodies_.at(near.robot).suspended ? 1.0 : 0.5;
     return share * (near.apart_m - kTouchingGap_m) > way_m;
   });
 }
 
 // Whether a contact is with a static solid within reach.
-bool Neighbours::is_near_wall(const Robot& r, const b2Contact& contact) const {
+bool Neighbours::is_near_wall(const Body& r, const b2Contact& contact) const {
   const b2Fixture* other = contact.GetFixtureA();
   if (other->GetBody() == r.body) other = contact.GetFixtureB();
   if (info_of(other).body >= 0) return false;
@@ -271,9 +271,9 @@ bool Neighbours::is_near_wall(const Robot& r, const b2Contact& contact) const {
 }
 
 bool Neighbours::may_be_pushed_into_others(std::size_t index) const {
-  const Robot& r = bodies_.robots()[index];
+  const Body& r = bodies_.all()[index];
   for (const Neighbour& near : near_to_[index]) {
-    if (!touches(r.body, bodies_.robot(near.robot).body)) return true;
+    if (!touches(r.body, bodies_.at(near.robot).body)) return true;
   }
   for (const b2ContactEdge* e = r.body->GetContactList(); e != nullptr; e = e->next) {
     if (!e->contact->IsTouching() && is_near_wall(r, *e->contact)) return true;
@@ -281,7 +281,7 @@ bool Neighbours::may_be_pushed_into_others(std::size_t index) const {
   return false;
 }
 
-double Neighbours::clearance_m(Robot& r, double limit_m, double exact_below_m) {
+double Neighbours::clearance_m(Body& r, double limit_m, double exact_below_m) {
   const b2Transform xf = transform_of(r);
   const b2AABB box = box_of(*r.details, xf);
   // The candidates for the nearest solid are kept in a list that stays valid for some distance
@@ -298,7 +298,7 @@ double Neighbours::clearance_m(Robot& r, double limit_m, double exact_below_m) {
     // Two cheap lower bounds usually suffice: the distance of the bounding boxes or circles, and
     // the gap along the direction of the last nearest points.
     Candidate& candidate = r.details->candidates[i];
-    const Robot* other = candidate.robot < 0 ? nullptr : &bodies_.robot(candidate.robot);
+    const Body* other = candidate.robot < 0 ? nullptr : &bodies_.at(candidate.robot);
     const double boxes_apart_m =
         other == nullptr ? metres(gap_between(box, candidate.box)) : circles_apart_m(r, *other);
     if (boxes_apart_m >= least_m) continue;

@@ -61,7 +61,7 @@ class Neighbours {
   void archive(StateArchive& archive);
 
   /// See PhysicsWorld::clearance_m().
-  [[nodiscard]] double clearance_m(Robot& r, double limit_m, double exact_below_m);
+  [[nodiscard]] double clearance_m(Body& r, double limit_m, double exact_below_m);
 
  private:
   // Two robots that may come near each other.
@@ -74,18 +74,17 @@ class Neighbours {
   };
 
   static bool comes_before(const Pair& a, const Pair& b);
-  [[nodiscard]] bool is_solid(int robot) const { return bodies_.robot(robot).details->info->solid; }
+  [[nodiscard]] bool is_solid(int robot) const { return bodies_.at(robot).details->info->solid; }
   void list_pairs();
-  [[nodiscard]] static double distance_m(const Robot& a, const Robot& b, double enough_m,
-                                         Pair& pair);
+  [[nodiscard]] static double distance_m(const Body& a, const Body& b, double enough_m, Pair& pair);
   void find_near_pairs(double dt_s);
-  void look_for_walls(Robot& r, double dt_s);
+  void look_for_walls(Body& r, double dt_s);
   [[nodiscard]] double wall_reach_m() const;
   [[nodiscard]] Wall wall_of(const b2Fixture& fixture) const;
-  [[nodiscard]] double distance_to_walls_m(Robot& r);
-  void archive_robot(StateArchive& archive, Robot& r, const std::vector<b2Fixture*>& fixtures);
-  void collect_candidates(Robot& r, const b2AABB& box, double reach_m);
-  [[nodiscard]] bool is_near_wall(const Robot& r, const b2Contact& contact) const;
+  [[nodiscard]] double distance_to_walls_m(Body& r);
+  void archive_robot(StateArchive& archive, Body& r, const std::vector<b2Fixture*>& fixtures);
+  void collect_candidates(Body& r, const b2AABB& box, double reach_m);
+  [[nodiscard]] bool is_near_wall(const Body& r, const b2Contact& contact) const;
 
   Bodies& bodies_;
   bool placed_ = true;

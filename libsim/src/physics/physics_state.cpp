@@ -16,7 +16,7 @@
 namespace sim::physics {
 namespace {
 
-void archive_robot_state(StateArchive& archive, Robot& r) {
+void archive_robot_state(StateArchive& archive, Body& r) {
   BodyState& s = *r.state;
   archive(r.target, r.X_WB, r.cumulative_max_travel_m, r.suspended, r.in_contact_group,
           r.substeps_in_box2d, r.stall_clock_s);
@@ -30,7 +30,7 @@ void archive_robot_state(StateArchive& archive, Robot& r) {
   }
 }
 
-void archive_velocity(StateArchive& archive, Robot& r) {
+void archive_velocity(StateArchive& archive, Body& r) {
   ObstacleBody& o = r.details->obstacle;
   archive(o.v_WB, o.omega_radps);
   for (const double x : {o.v_WB.x(), o.v_WB.y(), o.omega_radps}) {
@@ -136,15 +136,15 @@ void Bodies::archive_obstacle(StateArchive& archive, int index) {
 }
 
 void Bodies::archive(StateArchive& archive) {
-  for (Robot& r : robots_) archive_robot_state(archive, r);
-  for (std::size_t i = robot_count_; i < robots_.size(); ++i) archive_velocity(archive, robots_[i]);
-  for (Robot& r : robots_) {
+  for (Body& r : all_) archive_robot_state(archive, r);
+  for (std::size_t i = robot_count_; i < all_.size(); ++i) archive_velocity(archive, all_[i]);
+  for (Body& r : all_) {
     if (has_pushable_) archive(r.details->achieved, r.details->excess);
   }
   archive_order(archive, by_x_);
   if (archive.reading()) {
     order_fresh_ = false;
-    for (Circle& circle : by_x_) circle.radius = robot(circle.robot).radius_m;
+    for (Circle& circle : by_x_) circle.radius = at(circle.robot).radius_m;
   }
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     archive_obstacle(archive, static_cast<int>(i));
@@ -157,12 +157,12 @@ void Bodies::archive(StateArchive& archive) {
   }
   archive(newest_first);
   if (archive.reading()) {
-    for (Robot& r : robots_) {
+    for (Body& r : all_) {
       if (r.body != nullptr) destroy_box2d_body(r);
     }
     for (auto robot = newest_first.rbegin(); robot != newest_first.rend(); ++robot) {
-      archive.expect(*robot < robots_.size() && robots_[*robot].body == nullptr, "each robot once");
-      create_box2d_body(robots_[*robot]);
+      archive.expect(*robot < all_.size() && all_[*robot].body == nullptr, "each robot once");
+      create_box2d_body(all_[*robot]);
     }
   }
   archive_box2d(archive, world_, fixtures());
@@ -187,7 +187,7 @@ void Contacts::archive(StateArchive& archive) {
     }
   });
   if (!archive.reading()) return;
-  for (Robot& r : bodies_.robots()) r.details->touching.clear();
+  for (Body& r : bodies_.all()) r.details->touching.clear();
   const std::vector<Contact> fresh = fresh_;
   for (b2Contact* c = bodies_.world().GetContactList(); c != nullptr; c = c->GetNext()) {
     if (!c->IsTouching()) continue;
@@ -197,9 +197,9 @@ void Contacts::archive(StateArchive& archive) {
   fresh_ = fresh;
 }
 
-void Neighbours::archive_robot(StateArchive& archive, Robot& r,
+void Neighbours::archive_robot(StateArchive& archive, Body& r,
                                const std::vector<b2Fixture*>& fixtures) {
-  RobotDetails& d = *r.details;
+  BodyDetails& d = *r.details;
   archive_vector(archive, d.nearest_direction);
   archive(d.candidates_reach_m, d.candidates_at_travel_m);
   archive.unbounded(d.walls_until_m);
@@ -212,11 +212,11 @@ void Neighbours::archive_robot(StateArchive& archive, Robot& r,
     archive.list(d.candidates, [&](Candidate& candidate) {
       archive(candidate.robot);
       const int fixture = -1 - candidate.robot;
-      const auto robots = static_cast<int>(bodies_.robots().size());
+      const auto robots = static_cast<int>(bodies_.all().size());
       archive.expect(candidate.robot < robots && fixture < static_cast<int>(fixtures.size()),
                      "candidates that there are");
       if (archive.reading() && candidate.robot >= 0) {
-        candidate.shape = &bodies_.robot(candidate.robot).details->solid();
+        candidate.shape = &bodies_.at(candidate.robot).details->solid();
       } else if (archive.reading()) {
         const b2Fixture* solid = fixtures[static_cast<std::size_t>(fixture)];
         archive.expect(solid != nullptr && info_of(solid).body < 0 && solid->GetBody()->IsEnabled(),
@@ -241,28 +241,28 @@ void Neighbours::archive_robot(StateArchive& archive, Robot& r,
 
 void Neighbours::archive(StateArchive& archive) {
   archive(placed_, travel_m_, cumulative_max_travel_m_, pairs_until_m_);
-  const std::size_t robots = bodies_.robots().size();
+  const std::size_t robots = bodies_.all().size();
   archive.list(pairs_, [&](Pair& pair) {
     archive.index(pair.first, robots);
     archive.index(pair.second, robots, pair.first + 1);
     archive(pair.pair_at_travel_m);
     archive.unbounded(pair.apart_m);
     archive_vector(archive, pair.direction);
-    archive_cache(archive, pair.cache, bodies_.robot(pair.first).details->solid(),
-                  bodies_.robot(pair.second).details->solid());
+    archive_cache(archive, pair.cache, bodies_.at(pair.first).details->solid(),
+                  bodies_.at(pair.second).details->solid());
   });
   meet_at_travel_m_.resize(pairs_.size());
   for (double& meet_m : meet_at_travel_m_) archive.unbounded(meet_m);
   const std::vector<b2Fixture*> fixtures = bodies_.fixtures();
-  for (Robot& r : bodies_.robots()) archive_robot(archive, r, fixtures);
+  for (Body& r : bodies_.all()) archive_robot(archive, r, fixtures);
 }
 
 void Mover::archive(StateArchive& archive) {
   archive(step_max_travel_m_);
   if (!archive.reading()) return;
   contact_robots_.clear();
-  for (std::size_t i = 0; i < bodies_.robots().size(); ++i) {
-    if (bodies_.robots()[i].in_contact_group) contact_robots_.push_back(i);
+  for (std::size_t i = 0; i < bodies_.all().size(); ++i) {
+    if (bodies_.all()[i].in_contact_group) contact_robots_.push_back(i);
   }
 }
 

@@ -51,15 +51,15 @@ int PhysicsWorld::add_moving_obstacle(int obstacle, const ObstacleDescription& d
 int PhysicsWorld::body_of_obstacle(int obstacle) const { return impl_->bodies.body_of(obstacle); }
 
 int PhysicsWorld::obstacle_of_body(int body) const {
-  return impl_->bodies.robot(body).details->info->index;
+  return impl_->bodies.at(body).details->info->index;
 }
 
 Pose PhysicsWorld::obstacle_pose(int body) const {
-  return physics::Bodies::obstacle_pose(impl_->bodies.robot(body));
+  return physics::Bodies::obstacle_pose(impl_->bodies.at(body));
 }
 
 void PhysicsWorld::drive_obstacle(int body, const Pose& X_WO, double dt_s) {
-  physics::Robot& r = impl_->bodies.robot(body);
+  physics::Body& r = impl_->bodies.at(body);
   physics::ObstacleBody& o = r.details->obstacle;
   const Vec2 p_WB = o.p_BO.isZero(0.0) ? X_WO.position() : X_WO * Vec2(-o.p_BO);
   // Rounding must not move an obstacle that stands.
@@ -71,34 +71,32 @@ void PhysicsWorld::drive_obstacle(int body, const Pose& X_WO, double dt_s) {
 }
 
 Vec2 PhysicsWorld::obstacle_velocity(int body) const {
-  const BodyState& state = *impl_->bodies.robot(body).state;
+  const BodyState& state = *impl_->bodies.at(body).state;
   const double c = std::cos(state.X_WB.yaw_rad);
   const double s = std::sin(state.X_WB.yaw_rad);
   const Twist& twist = state.twist;
   return {c * twist.v_mps - s * twist.lateral_mps, s * twist.v_mps + c * twist.lateral_mps};
 }
 
-double PhysicsWorld::height_m(int robot) const {
-  return impl_->bodies.robot(robot).details->height_m;
-}
+double PhysicsWorld::height_m(int robot) const { return impl_->bodies.at(robot).details->height_m; }
 
 void PhysicsWorld::set_target(int robot, const Twist& target) {
-  physics::Robot& r = impl_->bodies.robot(robot);
+  physics::Body& r = impl_->bodies.at(robot);
   r.target = r.suspended ? Twist{} : target;
 }
 
 void PhysicsWorld::set_suspended(int robot, bool suspended) {
-  impl_->bodies.set_suspended(impl_->bodies.robot(robot), suspended);
+  impl_->bodies.set_suspended(impl_->bodies.at(robot), suspended);
 }
 
-bool PhysicsWorld::suspended(int robot) const { return impl_->bodies.robot(robot).suspended; }
+bool PhysicsWorld::suspended(int robot) const { return impl_->bodies.at(robot).suspended; }
 
 void PhysicsWorld::set_elevation(int robot, const Elevation& elevation) {
-  impl_->bodies.robot(robot).state->elevation = elevation;
+  impl_->bodies.at(robot).state->elevation = elevation;
 }
 
 void PhysicsWorld::set_pose(int robot, const Pose& X_WB) {
-  impl_->bodies.set_pose(impl_->bodies.robot(robot), X_WB);
+  impl_->bodies.set_pose(impl_->bodies.at(robot), X_WB);
   impl_->sensor_view.robot_was_placed();
   impl_->something_was_placed();
 }
@@ -111,7 +109,7 @@ void PhysicsWorld::step(double dt_s) {
 
 double PhysicsWorld::farthest_move_m() const noexcept { return impl_->mover.farthest_move_m(); }
 
-const BodyState& PhysicsWorld::body(int robot) const { return *impl_->bodies.robot(robot).state; }
+const BodyState& PhysicsWorld::body(int robot) const { return *impl_->bodies.at(robot).state; }
 
 const std::vector<PhysicsWorld::Contact>& PhysicsWorld::new_contacts() const noexcept {
   return impl_->contacts.fresh();
@@ -150,7 +148,7 @@ void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now)
 }
 
 void PhysicsWorld::set_load(int robot, const std::vector<Load>& loads) {
-  impl_->sensor_view.set_load(impl_->bodies.robot(robot), loads);
+  impl_->sensor_view.set_load(impl_->bodies.at(robot), loads);
 }
 
 int PhysicsWorld::robot_within(const ObstacleDescription& solid, int ignored) const {
@@ -158,7 +156,7 @@ int PhysicsWorld::robot_within(const ObstacleDescription& solid, int ignored) co
 }
 
 double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m) {
-  return impl_->neighbours.clearance_m(impl_->bodies.robot(robot), limit_m, exact_below_m);
+  return impl_->neighbours.clearance_m(impl_->bodies.at(robot), limit_m, exact_below_m);
 }
 
 void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,

@@ -101,7 +101,7 @@ void SensorView::robot_was_placed() {
   outlines_fresh_ = false;
 }
 
-void SensorView::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads) {
+void SensorView::set_load(Body& r, const std::vector<PhysicsWorld::Load>& loads) {
   r.details->load.clear();
   r.details->load_obstacles.clear();
   r.details->round_load.clear();
@@ -131,7 +131,7 @@ void SensorView::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads
 void SensorView::sort_by_hilbert_index() {
   constexpr double kWhile_m = 0.1;
   for (HilbertEntry& entry : by_hilbert_index_) {
-    const Robot& r = bodies_.robot(entry.robot);
+    const Body& r = bodies_.at(entry.robot);
     if (r.cumulative_max_travel_m < entry.until_m) continue;
     entry.hilbert_index = along_hilbert_curve(r.X_WB.position());
     entry.until_m = r.cumulative_max_travel_m + kWhile_m;
@@ -150,11 +150,11 @@ void SensorView::sort_by_hilbert_index() {
 void SensorView::rebuild_outlines() {
   further_edges_.clear();
   load_cylinders_.clear();
-  outlines_.resize(bodies_.robots().size());
+  outlines_.resize(bodies_.all().size());
   robot_discs_.clear();
   sort_by_hilbert_index();
   for (std::size_t k = 0; k < by_hilbert_index_.size(); ++k) {
-    const Robot& r = bodies_.robot(by_hilbert_index_[k].robot);
+    const Body& r = bodies_.at(by_hilbert_index_[k].robot);
     robot_discs_.add(static_cast<float>(r.X_WB.x_m), static_cast<float>(r.X_WB.y_m),
                      static_cast<float>(r.details->seen_radius_m));
     const double c = std::cos(r.X_WB.yaw_rad);
@@ -216,7 +216,7 @@ void SensorView::rebuild_outlines() {
 
 // The least fraction of the line from A to C at which it enters a superstructure at a height, or at
 // any; 1 if it enters none. Exact.
-double SensorView::entry_of_superstructures(const Robot& r, const Vec2& p_WA, const Vec2& p_WC,
+double SensorView::entry_of_superstructures(const Body& r, const Vec2& p_WA, const Vec2& p_WC,
                                             std::optional<double> height_m) {
   const Pose X_BW = r.X_WB.inverse();
   const Vec2 p_BA = X_BW * p_WA;
@@ -256,7 +256,7 @@ void SensorView::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, 
         const double aside = line.x() * p_AB.y() - line.y() * p_AB.x();  // distance * |line|
         if (aside * aside > circle.radius * circle.radius * line.squaredNorm()) return;
         if (!may(circle.robot)) return;
-        const Robot& r = bodies_.robot(circle.robot);
+        const Body& r = bodies_.at(circle.robot);
         if (r.details->round) {
           const double share = entry_of({p_WA + p_AB, circle.radius, 0.0, -1}, p_WA, p_WC);
           if (share < 1.0) more = visit(static_cast<float>(share));
@@ -432,7 +432,7 @@ void SensorView::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
     for (std::size_t i = outline.first_upper; i < outline.first_load; ++i) {
       add(further_edges_.edges[i], outline.kind, outline.index, further_edges_.heights_m[i]);
     }
-    const Robot& r = bodies_.robot(outline.robot);
+    const Body& r = bodies_.at(outline.robot);
     for (std::size_t i = outline.first_load; i < outline.end_load; ++i) {
       add(further_edges_.edges[i], Contact::Kind::kObstacle,
           r.details->load_obstacles[i - outline.first_load], further_edges_.heights_m[i]);
@@ -474,8 +474,8 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
       p_WA, p_WC,
       [&](int robot) {
         return robot != own_robot && robot != target_robot &&
-               (!solid_only || bodies_.robot(robot).details->info->solid) &&
-               reaches_height(bodies_.robot(robot).details->height_m, height_m);
+               (!solid_only || bodies_.at(robot).details->info->solid) &&
+               reaches_height(bodies_.at(robot).details->height_m, height_m);
       },
       [&](float) {
         blocked = true;
@@ -484,7 +484,7 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
   if (blocked) return false;
   for (const int robot : bodies_.with_superstructures()) {
     if (robot == own_robot || robot == target_robot) continue;
-    if (entry_of_superstructures(bodies_.robot(robot), p_WA, p_WC, height_m) < 1.0) return false;
+    if (entry_of_superstructures(bodies_.at(robot), p_WA, p_WC, height_m) < 1.0) return false;
   }
   if (cast_at_cylinders(p_WA, p_WC, height_m, &target, solid_only) < 1.0) return false;
   bodies_.world().RayCast(&callback, to_box2d(p_WA), to_box2d(p_WC));
@@ -503,7 +503,7 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
   });
   inside = inside || bodies_.is_inside_edged(p_W, height_m);
   bodies_.for_robots_in(p_W, p_W, [&](const Bodies::Circle& circle) {
-    const Robot& r = bodies_.robot(circle.robot);
+    const Body& r = bodies_.at(circle.robot);
     if (inside || circle.robot == own_robot || !r.details->info->solid) return;
     if (!reaches_height(r.details->height_m, height_m)) return;
     if (r.details->round) {
@@ -516,7 +516,7 @@ bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot
   });
   for (const int robot : bodies_.with_superstructures()) {
     if (inside || robot == own_robot) continue;
-    const Robot& r = bodies_.robot(robot);
+    const Body& r = bodies_.at(robot);
     const Vec2 p_B = r.X_WB.inverse() * p_W;
     inside = std::any_of(r.details->superstructures.begin(), r.details->superstructures.end(),
                          [&](const Superstructure& part) {
@@ -562,7 +562,7 @@ double SensorView::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_m
       });
   for (const int robot : bodies_.with_superstructures()) {
     if (robot == own_robot) continue;
-    const double share = entry_of_superstructures(bodies_.robot(robot), p_WL, end, std::nullopt);
+    const double share = entry_of_superstructures(bodies_.at(robot), p_WL, end, std::nullopt);
     closest.fraction = std::min(closest.fraction, static_cast<float>(share));
   }
   return std::min(static_cast<double>(closest.fraction),

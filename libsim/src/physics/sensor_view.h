@@ -32,7 +32,7 @@ class SensorView {
   void add_robot(int robot) { by_hilbert_index_.push_back({0, robot, 0.0}); }
   void robot_was_placed();
 
-  void set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads);
+  void set_load(Body& r, const std::vector<PhysicsWorld::Load>& loads);
   void collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
                      bool test_inside, scan::EdgeBuffer& edges);
   void scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
@@ -82,7 +82,7 @@ class SensorView {
                                          std::optional<double> height_m, const Contact* ignored,
                                          bool solid_only);
   static void append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out);
-  [[nodiscard]] static double entry_of_superstructures(const Robot& r, const Vec2& p_WA,
+  [[nodiscard]] static double entry_of_superstructures(const Body& r, const Vec2& p_WA,
                                                        const Vec2& p_WC,
                                                        std::optional<double> height_m);
   template <typename Filter, typename Visitor>

@@ -66,6 +66,7 @@ Simulation::Impl::Controller::Controller(Impl& owner)
     batteries_.push_back(first_device<Battery>(owner.robots[i].devices));
     fiducials_.push_back(first_device<FiducialFinder>(owner.robots[i].devices));
   }
+  scores_.resize(owner.robots.size());
   reset();
 }
 
@@ -102,7 +103,7 @@ void Simulation::Impl::Controller::start() {
 void Simulation::Impl::Controller::after_step() { work(); }
 
 void Simulation::Impl::Controller::work() {
-  if (impl_.verdict) return;
+  if (verdict_) return;
   work_ = 0;
   cost_.set_canvas(impl_.layers.width(), impl_.layers.height());
   if (impl_.now_ns >= next_time_ns_) {
@@ -117,14 +118,14 @@ void Simulation::Impl::Controller::work() {
 // io::check_world() refuses a timer or trap that would do too much by itself. Several may do too
 // much together.
 bool Simulation::Impl::Controller::may_work(std::int64_t operations, const std::string& name) {
-  if (impl_.verdict) return false;
+  if (verdict_) return false;
   work_ += operations;
   if (work_ <= io::kMaxControllerWork) return true;
   const std::string reason = "the controller would do more than " +
                              std::to_string(io::kMaxControllerWork) +
                              " operations in one step, the last of them for \"" + name + '"';
-  if (impl_.log) impl_.log(LogLevel::kError, "the run ends: " + reason);
-  impl_.verdict = Verdict{false, reason, impl_.now_ns};
+  if (const LogHook& log = impl_.chronicle.log()) log(LogLevel::kError, "the run ends: " + reason);
+  verdict_ = Verdict{false, reason, impl_.now_ns};
   impl_.record(ArenaEventKind::kEnd, name, {}, reason, 0.0);
   return false;
 }
@@ -147,8 +148,8 @@ void Simulation::Impl::Controller::begin_timer(std::size_t i) {
   timer.acted = 0;
   double first_s = description.at_s;
   if (description.within_s) {
-    const auto [from_s, to_s] = *description.within_s;
-    first_s = from_s + (to_s - from_s) * timer.random->uniform();
+    const Vec2 within_s = *description.within_s;
+    first_s = within_s[0] + (within_s[1] - within_s[0]) * timer.random->uniform();
   }
   timer.first_ns = from_seconds(first_s);
   plan_timer(i);
@@ -184,7 +185,7 @@ void Simulation::Impl::Controller::run_timers() {
     Timer& timer = timers_[i];
     timer.begun = false;
     // A timer that its own actions switch on again goes on in the next step.
-    while (timer.enabled && timer.due_ns <= impl_.now_ns && !timer.begun && !impl_.verdict) {
+    while (timer.enabled && timer.due_ns <= impl_.now_ns && !timer.begun && !verdict_) {
       act_timer(i);
     }
   }
@@ -403,7 +404,9 @@ void Simulation::Impl::Controller::show(SceneSnapshot& scene) const {
   }
 }
 
-void Simulation::Impl::Controller::shift_times(SimTime later_ns) {
+void Simulation::Impl::Controller::take_over_from(Controller& before, SimTime later_ns) {
+  scores_ = std::move(before.scores_);
+  verdict_ = std::move(before.verdict_);
   origin_ns_ += later_ns;
   for (Timer& timer : timers_) {
     timer.begin_ns += later_ns;
@@ -417,6 +420,14 @@ void Simulation::Impl::Controller::shift_times(SimTime later_ns) {
 }
 
 void Simulation::Impl::Controller::archive(StateArchive& archive) {
+  for (double& score : scores_) archive(score);
+  bool ended = verdict_.has_value();
+  archive(ended);
+  if (ended && !verdict_) verdict_.emplace();
+  if (ended) {
+    archive(verdict_->passed, verdict_->reason);
+    archive.time(verdict_->time_ns);
+  }
   archive(started_, configuration_);
   const auto& known = description_.configurations;
   archive.expect(configuration_.empty() ||
@@ -430,7 +441,7 @@ void Simulation::Impl::Controller::archive(StateArchive& archive) {
     for (SimTime* time : {&timer.begin_ns, &timer.first_ns, &timer.due_ns}) archive.time(*time);
     // Otherwise the next step would make up for a long time.
     const SimTime period_ns = from_seconds(description_.timers[i].every_s);
-    const bool goes_on = timer.enabled && period_ns > 0 && !impl_.verdict;
+    const bool goes_on = timer.enabled && period_ns > 0 && !verdict_;
     archive.expect(
         timer.moment >= 0 &&
             (!goes_on || timer.due_ns == kNever ||
@@ -453,6 +464,46 @@ void Simulation::Impl::Controller::archive(StateArchive& archive) {
     archive.time(text.end_ns);
   });
   if (archive.reading()) find_next_time();
+}
+
+// --- Simulation
+
+std::optional<std::string> Simulation::set_configuration(const std::string& name) {
+  if (!impl_->controller) {
+    return "there is no configuration named \"" + name + "\"; this world has none";
+  }
+  return impl_->controller->configure(name);
+}
+
+std::optional<std::string> Simulation::set_timer_enabled(const std::string& name, bool enabled) {
+  if (!impl_->controller) {
+    return "there is no timer named \"" + name + "\"; this world has none";
+  }
+  return impl_->controller->set_timer_enabled(name, enabled);
+}
+
+std::optional<std::string> Simulation::set_trap_enabled(const std::string& name, bool enabled) {
+  if (!impl_->controller) return "there is no trap named \"" + name + "\"; this world has none";
+  return impl_->controller->set_trap_enabled(name, enabled);
+}
+
+std::optional<bool> Simulation::timer_or_trap_enabled(const std::string& name) const {
+  if (!impl_->controller) return std::nullopt;
+  return impl_->controller->is_enabled(name);
+}
+
+ArenaState Simulation::arena_state() const {
+  return impl_->controller ? impl_->controller->state() : ArenaState{};
+}
+
+const std::vector<double>& Simulation::scores() const noexcept {
+  static const std::vector<double> none;
+  return impl_->controller ? impl_->controller->scores() : none;
+}
+
+const std::optional<Verdict>& Simulation::verdict() const noexcept {
+  static const std::optional<Verdict> none;
+  return impl_->controller ? impl_->controller->verdict() : none;
 }
 
 }  // namespace sim

@@ -32,14 +32,16 @@ class Simulation::Impl::Controller {
   void after_step();
   /// Starts anew in the next step, like that of a new simulation.
   void reset();
-  /// Continues at another time.
-  void shift_times(SimTime later_ns);
+  /// Continues at another time, with the scores and the verdict of the one before.
+  void take_over_from(Controller& before, SimTime later_ns);
 
   std::optional<std::string> configure(const std::string& name);
   std::optional<std::string> set_timer_enabled(const std::string& name, bool enabled);
   std::optional<std::string> set_trap_enabled(const std::string& name, bool enabled);
   [[nodiscard]] std::optional<bool> is_enabled(const std::string& name) const;
 
+  [[nodiscard]] const std::vector<double>& scores() const noexcept { return scores_; }
+  [[nodiscard]] const std::optional<Verdict>& verdict() const noexcept { return verdict_; }
   [[nodiscard]] ArenaState state() const;
   void show(SceneSnapshot& scene) const;
   void archive(StateArchive& archive);
@@ -102,17 +104,9 @@ class Simulation::Impl::Controller {
   [[nodiscard]] bool holds(const FiducialCondition& condition, int robot) const;
   [[nodiscard]] std::optional<double> quantity(RobotQuantity quantity, std::size_t robot) const;
   void act(const std::vector<ArenaAction>& actions, const Cause& cause);
-  void act(const ConfigurationAction& action, const Cause& cause);
-  void act(const BlocksAction& action, const Cause& cause);
-  void act(const PlaceAction& action, const Cause& cause);
-  void act(const MessageAction& action, const Cause& cause);
-  void act(const TextAction& action, const Cause& cause);
-  void act(const CanvasAction& action, const Cause& cause);
-  void act(const RestartAction& action, const Cause& cause);
-  void act(const ScoreAction& action, const Cause& cause);
-  void act(const SwitchAction& action, const Cause& cause);
-  void act(const EndAction& action, const Cause& cause);
-  void act(const MoveAction& action, const Cause& cause);
+  /// Specialised in controller_actions.cpp for each kind of action.
+  template <typename Action>
+  void act(const Action& action, const Cause& cause);
   std::optional<std::string> change_block(const std::string& name, BlocksAction::Change change);
   std::optional<std::string> place(const std::string& name, const Pose& pose);
   bool restart(std::size_t robot);
@@ -139,6 +133,8 @@ class Simulation::Impl::Controller {
   std::vector<Stay> stays_;
   std::vector<std::size_t> waiting_;  // robots to be put back to their start
   std::vector<Text> texts_;           // oldest first
+  std::vector<double> scores_;        // of the robots
+  std::optional<Verdict> verdict_;
 };
 
 }  // namespace sim

@@ -58,7 +58,7 @@ bool Simulation::Impl::Controller::holds(const CountCondition& condition, int) c
 bool Simulation::Impl::Controller::holds(const BlockCondition& condition, int) const {
   const std::optional<int> block = impl_.find_obstacle(condition.block);
   SIM_ASSERT(block.has_value());
-  return impl_.phase_of(*block) == condition.phase;
+  return impl_.blocks->phase_of(*block) == condition.phase;
 }
 
 std::optional<double> Simulation::Impl::Controller::quantity(RobotQuantity quantity,
@@ -78,7 +78,7 @@ std::optional<double> Simulation::Impl::Controller::quantity(RobotQuantity quant
     case RobotQuantity::kScore:
       break;
   }
-  return impl_.scores[robot];
+  return scores_[robot];
 }
 
 bool Simulation::Impl::Controller::holds(const QuantityCondition& condition, int robot) const {
@@ -100,18 +100,12 @@ bool Simulation::Impl::Controller::holds(const FiducialCondition& condition, int
 
 // --- Actions
 
-void Simulation::Impl::Controller::act(const std::vector<ArenaAction>& actions,
-                                       const Cause& cause) {
-  for (const ArenaAction& action : actions) {
-    if (!may_work(cost_.of(action), cause.name)) return;
-    std::visit([&](const auto& kind) { act(kind, cause); }, action);
-  }
-}
-
+template <>
 void Simulation::Impl::Controller::act(const ConfigurationAction& action, const Cause&) {
   static_cast<void>(configure(action.configuration));  // events tell what was refused
 }
 
+template <>
 void Simulation::Impl::Controller::act(const BlocksAction& action, const Cause&) {
   for (const std::string& block : action.blocks) {
     static_cast<void>(change_block(block, action.change));
@@ -122,18 +116,19 @@ void Simulation::Impl::Controller::act(const BlocksAction& action, const Cause&)
 std::optional<std::string> Simulation::Impl::Controller::change_block(const std::string& name,
                                                                       BlocksAction::Change change) {
   int index = 0;
-  if (auto reason = impl_.find_free_block(name, index)) {
+  if (auto reason = impl_.blocks->find_free(name, index)) {
     impl_.record(ArenaEventKind::kRefused, name, {}, *reason);
     return reason;
   }
   bool extend = change == BlocksAction::Change::kExtend;
   if (change == BlocksAction::Change::kToggle) {
-    const BlockPhase phase = impl_.phase_of(index);
+    const BlockPhase phase = impl_.blocks->phase_of(index);
     extend = phase == BlockPhase::kRetracted || phase == BlockPhase::kSinking;
   }
-  return impl_.set_block(index, extend);  // records what it refuses
+  return impl_.blocks->set(index, extend);  // records what it refuses
 }
 
+template <>
 void Simulation::Impl::Controller::act(const PlaceAction& action, const Cause&) {
   static_cast<void>(place(action.obstacle, action.pose));
 }
@@ -149,22 +144,27 @@ std::optional<std::string> Simulation::Impl::Controller::place(const std::string
   return reason;
 }
 
+template <>
 void Simulation::Impl::Controller::act(const MessageAction& action, const Cause& cause) {
   impl_.record(ArenaEventKind::kMessage, cause.name, {}, action.text);
 }
 
+template <>
 void Simulation::Impl::Controller::act(const TextAction& action, const Cause& cause) {
-  std::erase_if(texts_, [&](const Text& text) { return text.place == action.place; });
+  const ArenaDescription& arena = impl_.world.arena;
+  const Vec2 place = action.place.value_or(arena.origin + 0.5 * arena.size);
+  std::erase_if(texts_, [&](const Text& text) { return text.place == place; });
   if (texts_.size() >= kMostTexts) texts_.erase(texts_.begin());
   if (!action.text.empty()) {
     const SimTime end_ns =
         action.duration_s > 0.0 ? impl_.now_ns + from_seconds(action.duration_s) : kNever;
-    texts_.push_back({action.place, action.text, action.colour, end_ns});
+    texts_.push_back({place, action.text, action.colour, end_ns});
   }
   find_next_time();
   impl_.record(ArenaEventKind::kText, cause.name, {}, action.text, action.duration_s);
 }
 
+template <>
 void Simulation::Impl::Controller::act(const CanvasAction& action, const Cause& cause) {
   impl_.record(ArenaEventKind::kCanvas, cause.name);
   const Colour colour = action.colour.value_or(Colour{0, 0, 0, 0});
@@ -184,6 +184,7 @@ void Simulation::Impl::Controller::act(const CanvasAction& action, const Cause& 
   }
 }
 
+template <>
 void Simulation::Impl::Controller::act(const RestartAction& action, const Cause& cause) {
   const int index = robot_of(action.robot, cause.robot);
   if (index < 0) return;
@@ -206,15 +207,17 @@ bool Simulation::Impl::Controller::restart(std::size_t robot) {
   return true;
 }
 
+template <>
 void Simulation::Impl::Controller::act(const ScoreAction& action, const Cause& cause) {
   const int index = robot_of(action.robot, cause.robot);
   if (index < 0) return;
   const auto robot = static_cast<std::size_t>(index);
-  impl_.scores[robot] += action.points;
+  scores_[robot] += action.points;
   impl_.record(ArenaEventKind::kScore, cause.name, impl_.world.robots[robot].name, {},
                action.points);
 }
 
+template <>
 void Simulation::Impl::Controller::act(const SwitchAction& action, const Cause&) {
   for (const std::string& name : action.names) {
     static_cast<void>(timer_of_.contains(name) ? set_timer_enabled(name, action.on)
@@ -222,15 +225,25 @@ void Simulation::Impl::Controller::act(const SwitchAction& action, const Cause&)
   }
 }
 
+template <>
 void Simulation::Impl::Controller::act(const EndAction& action, const Cause& cause) {
-  impl_.verdict = Verdict{action.passed, action.reason, impl_.now_ns};
+  verdict_ = Verdict{action.passed, action.reason, impl_.now_ns};
   impl_.record(ArenaEventKind::kEnd, cause.name, {}, action.reason, action.passed ? 1.0 : 0.0);
 }
 
+template <>
 void Simulation::Impl::Controller::act(const MoveAction& action, const Cause&) {
   const std::optional<int> obstacle = impl_.find_obstacle(action.obstacle);
   SIM_ASSERT(obstacle.has_value() && impl_.obstacle_motions);
   impl_.obstacle_motions->move(*obstacle, action.motion);
+}
+
+void Simulation::Impl::Controller::act(const std::vector<ArenaAction>& actions,
+                                       const Cause& cause) {
+  for (const ArenaAction& action : actions) {
+    if (!may_work(cost_.of(action), cause.name)) return;
+    std::visit([&](const auto& kind) { act(kind, cause); }, action);
+  }
 }
 
 }  // namespace sim

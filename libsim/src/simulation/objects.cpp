@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Objects by name, and objects that robots carry.
+// Objects by name: where they are put, and how they look.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
@@ -9,8 +9,8 @@
 #include "sim/core/assert.h"
 #include "sim/world/limits.h"
 #include "sim/world/outline.h"
+#include "simulation/loads.h"
 #include "simulation/obstacle_motions.h"
-#include "simulation/simulation_impl.h"
 
 namespace sim {
 namespace {
@@ -42,7 +42,7 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
     return "obstacle " + name + " cannot be put there: " + title_of_body(body) + " stands there";
   }
   block = std::move(now);
-  if (block.carried_by >= 0) detach_load(index);
+  if (block.carried_by >= 0) loads->detach(index);
   physics->change_obstacle(index, block);
   if (obstacle_motions) obstacle_motions->placed(index);
   invalidate_clearances();
@@ -58,80 +58,6 @@ std::string Simulation::Impl::title_of_body(int body) const {
   return (body < physics->robot_count() ? "robot " : "obstacle ") + name_of_body(body);
 }
 
-std::optional<std::string> Simulation::Impl::pick_up(std::size_t robot, int index) {
-  ObstacleDescription& thing = obstacle(index);
-  const bool moves = thing.present_height_m.has_value();
-  if (!thing.portable || thing.state != ObstacleState::kExtended || thing.carried_by >= 0 ||
-      moves) {
-    return "obstacle " + thing.name + " cannot be taken: it is " +
-           (!thing.portable         ? "not portable"
-            : thing.carried_by >= 0 ? "carried already"
-            : moves                 ? "moving"
-                                    : "retracted");
-  }
-  thing.carried_by = static_cast<int>(robot);
-  const Pose X_WT{thing.center.x(), thing.center.y(), thing.yaw_rad};
-  loads.push_back({robot, index, body_pose(robot).inverse() * X_WT, false});
-  physics->set_extended(index, false);
-  update_load_outlines(robot);
-  invalidate_clearances();
-  return std::nullopt;
-}
-
-void Simulation::Impl::carry_at(std::size_t robot, int index, const Pose& X_BT, bool inside) {
-  for (Load& load : loads) {
-    if (load.robot != robot || load.obstacle != index) continue;
-    load.X_BT = X_BT;
-    load.inside = inside;
-  }
-  move_loads();
-  update_load_outlines(robot);
-}
-
-std::optional<std::string> Simulation::Impl::put_down(std::size_t robot, int index) {
-  ObstacleDescription& thing = obstacle(index);
-  if (thing.carried_by != static_cast<int>(robot)) {
-    return "robot " + world.robots[robot].name + " does not carry obstacle " + thing.name;
-  }
-  std::vector<Pose> poses;
-  for (int k = 0; k < physics->robot_count(); ++k) poses.push_back(physics->body(k).X_WB);
-  if (const auto what = io::put_down_blocked_by(world, poses, robot, thing)) {
-    return "obstacle " + thing.name + " cannot be put down: " + *what;
-  }
-  detach_load(index);
-  physics->change_obstacle(index, thing);
-  invalidate_clearances();
-  return std::nullopt;
-}
-
-// The obstacle stands in the pose of its description again; the caller must update the physics.
-void Simulation::Impl::detach_load(int index) {
-  const auto robot = static_cast<std::size_t>(std::exchange(obstacle(index).carried_by, -1));
-  std::erase_if(loads, [&](const Load& load) { return load.obstacle == index; });
-  physics->set_extended(index, true);
-  update_load_outlines(robot);
-}
-
-// Updates what the sensors of others see of a robot's load.
-void Simulation::Impl::update_load_outlines(std::size_t robot) {
-  std::vector<PhysicsWorld::Load> seen;
-  for (const Load& load : loads) {
-    if (load.robot != robot || load.inside) continue;
-    seen.push_back({load.obstacle, obstacle(load.obstacle)});
-    seen.back().solid_B.center = load.X_BT.position();
-    seen.back().solid_B.yaw_rad = load.X_BT.yaw_rad;
-  }
-  physics->set_load(static_cast<int>(robot), seen);
-}
-
-void Simulation::Impl::move_loads() {
-  for (const Load& load : loads) {
-    const Pose X_WT = body_pose(load.robot) * load.X_BT;
-    obstacle(load.obstacle).center = X_WT.position();
-    obstacle(load.obstacle).yaw_rad = normalize_angle(X_WT.yaw_rad);
-  }
-}
-
 std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_WB) {
   if (auto refusal = refusal_of_mirrored(i)) return refusal;
   std::vector<Pose> poses;
@@ -144,7 +70,7 @@ std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_
   }
   physics->set_pose(static_cast<int>(i), X_WB);
   robots[i].last_position = X_WB.position();  // the jump adds no path length
-  move_loads();
+  loads->follow_robots();
   for (const auto& device : robots[i].devices) device->placed(X_WB);
   invalidate_clearances();
   return std::nullopt;
@@ -175,7 +101,7 @@ std::optional<std::string> Simulation::follow_real(int robot, const Pose& X_WB) 
     impl_->robots[i].last_position = X_WB.position();
   }
   impl_->physics->set_pose(robot, X_WB);
-  impl_->move_loads();
+  impl_->loads->follow_robots();
   for (const auto& device : impl_->robots[i].devices) device->placed(X_WB);
   impl_->invalidate_clearances();
   return std::nullopt;

@@ -137,9 +137,9 @@ void Simulation::Impl::ObstacleMotions::choose_next(Moving& m) {
 void Simulation::Impl::ObstacleMotions::choose_leg(Moving& m) {
   constexpr int kTries = 100;
   const ArenaDescription& arena = impl_.world.arena;
-  const bool everywhere = m.motion.area_size.isZero(0.0);
-  const Vec2 size = everywhere ? arena.size : m.motion.area_size;
-  const Vec2 middle = everywhere ? Vec2(arena.origin + 0.5 * arena.size) : m.motion.area_center;
+  const std::optional<ObstacleMotion::Area>& area = m.motion.area;
+  const Vec2 size = area ? area->size : arena.size;
+  const Vec2 middle = area ? area->center : Vec2(arena.origin + 0.5 * arena.size);
   const Vec2 half = (0.5 * size.array() - m.radius_m).max(0.0);
   for (int i = 0; i < kTries; ++i) {
     const double yaw_rad = 2.0 * std::numbers::pi * m.random->uniform() - std::numbers::pi;
@@ -239,9 +239,9 @@ Pose Simulation::Impl::ObstacleMotions::walk(Moving& m, const Pose& X_WO, double
 // Each solid repels with its nearest point: a robot, an obstacle, a separator, a side of the
 // border, and the map's walls.
 Vec2 Simulation::Impl::ObstacleMotions::force_of_solids(const Moving& m, const Vec2& p_WO) {
-  using Kind = PhysicsWorld::Contact::Kind;
+  using FaceKind = PhysicsWorld::Contact::Kind;
   struct Nearest {
-    Kind kind;
+    FaceKind kind;
     int index;
     Vec2 offset;
   };
@@ -250,12 +250,12 @@ Vec2 Simulation::Impl::ObstacleMotions::force_of_solids(const Moving& m, const V
   impl_.physics->collect_faces(p_WO - reach, p_WO + reach, -1, faces_);
   std::vector<Nearest> solids;
   for (const PhysicsWorld::Face& face : faces_) {
-    if (face.kind == Kind::kObstacle && is_pedestrian_[static_cast<std::size_t>(face.index)]) {
+    if (face.kind == FaceKind::kObstacle && is_pedestrian_[static_cast<std::size_t>(face.index)]) {
       continue;
     }
     const Vec2 offset = p_WO - nearest_on(face, p_WO);
     const auto known = std::find_if(solids.begin(), solids.end(), [&](const Nearest& solid) {
-      return solid.kind == face.kind && solid.index == face.index && face.kind != Kind::kBorder;
+      return solid.kind == face.kind && solid.index == face.index && face.kind != FaceKind::kBorder;
     });
     if (known == solids.end()) {
       solids.push_back({face.kind, face.index, offset});

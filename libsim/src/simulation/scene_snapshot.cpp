@@ -41,10 +41,10 @@ SceneSnapshot Simulation::snapshot(bool with_canvas) const {
   for (int i = 0; i < robot_count(); ++i) scene.robots.push_back(robot_snapshot(i));
   scene.moving_blocks = moving_blocks();
   if (impl_->obstacle_motions) impl_->obstacle_motions->show(scene);
-  scene.scores = impl_->scores;
-  scene.verdict = impl_->verdict;
+  scene.scores = scores();
+  scene.verdict = verdict();
   if (impl_->controller) impl_->controller->show(scene);
-  const auto& events = impl_->events.newest;
+  const auto& events = arena_events().newest;
   const SimTime first_ns = impl_->now_ns - from_seconds(kShownEventTime_s);
   const auto is_old = [&](const ArenaEvent& event) { return event.time_ns < first_ns; };
   const auto newest = std::find_if(events.rbegin(), events.rend(), is_old);

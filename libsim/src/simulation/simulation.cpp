@@ -13,15 +13,14 @@
 #include "sim/devices/builtin.h"
 #include "sim/devices/realism.h"
 #include "sim/world/view_mode.h"
+#include "simulation/blocks.h"
 #include "simulation/controller.h"
+#include "simulation/loads.h"
 #include "simulation/obstacle_motions.h"
-#include "simulation/simulation_impl.h"
 
 namespace sim {
 namespace {
 
-constexpr std::size_t kKeptCollisions = 1024;
-constexpr std::size_t kKeptSpokenTexts = 1024;
 // Maximum reported clearance; it limits the search around a robot.
 constexpr double kClearanceLimit_m = 10.0;
 
@@ -90,13 +89,13 @@ class Simulation::Impl::Control final : public RobotControl {
     return {impl_.now_ns, body(), *impl_.physics, static_cast<int>(robot_), impl_.world};
   }
   std::optional<std::string> pick_up(int obstacle) override {
-    return impl_.pick_up(robot_, obstacle);
+    return impl_.loads->pick_up(robot_, obstacle);
   }
   void carry_at(int obstacle, const Pose& X_BT, bool inside) override {
-    impl_.carry_at(robot_, obstacle, X_BT, inside);
+    impl_.loads->carry_at(robot_, obstacle, X_BT, inside);
   }
   std::optional<std::string> put_down(int obstacle) override {
-    return impl_.put_down(robot_, obstacle);
+    return impl_.loads->put_down(robot_, obstacle);
   }
 
  private:
@@ -125,10 +124,12 @@ class Simulation::Impl::Directory final : public DeviceDirectory {
 
 Simulation::Impl::Impl(WorldDescription description, LogHook hook, bool to_be_read)
     : world(with_drives(std::move(description))),
-      log(std::move(hook)),
+      chronicle(std::move(hook)),
       physics(std::make_unique<PhysicsWorld>(world.arena)),
       layers(world.canvas),
-      view_mode(world.canvas.view_mode) {
+      view_mode(world.canvas.view_mode),
+      loads(std::make_unique<Loads>(*this)),
+      blocks(std::make_unique<Blocks>(*this)) {
   start_obstacles = world.arena.obstacles;
   for (const RobotDescription& robot : world.robots) {
     start_appearances.push_back({robot.colour, robot.fiducial});
@@ -136,16 +137,14 @@ Simulation::Impl::Impl(WorldDescription description, LogHook hook, bool to_be_re
   }
   connect_devices();
   add_moving_obstacles();
-  if (!world.controller.empty()) {
-    controller = std::make_unique<Controller>(*this);
-    scores.resize(robots.size());
+  if (!world.controller.empty()) controller = std::make_unique<Controller>(*this);
+  const auto makes_events = [](const ObstacleDescription& obstacle) {
+    return obstacle.rise_speed_mps > 0.0 || obstacle.motion ||
+           obstacle.when_blocked == WhenBlocked::kWait;
+  };
+  if (controller || std::ranges::any_of(world.arena.obstacles, makes_events)) {
+    chronicle.begin_events();
   }
-  const auto& blocks = world.arena.obstacles;
-  records_events = controller != nullptr ||
-                   std::any_of(blocks.begin(), blocks.end(), [](const ObstacleDescription& block) {
-                     return block.rise_speed_mps > 0.0 || block.motion ||
-                            block.when_blocked == WhenBlocked::kWait;
-                   });
   if (to_be_read) return;
   for (std::size_t i = 0; i < robots.size(); ++i) measure_clearance(i, kClearanceLimit_m);
 }
@@ -209,15 +208,13 @@ void Simulation::Impl::add_moving_obstacles() {
 }
 
 void Simulation::Impl::say(std::size_t robot, const std::string& text) {
-  if (spoken_texts.size() == kKeptSpokenTexts) spoken_texts.erase(spoken_texts.begin());
-  spoken_texts.push_back({now_ns, static_cast<int>(robot), text});
-  if (log) log(LogLevel::kInfo, "robot " + world.robots[robot].name + " says: " + text);
+  chronicle.add_spoken({now_ns, static_cast<int>(robot), text}, world.robots[robot].name);
 }
 
 void Simulation::Impl::reset() {
   world.arena.obstacles = start_obstacles;
-  loads.clear();
-  block_motions.clear();
+  loads->reset();
+  blocks->reset();
   for (std::size_t i = 0; i < start_appearances.size(); ++i) {
     world.robots[i].colour = start_appearances[i].colour;
     world.robots[i].fiducial = start_appearances[i].fiducial;
@@ -264,17 +261,10 @@ void Simulation::Impl::record_collisions() {
     RobotStatistics& s = robots[static_cast<std::size_t>(contact.robot)].statistics;
     ++s.collisions;
     s.least_clearance_m = 0.0;
-    if (collisions.size() == 2 * kKeptCollisions) forget_old_collisions();
     const Vec2 middle = physics->body(contact.robot).X_WB.position();
-    collisions.push_back(
+    chronicle.add_collision(
         {now_ns, contact.robot, partner_name(contact, world), contact.p_WC.value_or(middle)});
   }
-}
-
-void Simulation::Impl::forget_old_collisions() {
-  if (collisions.size() <= kKeptCollisions) return;
-  collisions.erase(collisions.begin(),
-                   collisions.end() - static_cast<std::ptrdiff_t>(kKeptCollisions));
 }
 
 void Simulation::Impl::invalidate_clearances() {
@@ -358,12 +348,12 @@ void Simulation::Impl::step() {
   act(dt_s);
   if (obstacle_motions) obstacle_motions->before_step(dt_s);
   physics->step(dt_s);
-  move_loads();
+  loads->follow_robots();
   now_ns += world.simulation.step_ns;
   ++steps;
   if (obstacle_motions) obstacle_motions->after_step();
   record_collisions();
-  if (!block_motions.empty()) move_blocks(dt_s);
+  blocks->after_step(dt_s);
   updated.clear();
   for (std::size_t i = 0; i < robots.size(); ++i) update_robot(i, dt_s);
   for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -392,7 +382,7 @@ std::uint64_t Simulation::steps() const noexcept { return impl_->steps; }
 
 bool Simulation::finished() const noexcept {
   const auto& duration = impl_->world.simulation.duration_ns;
-  return impl_->verdict.has_value() || (duration.has_value() && impl_->now_ns >= *duration);
+  return verdict().has_value() || (duration.has_value() && impl_->now_ns >= *duration);
 }
 
 const WorldDescription& Simulation::world() const noexcept { return impl_->world; }
@@ -419,12 +409,16 @@ const RobotStatistics& Simulation::statistics(int robot) const {
 }
 
 const std::vector<Collision>& Simulation::collisions() const noexcept {
-  impl_->forget_old_collisions();
-  return impl_->collisions;
+  impl_->chronicle.forget_old_collisions();
+  return impl_->chronicle.collisions();
 }
 
+bool Simulation::records_arena_events() const noexcept { return impl_->chronicle.records_events(); }
+
+const ArenaEvents& Simulation::arena_events() const noexcept { return impl_->chronicle.events(); }
+
 const std::vector<SpokenText>& Simulation::spoken_texts() const noexcept {
-  return impl_->spoken_texts;
+  return impl_->chronicle.spoken_texts();
 }
 
 int Simulation::device_count(int robot) const {

@@ -7,12 +7,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "physics/physics_world.h"
 #include "sim/devices/motion.h"
 #include "sim/devices/pen.h"
 #include "sim/simulation/simulation.h"
+#include "simulation/chronicle.h"
 #include "world/find_named.h"
 
 namespace sim {
@@ -48,9 +50,12 @@ struct Slot {
 
 struct Simulation::Impl {
   class Control;
-  class Controller;  // see controller.h
   class Directory;
-  class ObstacleMotions;  // see obstacle_motions.h
+  // Each in a header of its own name.
+  class Blocks;
+  class Controller;
+  class Loads;
+  class ObstacleMotions;
   struct Appearance {
     Colour colour;
     int fiducial;
@@ -59,18 +64,6 @@ struct Simulation::Impl {
   struct Actor {
     std::size_t robot;
     Device* device;
-  };
-  // An object that a robot carries.
-  struct Load {
-    std::size_t robot;
-    int obstacle;
-    Pose X_BT;    // pose of the object in B
-    bool inside;  // inside the robot, where no sensor sees it
-  };
-  // A block that rises, sinks or waits until it can rise.
-  struct BlockMotion {
-    int obstacle;
-    BlockPhase phase;  // kRetracted: it waits
   };
 
   // @param to_be_read  the state is read next, so nothing needs to be measured.
@@ -108,8 +101,6 @@ struct Simulation::Impl {
   // Invalidates all clearances after something was placed.
   void invalidate_clearances();
   void record_collisions();
-  // Not done with each new collision, since it moves all that are kept.
-  void forget_old_collisions();
 
   // --- Objects (objects.cpp)
   // Edits a block, unless the result is invalid; returns the reason then.
@@ -136,32 +127,11 @@ struct Simulation::Impl {
   [[nodiscard]] ObstacleDescription& obstacle(int index) {
     return world.arena.obstacles.at(static_cast<std::size_t>(index));
   }
-  [[nodiscard]] const Pose& body_pose(std::size_t robot) const {
-    return physics->body(static_cast<int>(robot)).X_WB;
-  }
-  std::optional<std::string> pick_up(std::size_t robot, int index);
-  void carry_at(std::size_t robot, int index, const Pose& X_BT, bool inside);
-  std::optional<std::string> put_down(std::size_t robot, int index);
-  // The obstacle stands in the pose of its description again; the caller must update the physics.
-  void detach_load(int index);
-  // Updates what the sensors of others see of a robot's load.
-  void update_load_outlines(std::size_t robot);
-  void move_loads();
-
-  // --- Blocks that are extended and retracted (blocks.cpp)
-  // The index of a dynamic obstacle that is not carried, or the reason why there is none.
-  std::optional<std::string> find_free_block(const std::string& name, int& index) const;
-  std::optional<std::string> set_block(int index, bool extend);
-  [[nodiscard]] BlockPhase phase_of(int index) const;
-  void move_blocks(double dt_s);
-  // Begins to extend or retract a block. @return whether it is extended or retracted at once.
-  void begin_motion(int index, BlockPhase phase);
-  void end_motion(int index);
-  void set_enabled(int index, bool extended);
   // Keeps and logs an event if the world records events.
   void record(ArenaEventKind kind, std::string what, std::string who = {}, std::string text = {},
-              double value = 0.0);
-  void archive_arena(StateArchive& archive);
+              double value = 0.0) {
+    chronicle.add_event(now_ns, kind, std::move(what), std::move(who), std::move(text), value);
+  }
 
   // --- State (state.cpp)
   // Writes or reads the state. When reading, this object must be newly constructed.
@@ -179,7 +149,7 @@ struct Simulation::Impl {
   [[nodiscard]] WorldDescription start_world() const;
   [[nodiscard]] std::uint64_t start_hash() const;
   WorldDescription world;
-  LogHook log;
+  Chronicle chronicle;
   std::unique_ptr<PhysicsWorld> physics;
   LayerStack layers;
   ViewMode view_mode;
@@ -190,17 +160,11 @@ struct Simulation::Impl {
   std::vector<Motion*> motions;    // of the robots
   std::vector<Actor> actors;       // sorted by robot and device
   bool all_actors_called = false;  // act() of all devices has been called once
-  std::vector<Load> loads;
-  std::vector<BlockMotion> block_motions;             // sorted by obstacle
+  std::unique_ptr<Loads> loads;
+  std::unique_ptr<Blocks> blocks;
   std::unique_ptr<Controller> controller;             // null: the world has none
   std::unique_ptr<ObstacleMotions> obstacle_motions;  // null: no obstacle moves
-  bool records_events = false;
-  ArenaEvents events;
-  std::vector<double> scores;  // of the robots; empty without a controller
-  std::optional<Verdict> verdict;
   std::vector<DeviceId> updated;
-  std::vector<Collision> collisions;
-  std::vector<SpokenText> spoken_texts;
   SimTime now_ns = 0;
   std::uint64_t steps = 0;
   mutable std::optional<std::uint64_t> known_start_hash;

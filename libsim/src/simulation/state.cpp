@@ -11,9 +11,10 @@
 #include "sim/simulation/world_hash.h"
 #include "sim/world/limits.h"
 #include "sim/world/view_mode.h"
+#include "simulation/blocks.h"
 #include "simulation/controller.h"
+#include "simulation/loads.h"
 #include "simulation/obstacle_motions.h"
-#include "simulation/simulation_impl.h"
 
 namespace sim {
 namespace {
@@ -113,41 +114,29 @@ void Simulation::Impl::archive_bodies(StateArchive& archive) {
   physics->archive(archive);
   for (ObstacleDescription& thing : world.arena.obstacles) archive_obstacle(archive, thing);
   for (std::size_t i = 0; i < robots.size(); ++i) archive_robot(archive, i);
-  archive.list(loads, [&](Load& load) {
-    archive.index(load.robot, robots.size());
-    archive.index(load.obstacle, world.arena.obstacles.size());
-    archive(load.X_BT, load.inside);
-    archive.expect(obstacle(load.obstacle).carried_by == static_cast<int>(load.robot),
-                   "loads of those who carry them");
-  });
+  loads->archive(archive);
   archive.list(updated, [&](DeviceId& id) {
     archive.index(id.robot, robots.size());
     archive.index(id.device, robots[static_cast<std::size_t>(id.robot)].devices.size());
   });
-  forget_old_collisions();
-  archive.list(collisions, [&](Collision& collision) {
-    archive.time(collision.time_ns);
-    archive.index(collision.robot, robots.size());
-    archive(collision.partner);
-  });
-  archive.list(spoken_texts, [&](SpokenText& spoken) {
-    archive.time(spoken.time_ns);
-    archive.index(spoken.robot, robots.size());
-    archive(spoken.text);
-  });
+  chronicle.archive(archive, robots.size());
 }
 
 void Simulation::Impl::archive_rules(StateArchive& archive) {
-  archive_arena(archive);
+  if (chronicle.records_events()) {
+    blocks->archive(archive);
+    chronicle.archive_events(archive);
+  }
+  if (controller) controller->archive(archive);
   if (obstacle_motions) obstacle_motions->archive(archive);
   if (!archive.reading()) return;
-  for (std::size_t i = 0; i < robots.size(); ++i) update_load_outlines(i);
+  for (std::size_t i = 0; i < robots.size(); ++i) loads->update_outlines(i);
 }
 
 void Simulation::Impl::archive_pictures(StateArchive& archive) {
   archive.choice(view_mode, ViewMode::kFullScreen);
   // The hash of the state excludes them, because only pictures and reports use them.
-  for (Collision& collision : collisions) archive(collision.place);
+  chronicle.archive_places(archive);
 }
 
 StateParts Simulation::state_parts() const {
@@ -221,7 +210,7 @@ Simulation SnapshotReader::read(std::span<const std::uint8_t> snapshot) const {
 }
 
 SnapshotReader Simulation::snapshot_reader() const {
-  return {impl_->start_world(), impl_->start_hash(), impl_->log};
+  return {impl_->start_world(), impl_->start_hash(), impl_->chronicle.log()};
 }
 
 void Simulation::Impl::take_over_from(Impl& before) {
@@ -235,12 +224,8 @@ void Simulation::Impl::take_over_from(Impl& before) {
   }
   now_ns = before.now_ns;
   steps = before.steps;
-  collisions = std::move(before.collisions);
-  spoken_texts = std::move(before.spoken_texts);
-  events = std::move(before.events);
-  scores = std::move(before.scores);
-  verdict = std::move(before.verdict);
-  if (controller) controller->shift_times(later_ns);
+  chronicle.take_over_from(before.chronicle);
+  if (controller) controller->take_over_from(*before.controller, later_ns);
   if (obstacle_motions) obstacle_motions->shift_times(later_ns);
   record(ArenaEventKind::kReset, "world");
   updated.clear();

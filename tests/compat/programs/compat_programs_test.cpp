@@ -369,7 +369,7 @@ class CompatPrograms : public testing::TestWithParam<Case> {
 };
 
 // A program that runs in several worlds crosses the network only in the first of them on a merge.
-TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
+TEST_P(CompatPrograms, PassInLockstep) {
   const Case& c = GetParam();
   const ProgramRun run(c);
   here_ = run.embedded();
@@ -394,7 +394,7 @@ TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
 /// do, too. All run at the same time. Their bounds leave room for a busy machine: a sleep that ends
 /// late makes a way longer, a late command may make it shorter. On a merge, every other program
 /// runs over Playpen's protocol and the rest over Player's.
-TEST(SleepingPrograms, DoWhatTheyWereWrittenForInRealTime) {
+TEST(SleepingPrograms, RealTime_Pass) {
   const std::vector<Case> sleeping = {
       {"background_thread", kCave, {"ended at"}, 1.5},
       {"bumper_maze", kPioneer, {"10 bumpers"}, 2.0, kAny, 50},
@@ -432,7 +432,7 @@ TEST(SleepingPrograms, DoWhatTheyWereWrittenForInRealTime) {
 }
 
 // Runs a program in a world for which it was not written.
-TEST(StalledProgram, IsPointedToThePageOfWorlds) {
+TEST(StalledProgram, Message_NamesPageOfWorlds) {
   const TemporaryFolder folder;
   const ProcessResult result = playpen(
       {"run", "cave", "--out", folder / "out", "--duration", "60", "--", PROGRAMS "push_wall"});
@@ -447,7 +447,7 @@ TEST(StalledProgram, IsPointedToThePageOfWorlds) {
   EXPECT_EQ(report.at("robots")[1].at("driven_time"), 0.0);
 }
 
-TEST(InterfacesOfARun, AreThoseOfTheCommandLine) {
+TEST(InterfacesOfARun, MatchCommandLine) {
   const TemporaryFolder folder;
   const auto run = [&](std::vector<std::string> options) {
     std::vector<std::string> call = {"run",          "pioneer_laser", "--out",
@@ -469,7 +469,7 @@ TEST(InterfacesOfARun, AreThoseOfTheCommandLine) {
 }
 
 // Pictures and films need OpenCV, which brings 250 libraries along: only who draws loads it.
-TEST(PlainClient, LoadsAtMost15LibrariesAndNoneThatDraws) {
+TEST(PlainClient, LoadsAtMost15LibrariesAndNoGraphics) {
   const ProcessResult result = run_process({PROGRAMS "loaded_libraries"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, Not(HasSubstr("opencv")));

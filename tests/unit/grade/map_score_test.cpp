@@ -25,7 +25,7 @@ const OccupancyMap kTruth = drawn_map({"########",  //
                                        "########"});
 const Vec2 kStart(1.5, 1.5);
 
-TEST(CellState, IsUnknownRoundAHalf) {
+TEST(CellState, UnknownAroundHalf) {
   EXPECT_EQ(cell_state(0.0F), CellState::kFree);
   EXPECT_EQ(cell_state(0.44F), CellState::kFree);
   EXPECT_EQ(cell_state(0.5F), CellState::kUnknown);
@@ -36,7 +36,7 @@ TEST(CellState, IsUnknownRoundAHalf) {
   EXPECT_EQ(cell_state(1.0F), CellState::kSolid);
 }
 
-TEST(ReachableCells, AreThoseJoinedToTheStartBySides) {
+TEST(ReachableCells, JoinedToStartBySides) {
   const std::vector<std::uint8_t> reached = reachable_cells(kTruth, kStart);
   EXPECT_EQ(std::accumulate(reached.begin(), reached.end(), 0), 12);  // 4 x 3
   // Cells that meet only at a corner are not connected.
@@ -46,14 +46,14 @@ TEST(ReachableCells, AreThoseJoinedToTheStartBySides) {
   EXPECT_EQ(one[0], 1);
 }
 
-TEST(ReachableCells, AreNoneFromASolidCellOrOffTheMap) {
+TEST(ReachableCells, SolidStartOrOffMap_None) {
   for (const Vec2& start : {Vec2(0.5, 0.5), Vec2(-1.0, 1.0), Vec2(100.0, 1.0)}) {
     const std::vector<std::uint8_t> reached = reachable_cells(kTruth, start);
     EXPECT_EQ(std::count(reached.begin(), reached.end(), 1), 0);
   }
 }
 
-TEST(ScoreMap, TheTruthItselfIsPerfect) {
+TEST(ScoreMap, Truth_ScoresPerfect) {
   const MapScore score = score_map(kTruth, kTruth, kStart);
   EXPECT_EQ(score.coverage, 1.0);
   EXPECT_EQ(score.correctness, 1.0);
@@ -61,7 +61,7 @@ TEST(ScoreMap, TheTruthItselfIsPerfect) {
   EXPECT_EQ(score.known_cells, 40U);
 }
 
-TEST(ScoreMap, WithinGivenCellsConsidersTheFreeOnesOfThem) {
+TEST(ScoreMap, Within_ConsidersFreeCellsOnly) {
   std::vector<std::uint8_t> all(kTruth.cells.size(), 1);
   const MapScore whole = score_map_within(kTruth, kTruth, all);
   EXPECT_EQ(whole.coverage, 1.0);
@@ -71,7 +71,7 @@ TEST(ScoreMap, WithinGivenCellsConsidersTheFreeOnesOfThem) {
             0.0);
 }
 
-TEST(ScoreMap, UnknownCellsCoverNothingAndAreNotJudged) {
+TEST(ScoreMap, UnknownCells_CoverNothing) {
   const OccupancyMap map = drawn_map({"????????",  //
                                       "?..?????",  //
                                       "?..?????",  //
@@ -83,7 +83,7 @@ TEST(ScoreMap, UnknownCellsCoverNothingAndAreNotJudged) {
   EXPECT_EQ(score.known_cells, 7U);
 }
 
-TEST(ScoreMap, FreeIsRightOnlyWhereTheTruthIsFree) {
+TEST(ScoreMap, Free_CorrectOnlyWhereTruthIsFree) {
   const OccupancyMap map = drawn_map({"????????",  //
                                       "?....???",  //
                                       "?....???",  //
@@ -94,7 +94,7 @@ TEST(ScoreMap, FreeIsRightOnlyWhereTheTruthIsFree) {
   EXPECT_DOUBLE_EQ(score.correctness, 13.0 / 15.0);
 }
 
-TEST(ScoreMap, SolidIsRightWithinACellOfSomethingSolid) {
+TEST(ScoreMap, Solid_CorrectWithinOneCell) {
   const OccupancyMap truth = drawn_map({".....", ".....", "..#..", ".....", "....."});
   // Beside the block, at its corner, and two cells away.
   for (const auto& [rows, correctness] : std::vector<std::pair<std::vector<std::string>, double>>{
@@ -105,14 +105,14 @@ TEST(ScoreMap, SolidIsRightWithinACellOfSomethingSolid) {
   }
 }
 
-TEST(ScoreMap, AMapThatKnowsNothingIsWorthNothing) {
+TEST(ScoreMap, UnknownMap_ScoresZero) {
   const OccupancyMap blank = drawn_map(std::vector<std::string>(5, std::string(8, '?')));
   const MapScore score = score_map(blank, kTruth, kStart);
   EXPECT_EQ(score.coverage, 0.0);
   EXPECT_EQ(score.correctness, 0.0);
 }
 
-TEST(ScoreMap, ComparesByPositionInTheWorld) {
+TEST(ScoreMap, ComparesByWorldPosition) {
   // Only the room's left part, with cells of half the size and another origin.
   OccupancyMap map = drawn_map(std::vector<std::string>(6, std::string(4, '.')), 0.5, {1.0, 1.0});
   const MapScore fine = score_map(map, kTruth, kStart);
@@ -129,7 +129,7 @@ TEST(ScoreMap, ComparesByPositionInTheWorld) {
   EXPECT_DOUBLE_EQ(score_map(coarse, kTruth, kStart).coverage, 9.0 / 12.0);
 }
 
-TEST(MakeTruth, HasTheFloorWithTheBorderRoundIt) {
+TEST(MakeTruth, HasFloorWithBorder) {
   const sim::ArenaDescription arena = sim::syrotek_arena();
   const OccupancyMap truth = make_truth(arena);
   EXPECT_EQ(truth.cell_size_m, 0.02);

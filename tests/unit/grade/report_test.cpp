@@ -66,7 +66,7 @@ Grade grade_of(std::vector<GradedRun> runs) {
   return grade;
 }
 
-TEST(Table, HasALineARunThenFaultsThenASummary) {
+TEST(Table, HasLinePerRunThenFaultsThenSummary) {
   EXPECT_EQ(table(grade_of({good_run(), crashed_run()}), {.columns = 200}),
             "world      seed        end        goal  cover  correct   path  ratio  coll  clear  "
             " sim  wall\n"
@@ -78,13 +78,13 @@ TEST(Table, HasALineARunThenFaultsThenASummary) {
             "explore: 1 of 2 runs passed\n"
             "  coverage: 0.988 to 0.988, mean 0.988\n"
             "  map correctness: 1.000 to 1.000, mean 1.000\n"
-            "  path to shortest path: 1.23 to 1.23, mean 1.23\n"
+            "  path ratio: 1.23 to 1.23, mean 1.23\n"
             "  path [m]: 12.35 to 12.35, mean 12.35\n"
             "  least clearance [m]: 0.032 to 0.032, mean 0.032\n"
             "  simulated time [s]: 61.0 to 61.0, mean 61.0\n");
 }
 
-TEST(Table, SaysWhatSeveralRunsHaveInCommonOnce) {
+TEST(Table, CommonFaults_PrintedOnce) {
   const auto failed = [](std::uint64_t seed, std::vector<std::string> faults) {
     GradedRun run = good_run();
     run.seed = seed;
@@ -104,7 +104,7 @@ TEST(Table, SaysWhatSeveralRunsHaveInCommonOnce) {
                               "explore: 1 of 6 runs passed\n"));
 }
 
-TEST(Table, AdvisesOnceForEachKindOfEnd) {
+TEST(Table, Advice_PrintedOncePerKindOfEnd) {
   GradedRun hit = good_run();
   hit.faults = {"hit"};
   GradedRun again = hit;
@@ -124,7 +124,7 @@ TEST(Table, AdvisesOnceForEachKindOfEnd) {
                               "explore: "));
 }
 
-TEST(JsonText, HasTheFirstCollisionAndWhatWasRefused) {
+TEST(JsonText, HasFirstCollisionAndRefusals) {
   GradedRun run = good_run();
   run.measures.first_collision = Contact{10.5, "border", {1.25, 3.5}};
   run.measures.commanded = {"a"};
@@ -136,7 +136,7 @@ TEST(JsonText, HasTheFirstCollisionAndWhatWasRefused) {
   EXPECT_EQ(whole.at("refused"), json({{{"time", 0.5}, {"what", "the map of the world"}}}));
 }
 
-TEST(Table, OfOneRunNeedsNoSummary) {
+TEST(Table, OneRun_HasNoSummary) {
   EXPECT_EQ(table(grade_of({good_run()}), {.columns = 200}),
             "world  seed        end        goal  cover  correct   path  ratio  coll  clear   sim  "
             "wall\n"
@@ -155,7 +155,7 @@ std::vector<std::string> rows_of(const std::vector<GradedRun>& runs, const Table
   return rows;
 }
 
-TEST(Table, HasNoColumnForWhatNoRunHasMeasured) {
+TEST(Table, UnmeasuredColumn_Omitted) {
   GradedRun run = good_run();
   run.measures.reached.reset();
   run.measures.coverage.reset();
@@ -166,7 +166,7 @@ TEST(Table, HasNoColumnForWhatNoRunHasMeasured) {
                                    "room      1  pass  by itself  12.35     0  0.032  61.0   0.2"));
 }
 
-TEST(Table, HasAColumnForPointsAndTheVerdictAsEnd) {
+TEST(Table, HasPointsAndVerdict) {
   GradedRun run = good_run();
   run.measures.reached.reset();
   run.measures.coverage.reset();
@@ -180,7 +180,7 @@ TEST(Table, HasAColumnForPointsAndTheVerdictAsEnd) {
                            "room      1  pass  verdict     -3  12.35     0  0.032  61.0   0.2"));
 }
 
-TEST(Table, LosesBlanksThenNamesThenColumnsUntilItFits) {
+TEST(Table, NarrowTerminal_DropsBlanksThenNamesThenColumns) {
   // With all columns, 7 + 4 + 4 + 9 + 4 + 5 + 7 + 5 + 5 + 4 + 5 + 4 + 4 = 67 characters and 12 gaps
   // of one blank: 79.
   GradedRun run = good_run();
@@ -207,7 +207,7 @@ TEST(Table, LosesBlanksThenNamesThenColumnsUntilItFits) {
   }
 }
 
-TEST(Table, ColoursVerdictsOnlyIfItIsToldTo) {
+TEST(Table, Colours_OnlyIfRequested) {
   const std::string plain = table(grade_of({good_run(), crashed_run()}), {.columns = 80});
   EXPECT_THAT(plain, testing::Not(HasSubstr("\033")));
   std::string coloured = table(grade_of({good_run(), crashed_run()}), {80, true});
@@ -217,7 +217,7 @@ TEST(Table, ColoursVerdictsOnlyIfItIsToldTo) {
   EXPECT_EQ(std::regex_replace(coloured, std::regex("\033\\[[0-9;]*m"), ""), plain);
 }
 
-TEST(Table, TellsEndingsInWords) {
+TEST(Table, Endings_InWords) {
   GradedRun run = good_run();
   const auto text_for = [&run](Ending ending) {
     run.ending = ending;
@@ -231,7 +231,7 @@ TEST(Table, TellsEndingsInWords) {
   EXPECT_THAT(text_for(Ending::kNotRun), HasSubstr("  not run  "));
 }
 
-TEST(JsonText, HasEverythingMeasuredAndNullForTheRest) {
+TEST(JsonText, HasAllMeasuresAndNulls) {
   const json whole = json::parse(json_text(grade_of({good_run(), crashed_run()})));
   EXPECT_EQ(whole.at("task"), "explore");
   EXPECT_EQ(whole.at("program"), json({"./robot", "--fast"}));
@@ -291,7 +291,7 @@ TEST(JsonText, HasEverythingMeasuredAndNullForTheRest) {
   }
 }
 
-TEST(JsonText, SummarizesOverTheRunsThatHaveAMeasure) {
+TEST(JsonText, Summary_CoversRunsWithMeasure) {
   GradedRun other = good_run();
   other.measures.coverage = 0.5;
   GradedRun none = crashed_run();
@@ -304,19 +304,19 @@ TEST(JsonText, SummarizesOverTheRunsThatHaveAMeasure) {
   EXPECT_TRUE(failed.at("summary").at("coverage").is_null());
 }
 
-TEST(JsonText, TakesArgumentsThatAreNoText) {
+TEST(JsonText, InvalidUtf8Arguments_Accepted) {
   Grade grade = grade_of({good_run()});
   grade.program = {"./robot", "\xff"};
   EXPECT_EQ(json::parse(json_text(grade)).at("program").at(1), "\xef\xbf\xbd");  // U+FFFD
 }
 
-TEST(NumberText, IsTellingBesideALimit) {
+TEST(NumberText, NearLimit_HasEnoughDigits) {
   EXPECT_EQ(telling_number(0.5, 0.98, 3), "0.500");
   EXPECT_EQ(telling_number(0.97996, 0.98, 3), "0.97996");
   EXPECT_EQ(telling_number(0.98, 0.98, 3), "0.980");
 }
 
-TEST(ChooseWorlds, KeepsWhatTheTaskSaysOfItsOwn) {
+TEST(ChooseWorlds, TaskSettings_Kept) {
   const TemporaryFolder folder;
   const std::string a = folder.write("a.json", "{}");
   const std::string b = folder.write("b.json", "{}");
@@ -332,7 +332,7 @@ TEST(ChooseWorlds, KeepsWhatTheTaskSaysOfItsOwn) {
   EXPECT_EQ(task.worlds[2].file, "");
 }
 
-TEST(ChooseWorlds, RefusesTwoOfTheSameName) {
+TEST(ChooseWorlds, DuplicateNames_Refused) {
   Task task;
   try {
     choose_worlds(task, {"x/room.json", "y/room.json"});

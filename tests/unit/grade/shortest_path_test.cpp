@@ -29,7 +29,7 @@ double length(const sim::OccupancyMap& map, const Vec2& start, const Vec2& goal)
   return way ? way->length_m : std::numeric_limits<double>::infinity();
 }
 
-TEST(Inflate, TakesTheDistanceFromACellsMiddleToTheSolidArea) {
+TEST(Inflate, MeasuresFromCellCentreToSolidArea) {
   const sim::OccupancyMap map = drawn_map({".....", ".....", "..#..", ".....", "....."});
   // The centre of a side neighbour is 0.5 cells away, of a corner neighbour 0.71, of the next cell
   // 1.5.
@@ -42,13 +42,13 @@ TEST(Inflate, TakesTheDistanceFromACellsMiddleToTheSolidArea) {
             drawn_map({"..#..", ".###.", "#####", ".###.", "..#.."}).cells);
 }
 
-TEST(Inflate, ReckonsInMetresAndNeedsNoSolidNeighbourhood) {
+TEST(Inflate, UsesMetres) {
   const sim::OccupancyMap map = drawn_map({"###..", "###..", "###.."}, 0.02);
   EXPECT_EQ(inflate(map, 0.011).cells, drawn_map({"####.", "####.", "####."}).cells);
   EXPECT_EQ(inflate(map, 0.0).cells, map.cells);
 }
 
-TEST(ShortestWay, IsStraightWhereNothingStands) {
+TEST(ShortestWay, FreeMap_Straight) {
   const sim::OccupancyMap map = drawn_map({".....", ".....", "....."});
   const std::optional<Way> way = shortest_way(map, {0.25, 0.25}, {4.25, 2.25});
   ASSERT_TRUE(way);
@@ -57,7 +57,7 @@ TEST(ShortestWay, IsStraightWhereNothingStands) {
   EXPECT_EQ(length(map, {1.0, 1.0}, {1.0, 1.0}), 0.0);
 }
 
-TEST(ShortestWay, TurnsAtTheCornersOfWhatIsInTheWay) {
+TEST(ShortestWay, TurnsAtCornersOfObstacles) {
   const sim::OccupancyMap map = drawn_map({".....", "..#..", "..#..", "..#..", "....."});
   // From (0.5, 2.5) around the corners (2, 4) and (3, 4), or symmetrically below, to (4.5, 2.5).
   const std::optional<Way> way = shortest_way(map, {0.5, 2.5}, {4.5, 2.5});
@@ -70,7 +70,7 @@ TEST(ShortestWay, TurnsAtTheCornersOfWhatIsInTheWay) {
   EXPECT_EQ(way->points[1].x(), 2.0);
 }
 
-TEST(ShortestWay, IsLongerWhereADeadEndLures) {
+TEST(ShortestWay, DeadEnd_Avoided) {
   const sim::OccupancyMap map =
       drawn_map({".......", ".####..", "....#..", "....#..", ".####..", "......."});
   // Out of the pocket to the left, over the corners (1, 5) and (5, 5), down to the right.
@@ -78,7 +78,7 @@ TEST(ShortestWay, IsLongerWhereADeadEndLures) {
               std::hypot(2.5, 1.0) + 1.0 + 4.0 + std::hypot(1.5, 2.0), kRounding_m);
 }
 
-TEST(ShortestWay, DoesNotSlipBetweenCellsThatMeetAtACorner) {
+TEST(ShortestWay, DiagonalGap_Closed) {
   const sim::OccupancyMap closed = drawn_map({"..#", ".#.", "#.."});
   EXPECT_FALSE(shortest_way(closed, {0.5, 2.5}, {2.5, 0.5}));
   const sim::OccupancyMap mirrored = drawn_map({"#..", ".#.", "..#"});
@@ -89,19 +89,19 @@ TEST(ShortestWay, DoesNotSlipBetweenCellsThatMeetAtACorner) {
   EXPECT_FALSE(shortest_way(upright, {0.2, 1.0}, {1.8, 1.0}));
 }
 
-TEST(ShortestWay, MayRunAlongASolidSideButNotBetweenTwo) {
+TEST(ShortestWay, SolidSide_PassableOnOneSideOnly) {
   EXPECT_NEAR(length(drawn_map({"###", "..."}), {0.5, 1.0}, {2.5, 1.0}), 2.0, 1e-12);
   EXPECT_FALSE(shortest_way(drawn_map({".#.", ".#."}), {0.5, 1.0}, {2.5, 1.0}));
 }
 
-TEST(ShortestWay, KnowsOriginAndSizeOfCells) {
+TEST(ShortestWay, UsesOriginAndCellSize) {
   const sim::OccupancyMap map = drawn_map({".....", "..#..", "..#.."}, 0.1, {-5.0, 7.0});
   // In cells from (0.5, 1) over (2, 2) and (3, 2) to (4.5, 1).
   EXPECT_NEAR(length(map, {-4.95, 7.1}, {-4.55, 7.1}), 0.1 * (2.0 * std::hypot(1.5, 1.0) + 1.0),
               0.1 * kRounding_m);
 }
 
-TEST(ShortestWay, EndsInSolidCellsAreJoinedToTheNearestFreeOneWithinReach) {
+TEST(ShortestWay, SolidEnds_MovedToNearestFreeCell) {
   const sim::OccupancyMap map = drawn_map({"#...", "#...", "#..."});
   EXPECT_FALSE(shortest_way(map, {0.5, 1.5}, {3.5, 1.5}));
   EXPECT_FALSE(shortest_way(map, {0.5, 1.5}, {3.5, 1.5}, 0.99));
@@ -201,7 +201,7 @@ class SlowSearch {
   std::vector<Vec2> slits_;  ///< where two solid cells meet at a corner
 };
 
-TEST(ShortestWay, AgreesWithASlowSearchOnRandomMaps) {
+TEST(ShortestWay, RandomMaps_MatchSlowSearch) {
   std::mt19937 random(7);  // the same numbers everywhere, as the standard fixes this engine
   int ways = 0;
   for (unsigned trial = 0; trial < 120; ++trial) {
@@ -222,7 +222,7 @@ TEST(ShortestWay, AgreesWithASlowSearchOnRandomMaps) {
   EXPECT_LT(ways, 120);
 }
 
-TEST(ShortestWay, IsTheSameBackwards) {
+TEST(ShortestWay, Reversed_SameLength) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 50; ++trial) {
     sim::OccupancyMap map = drawn_map(std::vector<std::string>(10, std::string(10, '.')));

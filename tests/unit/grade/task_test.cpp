@@ -50,7 +50,7 @@ class TaskTest : public testing::Test {
   std::string b_ = folder_.write("b.json", "{}");
 };
 
-TEST_F(TaskTest, NeedsWorldsOnlyAndHasDefaults) {
+TEST_F(TaskTest, Minimal_HasDefaults) {
   const Task task = read(R"({"worlds": ["a.json"]})");
   EXPECT_EQ(task.name, "test");
   ASSERT_THAT(task.worlds, SizeIs(1));
@@ -76,7 +76,7 @@ TEST_F(TaskTest, NeedsWorldsOnlyAndHasDefaults) {
   EXPECT_FALSE(t.must_pass);
 }
 
-TEST_F(TaskTest, ReadsEverySetting) {
+TEST_F(TaskTest, AllSettings_Read) {
   const Task task = read(R"({
     "$schema": "../schema/task.schema.json",
     "description": "what to do",  // a comment
@@ -138,11 +138,11 @@ TEST_F(TaskTest, ReadsEverySetting) {
   EXPECT_THAT(task.may_use->world, ElementsAre("map", "arena"));
 }
 
-TEST_F(TaskTest, SeedsMayBeANumberOfThem) {
+TEST_F(TaskTest, Seeds_MayBeCount) {
   EXPECT_THAT(read(R"({"worlds": ["a.json"], "seeds": 3})").seeds, ElementsAre(1, 2, 3));
 }
 
-TEST_F(TaskTest, ReadsAFileWhereItLies) {
+TEST_F(TaskTest, File_ResolvesItsPaths) {
   const std::string file = folder_.write("sub/mine.task.json", R"({"worlds": ["../a.json"]})");
   const Task task = read_task(file);
   EXPECT_EQ(task.name, "mine");
@@ -281,7 +281,7 @@ const BadTask kBadTasks[] = {
 
 class BadTaskTest : public TaskTest, public testing::WithParamInterface<BadTask> {};
 
-TEST_P(BadTaskTest, IsRefusedWithIdPlaceAndReason) {
+TEST_P(BadTaskTest, RefusedWithIdPlaceAndReason) {
   const BadTask& bad = GetParam();
   const bool whole = bad.text.starts_with('{') || bad.text.starts_with('[');
   const auto issues = issues_of(whole ? bad.text : "{\"worlds\": [\"a.json\"], " + bad.text + "}");
@@ -300,7 +300,7 @@ INSTANTIATE_TEST_SUITE_P(Faults, BadTaskTest, testing::ValuesIn(kBadTasks),
                            return std::string(bad.param.name);
                          });
 
-TEST_F(TaskTest, AllFaultsOfAFileAreReportedTogether) {
+TEST_F(TaskTest, SeveralFaults_ReportedTogether) {
   EXPECT_THAT(issues_of(R"({"worlds": ["c.json"], "seeds": -1, "thresholds": {"x": 1}})"),
               SizeIs(3));
 }
@@ -315,7 +315,7 @@ std::map<std::string, std::set<std::string>> keys_of_reader() {
   });
 }
 
-TEST(TaskSchema, HasTheKeysThatTheReaderKnowsAndExplainsEach) {
+TEST(TaskSchema, HasAllKeysWithDescriptions) {
   std::ifstream stream(std::string(PLAYPEN_SOURCE_DIR) + "/worlds/schema/task.schema.json");
   const json root = json::parse(stream);
   const std::map<std::string, std::string> definitions{{"", ""},
@@ -343,7 +343,7 @@ TEST(TaskSchema, HasTheKeysThatTheReaderKnowsAndExplainsEach) {
   }
 }
 
-TEST(ShippedTasks, AreReadAndTheirWorldsToo) {
+TEST(ShippedTasks, ReadWithTheirWorlds) {
   int tasks = 0;
   for (const fs::directory_entry& entry :
        fs::directory_iterator(std::string(PLAYPEN_SOURCE_DIR) + "/worlds/tasks")) {
@@ -359,7 +359,7 @@ TEST(ShippedTasks, AreReadAndTheirWorldsToo) {
   EXPECT_GE(tasks, 3);
 }
 
-TEST(WorldName, IsThatOfTheFileWithoutFolderAndEnding) {
+TEST(WorldName, FileNameWithoutFolderAndExtension) {
   EXPECT_EQ(world_name("a/b/room.json"), "room");
   EXPECT_EQ(world_name(""), "default");
 }

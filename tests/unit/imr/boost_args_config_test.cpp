@@ -39,7 +39,7 @@ void parse(imr::CConfig& config, const std::string& prefix, std::vector<const ch
   po::notify(variables);
 }
 
-TEST(BoostArgs, FillAConfiguration) {
+TEST(BoostArgs, FillConfiguration) {
   imr::CConfig config;
   parse(get_config(config), "", {"--port", "6665", "--x=-1.5", "--coords", "true"});
   EXPECT_EQ(config.get<std::string>("host"), "localhost");
@@ -48,7 +48,7 @@ TEST(BoostArgs, FillAConfiguration) {
   EXPECT_EQ(config.get<double>("x"), -1.5);
 }
 
-TEST(BoostArgs, GoBeforeAFileAndThatBeforeDefaults) {
+TEST(BoostArgs, OverrideFileAndDefaults) {
   imr::CConfig config;
   parse(get_config(config), "", {"--port", "6665"}, "port = 7000\nhost = arena\n");
   EXPECT_EQ(config.get<int>("port"), 6665);
@@ -56,13 +56,13 @@ TEST(BoostArgs, GoBeforeAFileAndThatBeforeDefaults) {
   EXPECT_THROW(config.get<double>("x"), imr::exception) << "nobody has given it a value";
 }
 
-TEST(BoostArgs, MayHaveAPrefix) {
+TEST(BoostArgs, Prefix_Accepted) {
   imr::CConfig config;
   parse(get_config(config), "robot-", {"--robot-port", "6666"});
   EXPECT_EQ(config.get<int>("port"), 6666);
 }
 
-TEST(BoostArgs, AreShownWithTheirDefaults) {
+TEST(BoostArgs, Help_ShowsDefaults) {
   imr::CConfig config;
   po::options_description options("Robot");
   std::ostringstream help;
@@ -70,7 +70,7 @@ TEST(BoostArgs, AreShownWithTheirDefaults) {
   EXPECT_THAT(help.str(), AllOf(HasSubstr("--port arg (=4000)"), HasSubstr("of the server")));
 }
 
-TEST(BoostArgs, OfTheWrongTypeAreRefused) {
+TEST(BoostArgs, WrongType_Refused) {
   imr::CConfig config;
   get_config(config);
   try {

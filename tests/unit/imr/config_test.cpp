@@ -122,14 +122,14 @@ TEST_F(Config, GivesDefaults) {
   EXPECT_EQ(config_.get<double>("x"), 0.0);
 }
 
-TEST_F(Config, AddTwiceIsRefused) {
+TEST_F(Config, AddTwice_Refused) {
   EXPECT_EQ(message_of([&] { config_.add<int>("port", "again", 1); }),
             "option 'port' is added twice");
   EXPECT_THROW(config_.add<double>("port", "again"), imr::exception);
   EXPECT_EQ(config_.get<int>("port"), 4000);
 }
 
-TEST_F(Config, AddRefusesNamesThatCouldNotBeGiven) {
+TEST_F(Config, Add_RefusesInvalidNames) {
   for (const char* name : {"", "-x", "--x", "a b", "a=b", "#a", "help", "h", "a\n", ".a", "_"}) {
     EXPECT_THROW(config_.add<int>(name, "", 0), imr::exception) << name;
     EXPECT_FALSE(config_.has(name)) << name;
@@ -138,7 +138,7 @@ TEST_F(Config, AddRefusesNamesThatCouldNotBeGiven) {
   EXPECT_TRUE(config_.has("laser-index_2.b"));
 }
 
-TEST_F(Config, GetOfAnotherTypeIsRefused) {
+TEST_F(Config, GetOfOtherType_Refused) {
   EXPECT_EQ(message_of([&] { config_.get<double>("port"); }),
             "option 'port' is of type int, but is read as double");
   EXPECT_THROW(config_.get<unsigned>("port"), imr::exception);
@@ -146,13 +146,13 @@ TEST_F(Config, GetOfAnotherTypeIsRefused) {
   EXPECT_THROW(config_.get<std::string>("port"), imr::exception);
 }
 
-TEST_F(Config, GetOfAnUnknownNameSuggestsTheNearest) {
+TEST_F(Config, GetOfUnknownName_SuggestsNearest) {
   EXPECT_EQ(message_of([&] { config_.get<int>("Prt"); }),
             "unknown option 'Prt'; did you mean 'port'?");
   EXPECT_EQ(message_of([&] { config_.get<int>("velocity"); }), "unknown option 'velocity'");
 }
 
-TEST_F(Config, RequiredOptionHasNoValueUntilSet) {
+TEST_F(Config, RequiredOption_EmptyUntilSet) {
   config_.add<double>("speed", "forward speed");
   EXPECT_EQ(message_of([&] { config_.get<double>("speed"); }), "missing required option '--speed'");
   EXPECT_THROW(config_.check_required(), imr::exception);
@@ -161,7 +161,7 @@ TEST_F(Config, RequiredOptionHasNoValueUntilSet) {
   EXPECT_NO_THROW(config_.check_required());
 }
 
-TEST_F(Config, SetTakesTextAndTypedValues) {
+TEST_F(Config, Set_AcceptsTextAndTypedValues) {
   config_.set("port", "6665");
   EXPECT_EQ(config_.get<int>("port"), 6665);
   config_.set("port", 6666);
@@ -176,7 +176,7 @@ TEST_F(Config, SetTakesTextAndTypedValues) {
   EXPECT_TRUE(config_.get<bool>("coords"));
 }
 
-TEST_F(Config, SetRefusesWrongTypesNamesAndTexts) {
+TEST_F(Config, Set_RefusesWrongTypesNamesAndTexts) {
   EXPECT_EQ(message_of([&] { config_.set("x", 2); }),
             "option 'x' is of type double, but is set to a value of type int");
   EXPECT_EQ(message_of([&] { config_.set("port", "12abc"); }),
@@ -189,7 +189,7 @@ TEST_F(Config, SetRefusesWrongTypesNamesAndTexts) {
   EXPECT_EQ(config_.get<std::string>("host"), "localhost");
 }
 
-TEST(ConfigTypes, AllReadTheirTexts) {
+TEST(ConfigTypes, ParseTheirTexts) {
   CConfig config;
   config.add<bool>("bool", "", false);
   config.add<short>("short", "", short{0});
@@ -232,7 +232,7 @@ TEST(ConfigTypes, AllReadTheirTexts) {
   EXPECT_TRUE(std::isinf(config.get<double>("double")));
 }
 
-TEST(ConfigTypes, WrongTextsAreRefusedAndLeaveTheValue) {
+TEST(ConfigTypes, WrongText_RefusedAndValueKept) {
   CConfig config;
   config.add<bool>("bool", "", true);
   config.add<int>("int", "", 5);
@@ -267,7 +267,7 @@ TEST(ConfigTypes, WrongTextsAreRefusedAndLeaveTheValue) {
   EXPECT_EQ(config.get<char>("char"), 'a');
 }
 
-TEST(ConfigTypes, MessagesSayWhatIsExpected) {
+TEST(ConfigTypes, Messages_SayWhatIsExpected) {
   CConfig config;
   config.add<bool>("b", "", true);
   config.add<int>("i", "", 5);
@@ -285,33 +285,33 @@ TEST(ConfigTypes, MessagesSayWhatIsExpected) {
             "option 'p': 'here' is not a value of type course::Point");
 }
 
-TEST_F(Config, CommandLineTakesBothFormsOfValues) {
+TEST_F(Config, CommandLine_AcceptsBothFormsOfValues) {
   EXPECT_TRUE(parse(config_, {"--host", "s1", "--port=6665", "--x", "-0.5"}));
   EXPECT_EQ(config_.get<std::string>("host"), "s1");
   EXPECT_EQ(config_.get<int>("port"), 6665);
   EXPECT_EQ(config_.get<double>("x"), -0.5);
 }
 
-TEST_F(Config, CommandLineOfNothingKeepsDefaults) {
+TEST_F(Config, EmptyCommandLine_KeepsDefaults) {
   EXPECT_TRUE(parse(config_, {}));
   EXPECT_TRUE(config_.parse_command_line(0, nullptr));
   EXPECT_EQ(config_.get<int>("port"), 4000);
 }
 
-TEST_F(Config, JoinedValueIsTakenAsItStands) {
+TEST_F(Config, JoinedValue_TakenUnchanged) {
   EXPECT_TRUE(parse(config_, {"--host=--a=b "}));
   EXPECT_EQ(config_.get<std::string>("host"), "--a=b ");
   EXPECT_TRUE(parse(config_, {"--host="}));
   EXPECT_EQ(config_.get<std::string>("host"), "");
 }
 
-TEST_F(Config, LastOfSeveralValuesHolds) {
+TEST_F(Config, RepeatedOption_LastCounts) {
   EXPECT_TRUE(parse(config_, {"--port", "1", "--port=2", "--coords", "--no-coords"}));
   EXPECT_EQ(config_.get<int>("port"), 2);
   EXPECT_FALSE(config_.get<bool>("coords"));
 }
 
-TEST_F(Config, BoolOptionsWorkAsFlagsAndWithValues) {
+TEST_F(Config, BoolOptions_AcceptFlagAndValue) {
   const auto coords_after = [&](const std::vector<std::string>& arguments) {
     EXPECT_TRUE(parse(config_, arguments));
     return config_.get<bool>("coords");
@@ -326,14 +326,14 @@ TEST_F(Config, BoolOptionsWorkAsFlagsAndWithValues) {
   EXPECT_EQ(config_.get<int>("port"), 5);
 }
 
-TEST_F(Config, NegatedBoolTakesNoValue) {
+TEST_F(Config, NegatedBool_TakesNoValue) {
   EXPECT_EQ(message_of([&] { parse(config_, {"--no-coords=true"}); }),
             "command line: option '--no-coords' takes no value");
   EXPECT_THROW(parse(config_, {"--no-coords", "true"}), imr::exception);
   EXPECT_THROW(parse(config_, {"--no-port"}), imr::exception);
 }
 
-TEST_F(Config, OptionWhoseNameBeginsWithNoIsNotANegation) {
+TEST_F(Config, NameThatBeginsWithNo_NotNegation) {
   config_.add<int>("no-x", "number of x", 1);
   config_.add<bool>("no-map", "drive without a map", false);
   EXPECT_TRUE(parse(config_, {"--no-x", "3", "--no-map"}));
@@ -341,7 +341,7 @@ TEST_F(Config, OptionWhoseNameBeginsWithNoIsNotANegation) {
   EXPECT_TRUE(config_.get<bool>("no-map"));
 }
 
-TEST_F(Config, UnknownOptionsAreRefusedWithTheNearestName) {
+TEST_F(Config, UnknownOption_SuggestsNearest) {
   EXPECT_EQ(message_of([&] {
               parse(config_, {"--prot", "5"});
             }),
@@ -359,7 +359,7 @@ TEST_F(Config, UnknownOptionsAreRefusedWithTheNearestName) {
   EXPECT_THROW(parse(config_, {"--=5"}), imr::exception);
 }
 
-TEST_F(Config, StrayArgumentsAreRefused) {
+TEST_F(Config, StrayArgument_Refused) {
   EXPECT_EQ(message_of([&] { parse(config_, {"map.png"}); }),
             "command line: unexpected argument 'map.png'");
   EXPECT_EQ(message_of([&] {
@@ -376,14 +376,14 @@ TEST_F(Config, StrayArgumentsAreRefused) {
   EXPECT_NO_THROW(parse(config_, {"--"}));
 }
 
-TEST_F(Config, MissingValuesAreRefused) {
+TEST_F(Config, MissingValue_Refused) {
   EXPECT_EQ(message_of([&] { parse(config_, {"--port"}); }),
             "command line: option '--port' needs a value (a whole number)");
   EXPECT_THROW(parse(config_, {"--host", "--port", "5"}), imr::exception);
   EXPECT_THROW(parse(config_, {"--port="}), imr::exception);
 }
 
-TEST_F(Config, WrongValuesAreRefused) {
+TEST_F(Config, WrongValue_Refused) {
   EXPECT_EQ(message_of([&] {
               parse(config_, {"--port", "12abc"});
             }),
@@ -392,12 +392,12 @@ TEST_F(Config, WrongValuesAreRefused) {
   EXPECT_THROW(parse(config_, {"--coords=maybe"}), imr::exception);
 }
 
-TEST_F(Config, WrongCommandLineChangesNothing) {
+TEST_F(Config, WrongCommandLine_ChangesNothing) {
   EXPECT_THROW(parse(config_, {"--host", "s1", "--port", "x"}), imr::exception);
   EXPECT_EQ(config_.get<std::string>("host"), "localhost");
 }
 
-TEST_F(Config, MissingRequiredOptionsAreAllNamed) {
+TEST_F(Config, MissingRequiredOptions_AllNamed) {
   config_.add<std::string>("map", "map file");
   config_.add<double>("speed", "forward speed");
   EXPECT_EQ(message_of([&] {
@@ -413,7 +413,7 @@ TEST_F(Config, MissingRequiredOptionsAreAllNamed) {
   EXPECT_EQ(config_.get<std::string>("map"), "m.png");
 }
 
-TEST_F(Config, MissingRequiredOptionsMayComeLater) {
+TEST_F(Config, MissingRequiredOptions_MayBeSetLater) {
   config_.add<std::string>("map", "map file");
   EXPECT_TRUE(parse(config_, {"--port", "5"}, CConfig::UnknownArguments::kError,
                     CConfig::MissingOptions::kAllow));
@@ -421,7 +421,7 @@ TEST_F(Config, MissingRequiredOptionsMayComeLater) {
   EXPECT_THROW(config_.check_required(), imr::exception);
 }
 
-TEST_F(Config, UnknownArgumentsMayBeKept) {
+TEST_F(Config, UnknownArguments_KeptIfAllowed) {
   EXPECT_TRUE(parse(config_, {"a", "--port", "5", "--other=1", "-v", "--", "--x", "b"},
                     CConfig::UnknownArguments::kKeep));
   EXPECT_EQ(config_.get<int>("port"), 5);
@@ -431,7 +431,7 @@ TEST_F(Config, UnknownArgumentsMayBeKept) {
   EXPECT_THAT(config_.positional(), IsEmpty());
 }
 
-TEST_F(Config, HelpIsPrintedAndEndsTheProgram) {
+TEST_F(Config, Help_PrintedAndExits) {
   config_.add<double>("speed", "forward speed");
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"--help"}, {"-h"}, {"--unknown", "-h"}, {"--port", "-h"}}) {
@@ -442,7 +442,7 @@ TEST_F(Config, HelpIsPrintedAndEndsTheProgram) {
   EXPECT_TRUE(parse(config_, {"--speed", "1", "--", "-h"}, CConfig::UnknownArguments::kKeep));
 }
 
-TEST_F(Config, HelpIsATableInOrderOfDeclaration) {
+TEST_F(Config, Help_TableInOrderOfDeclaration) {
   config_.add<double>("speed", "forward speed");
   config_.add<std::string>("log", "log file\nno log if empty", "");
   EXPECT_EQ(config_.help("robot"),
@@ -459,7 +459,7 @@ TEST_F(Config, HelpIsATableInOrderOfDeclaration) {
             "  -h, --help                         show this help and exit\n");
 }
 
-TEST_F(Config, HelpWrapsLongDescriptions) {
+TEST_F(Config, Help_WrapsLongDescriptions) {
   std::string description = "start";
   for (int i = 0; i < 60; ++i) {
     description += " word";
@@ -478,12 +478,12 @@ TEST_F(Config, HelpWrapsLongDescriptions) {
   EXPECT_EQ(words, 60);
 }
 
-TEST_F(Config, HelpShowsTheDefaultNotTheCurrentValue) {
+TEST_F(Config, Help_ShowsDefaultNotValue) {
   config_.set("port", 5);
   EXPECT_THAT(config_.help(), HasSubstr("4000"));
 }
 
-TEST_F(Config, HelpShowsDefaultsOfTheProgramsOwnTypes) {
+TEST_F(Config, Help_ShowsDefaultsOfCustomTypes) {
   config_.add<course::Point>("goal", "", course::Point{1.5, 2.0});
   config_.add<course::ReadOnly>("secret", "", course::ReadOnly{5});
   const std::string help = config_.help();
@@ -491,7 +491,7 @@ TEST_F(Config, HelpShowsDefaultsOfTheProgramsOwnTypes) {
   EXPECT_THAT(help, HasSubstr("course::ReadOnly  (set)"));
 }
 
-TEST_F(Config, FileFillsOptions) {
+TEST_F(Config, File_FillsOptions) {
   const TemporaryFile file(
       "\xEF\xBB\xBF# settings of the robot\r\n"
       "\r\n"
@@ -506,13 +506,13 @@ TEST_F(Config, FileFillsOptions) {
   EXPECT_EQ(config_.get<double>("x"), -1.5);
 }
 
-TEST_F(Config, EmptyFileChangesNothing) {
+TEST_F(Config, EmptyFile_ChangesNothing) {
   const TemporaryFile file("");
   config_.load_file(file.path());
   EXPECT_EQ(config_.get<int>("port"), 4000);
 }
 
-TEST_F(Config, FileValuesMayBeQuoted) {
+TEST_F(Config, FileValues_MayBeQuoted) {
   const auto host_of = [&](const std::string& value) {
     const TemporaryFile file("host = " + value + "\n");
     config_.load_file(file.path());
@@ -526,7 +526,7 @@ TEST_F(Config, FileValuesMayBeQuoted) {
   EXPECT_EQ(host_of("it's \"fine\""), "it's \"fine\"");
 }
 
-TEST_F(Config, FileErrorsNameFileLineAndCause) {
+TEST_F(Config, FileErrors_NameFileLineAndCause) {
   EXPECT_EQ(file_error("host = a\n\n# b\nport = 12abc\n"),
             "4: option 'port': '12abc' is not a whole number");
   EXPECT_EQ(file_error("prot = 5\n"), "1: unknown option 'prot'; did you mean 'port'?");
@@ -543,12 +543,12 @@ TEST_F(Config, FileErrorsNameFileLineAndCause) {
   EXPECT_THAT(file_error(std::string("port = 1\0\n", 10)), StartsWith("1: option 'port'"));
 }
 
-TEST_F(Config, WrongFileChangesNothing) {
+TEST_F(Config, WrongFile_ChangesNothing) {
   file_error("host = other\nport = x\n");
   EXPECT_EQ(config_.get<std::string>("host"), "localhost");
 }
 
-TEST_F(Config, FileThatCannotBeReadIsRefused) {
+TEST_F(Config, UnreadableFile_Refused) {
   const std::string missing = testing::TempDir() + "no_such_folder/robot.cfg";
   const std::string message = message_of([&] { config_.load_file(missing); });
   EXPECT_THAT(message, HasSubstr(missing));
@@ -557,7 +557,7 @@ TEST_F(Config, FileThatCannotBeReadIsRefused) {
   EXPECT_THROW(config_.load_file(""), imr::exception);
 }
 
-TEST_F(Config, CommandLineBeatsTheFileInEitherOrder) {
+TEST_F(Config, CommandLine_OverridesFileInEitherOrder) {
   const TemporaryFile file("port = 1\nhost = filehost\n");
   config_.load_file(file.path());
   parse(config_, {"--port", "2"});
@@ -567,7 +567,7 @@ TEST_F(Config, CommandLineBeatsTheFileInEitherOrder) {
   EXPECT_EQ(config_.get<std::string>("host"), "filehost");
 }
 
-TEST_F(Config, ProgramsOwnValueReplacesOthersAndIsReplacedByALaterFile) {
+TEST_F(Config, SetValue_OverridesUntilLaterFile) {
   const TemporaryFile file("port = 1\n");
   parse(config_, {"--port", "2"});
   config_.set("port", 3);
@@ -576,7 +576,7 @@ TEST_F(Config, ProgramsOwnValueReplacesOthersAndIsReplacedByALaterFile) {
   EXPECT_EQ(config_.get<int>("port"), 1);
 }
 
-TEST_F(Config, FileMaySupplyRequiredOptions) {
+TEST_F(Config, File_SuppliesRequiredOptions) {
   config_.add<double>("speed", "forward speed");
   const TemporaryFile file("speed = 0.3\n");
   config_.load_file(file.path());
@@ -584,7 +584,7 @@ TEST_F(Config, FileMaySupplyRequiredOptions) {
   EXPECT_EQ(config_.get<double>("speed"), 0.3);
 }
 
-TEST_F(Config, MayBeUsedByManyThreads) {
+TEST_F(Config, ManyThreads_MayUseIt) {
   constexpr int kRounds = 200;
   std::vector<std::thread> threads;
   for (int i = 0; i < 3; ++i) {
@@ -609,7 +609,7 @@ TEST_F(Config, MayBeUsedByManyThreads) {
   }
 }
 
-TEST_F(Config, TellsWhatItsOptionsAre) {
+TEST_F(Config, Options_DescribeThemselves) {
   CConfig config;
   config.add<std::string>("host", "where", "localhost");
   config.add<std::string>("title", "of the window", "");

@@ -29,7 +29,7 @@ std::string message_of(const Function& function) {
   return {};
 }
 
-TEST(ImrException, IsAStandardExceptionWithTheMessage) {
+TEST(ImrException, StandardExceptionWithMessage) {
   static_assert(std::is_base_of<std::exception, imr::exception>::value, "");
   static_assert(std::is_nothrow_copy_constructible<imr::exception>::value, "");
   try {
@@ -39,9 +39,9 @@ TEST(ImrException, IsAStandardExceptionWithTheMessage) {
   }
 }
 
-TEST(ImrException, WithoutMessageStillSaysSomething) { EXPECT_STRNE(imr::exception().what(), ""); }
+TEST(ImrException, EmptyMessage_ReplacedByText) { EXPECT_STRNE(imr::exception().what(), ""); }
 
-TEST(AssertArgument, HoldsForTrueConditions) {
+TEST(AssertArgument, TrueCondition_Passes) {
   const int object = 1;
   const int* pointer = &object;
   EXPECT_NO_THROW(imr::assert_argument(true, "m"));
@@ -50,7 +50,7 @@ TEST(AssertArgument, HoldsForTrueConditions) {
   EXPECT_NO_THROW(imr::assert_argument(7, std::string("m")));
 }
 
-TEST(AssertArgument, ThrowsTheMessageForFalseConditions) {
+TEST(AssertArgument, FalseCondition_ThrowsMessage) {
   const int* pointer = nullptr;
   EXPECT_EQ(message_of([] { imr::assert_argument(false, "bad"); }), "bad");
   EXPECT_EQ(message_of([&] { imr::assert_argument(pointer, "no laser"); }), "no laser");
@@ -59,25 +59,25 @@ TEST(AssertArgument, ThrowsTheMessageForFalseConditions) {
   EXPECT_EQ(message_of([] { imr::assert_argument(0, std::string("zero")); }), "zero");
 }
 
-TEST(AssertArgument, ReplacesAMissingMessage) {
+TEST(AssertArgument, MissingMessage_Replaced) {
   const char* none = nullptr;
   EXPECT_EQ(message_of([&] { imr::assert_argument(false, none); }), "invalid argument");
   EXPECT_EQ(message_of([] { imr::assert_argument(false, ""); }), "invalid argument");
 }
 
-TEST(ImrAssert, NamesPlaceAndCondition) {
+TEST(ImrAssert, Message_NamesPlaceAndCondition) {
   const int line = __LINE__ + 1;
   const std::string message = message_of([] { IMR_ASSERT(1 + 1 == 3); });
   EXPECT_THAT(message, HasSubstr("exceptions_test.cpp:" + std::to_string(line) + ": "));
   EXPECT_THAT(message, EndsWith("assertion '1 + 1 == 3' failed"));
 }
 
-TEST(ImrAssert, AcceptsConditionsWithCommas) {
+TEST(ImrAssert, ConditionWithCommas_Accepted) {
   EXPECT_NO_THROW(IMR_ASSERT(std::is_same<std::pair<int, int>, std::pair<int, int>>::value));
   EXPECT_THROW(IMR_ASSERT(std::is_same<int, long>::value), imr::exception);
 }
 
-TEST(ImrAssert, EvaluatesTheConditionOnce) {
+TEST(ImrAssert, Condition_EvaluatedOnce) {
   int count = 0;
   IMR_ASSERT(++count > 0);
   IMR_ASSERT_MSG(++count > 0, "");
@@ -85,7 +85,7 @@ TEST(ImrAssert, EvaluatesTheConditionOnce) {
   EXPECT_EQ(count, 3);
 }
 
-TEST(ImrAssert, PutsTheMessageTogetherOnFailureOnly) {
+TEST(ImrAssert, Message_BuiltOnFailureOnly) {
   int evaluated = 0;
   const auto value = [&] { return ++evaluated; };
   IMR_ASSERT_MSG(true, "value " << value());
@@ -95,7 +95,7 @@ TEST(ImrAssert, PutsTheMessageTogetherOnFailureOnly) {
               EndsWith("assertion 'false' failed: value 1, 2"));
 }
 
-TEST(ImrAssert, ArgumentCheckTakesPointers) {
+TEST(ImrAssert, ArgumentCheck_AcceptsPointers) {
   const double* speed = nullptr;
   EXPECT_THAT(message_of([&] { ASSERT_ARGUMENT(speed, "no speed"); }),
               EndsWith("argument check 'speed' failed: no speed"));
@@ -122,7 +122,7 @@ bool throws(const Function& function) {
   return false;
 }
 
-TEST(ImrException, KindsCanBeCaughtAloneOrTogether) {
+TEST(ImrException, Kinds_CaughtAloneOrTogether) {
   EXPECT_TRUE(throws<imr::argument_error>([] { imr::assert_argument(false, "m"); }));
   EXPECT_FALSE(throws<imr::io_error>([] { imr::assert_argument(false, "m"); }));
   EXPECT_TRUE(throws<imr::io_error>([] { imr::assert_io(false, "no file"); }));
@@ -141,7 +141,7 @@ TEST(ImrException, KindsCanBeCaughtAloneOrTogether) {
               EndsWith("i/o check '1 > 2' failed: map 3"));
 }
 
-TEST(SPosition, StartsAtTheOriginAndKeepsValues) {
+TEST(SPosition, DefaultIsOriginAndValuesKept) {
   const imr::robot::SPosition origin;
   EXPECT_EQ(origin.x, 0.0);
   EXPECT_EQ(origin.y, 0.0);

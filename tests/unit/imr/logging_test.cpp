@@ -49,7 +49,7 @@ class Logging : public testing::Test {
   }
 };
 
-TEST_F(Logging, EachMacroWritesALineWithItsLevel) {
+TEST_F(Logging, Macros_WriteLineWithLevel) {
   const std::string text = stderr_of([] {
     DEBUG("a " << 1);
     INFO("b " << 2.5);
@@ -59,7 +59,7 @@ TEST_F(Logging, EachMacroWritesALineWithItsLevel) {
   EXPECT_EQ(text, "[DEBUG] a 1\n[INFO] b 2.5\n[WARN] c x\n[ERROR] d text 1\n");
 }
 
-TEST_F(Logging, MacrosTakeSpacesCommasManipulatorsAndLocalOperators) {
+TEST_F(Logging, Macros_AcceptSpacesCommasManipulatorsAndLocalOperators) {
   const std::vector<int> values = {1, 2};
   const std::string text = stderr_of([&] {
     // clang-format off
@@ -71,7 +71,7 @@ TEST_F(Logging, MacrosTakeSpacesCommasManipulatorsAndLocalOperators) {
   EXPECT_EQ(text, "[DEBUG] spaced\n[INFO]    7 ff\n[INFO] vector of 2, 2\n");
 }
 
-TEST_F(Logging, LineEndsAtTheEndAreDropped) {
+TEST_F(Logging, TrailingLineEnds_Dropped) {
   EXPECT_EQ(stderr_of([] {
               INFO("one" << std::endl);
               INFO("two\r\n\n");
@@ -80,7 +80,7 @@ TEST_F(Logging, LineEndsAtTheEndAreDropped) {
             "[INFO] one\n[INFO] two\n[INFO] \n");
 }
 
-TEST_F(Logging, LinesBelowTheLevelAreNeitherPrintedNorEvaluated) {
+TEST_F(Logging, DisabledLevel_NeitherPrintedNorEvaluated) {
   imr::logging::set_level(Level::kWarn);
   int evaluated = 0;
   const std::string text = stderr_of([&] {
@@ -92,7 +92,7 @@ TEST_F(Logging, LinesBelowTheLevelAreNeitherPrintedNorEvaluated) {
   EXPECT_EQ(text, "[WARN] yes 1\n[ERROR] yes 2\n");
 }
 
-TEST_F(Logging, OffSilencesErrorsToo) {
+TEST_F(Logging, Off_SilencesErrors) {
   imr::logging::set_level(Level::kOff);
   int evaluated = 0;
   EXPECT_EQ(stderr_of([&] { ERROR(++evaluated); }), "");
@@ -100,7 +100,7 @@ TEST_F(Logging, OffSilencesErrorsToo) {
   EXPECT_FALSE(imr::logging::enabled(Level::kOff));
 }
 
-TEST_F(Logging, ALineWhoseTextThrowsIsNotPrinted) {
+TEST_F(Logging, ThrowingText_NotPrinted) {
   const auto fail = []() -> int { throw std::runtime_error("inside"); };
   EXPECT_EQ(stderr_of([&] { EXPECT_THROW(INFO("half " << fail()), std::runtime_error); }), "");
 }
@@ -116,7 +116,7 @@ TEST_F(Logging, IsOneStatement) {
   EXPECT_EQ(text, "[INFO] in time\n");
 }
 
-TEST_F(Logging, LevelIsInfoWithoutEnvironment) {
+TEST_F(Logging, DefaultLevel_IsInfo) {
   unsetenv("IMR_LOG_LEVEL");
   imr::logging::set_level_from_environment();
   EXPECT_EQ(imr::logging::current_level(), Level::kInfo);
@@ -125,7 +125,7 @@ TEST_F(Logging, LevelIsInfoWithoutEnvironment) {
   EXPECT_EQ(imr::logging::current_level(), Level::kInfo);
 }
 
-TEST_F(Logging, EnvironmentSetsTheLevelAndTheFunctionOverridesIt) {
+TEST_F(Logging, EnvironmentLevel_OverriddenByFunction) {
   setenv("IMR_LOG_LEVEL", "Error", 1);
   imr::logging::set_level_from_environment();
   EXPECT_EQ(imr::logging::current_level(), Level::kError);
@@ -133,14 +133,14 @@ TEST_F(Logging, EnvironmentSetsTheLevelAndTheFunctionOverridesIt) {
   EXPECT_EQ(imr::logging::current_level(), Level::kDebug);
 }
 
-TEST_F(Logging, AnUnknownLevelInTheEnvironmentIsReported) {
+TEST_F(Logging, UnknownEnvironmentLevel_Reported) {
   setenv("IMR_LOG_LEVEL", "loud", 1);
   const std::string text = stderr_of([] { imr::logging::set_level_from_environment(); });
   EXPECT_THAT(text, HasSubstr("[WARN] IMR_LOG_LEVEL is 'loud'"));
   EXPECT_EQ(imr::logging::current_level(), Level::kInfo);
 }
 
-TEST_F(Logging, ParseLevelKnowsItsWordsOnly) {
+TEST_F(Logging, ParseLevel_KnownWordsOnly) {
   const std::map<std::string, Level> known = {{"debug", Level::kDebug}, {"INFO", Level::kInfo},
                                               {"warn", Level::kWarn},   {"Warning", Level::kWarn},
                                               {"error", Level::kError}, {"off", Level::kOff},
@@ -157,7 +157,7 @@ TEST_F(Logging, ParseLevelKnowsItsWordsOnly) {
   }
 }
 
-TEST_F(Logging, LinesOfManyThreadsDoNotMix) {
+TEST_F(Logging, LinesOfThreads_DoNotMix) {
   constexpr int kThreads = 4;
   constexpr int kLines = 200;
   const std::string filler(100, '.');
@@ -230,7 +230,7 @@ TEST_F(Loggers, HaveNames) {
   imr::shutdownLogger();
 }
 
-TEST_F(Loggers, TakeTheLevelFromAConfiguration) {
+TEST_F(Loggers, TakeLevelFromConfiguration) {
   const auto level = [&](const std::string& text) {
     imr::logging::set_level(Level::kInfo);
     const auto [printed, found] = with_configuration(text);
@@ -245,7 +245,7 @@ TEST_F(Loggers, TakeTheLevelFromAConfiguration) {
   EXPECT_EQ(imr::logger->getName(), "robot");
 }
 
-TEST_F(Loggers, KeepTheLevelIfAConfigurationIsOfNoUse) {
+TEST_F(Loggers, InvalidConfiguration_KeepsLevel) {
   imr::logging::set_level(Level::kInfo);
   EXPECT_THAT(with_configuration("log4j.rootLogger=LOUD, A1\n").first,
               AllOf(HasSubstr("[WARN]"), HasSubstr("log.cfg"), HasSubstr("'LOUD'")));
@@ -260,7 +260,7 @@ TEST_F(Loggers, KeepTheLevelIfAConfigurationIsOfNoUse) {
   EXPECT_EQ(imr::logging::current_level(), Level::kInfo);
 }
 
-TEST_F(Loggers, LeaveTheLevelOfTheEnvironmentAlone) {
+TEST_F(Loggers, EnvironmentLevel_Kept) {
   setenv("IMR_LOG_LEVEL", "error", 1);
   imr::logging::set_level_from_environment();
   EXPECT_EQ(with_configuration("log4j.rootLogger=DEBUG\n").second, Level::kError);

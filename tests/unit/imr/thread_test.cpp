@@ -68,7 +68,7 @@ std::string stderr_of(const Function& function) {
   return testing::internal::GetCapturedStderr();
 }
 
-TEST(CThread, RunsTheBodyInAnotherThread) {
+TEST(CThread, RunsBodyInOtherThread) {
   std::thread::id body_thread;
   Worker worker([&](Worker&) { body_thread = std::this_thread::get_id(); });
   worker.execute();
@@ -77,7 +77,7 @@ TEST(CThread, RunsTheBodyInAnotherThread) {
   EXPECT_NE(body_thread, std::this_thread::get_id());
 }
 
-TEST(CThread, ExecuteReturnsWhileTheBodyRuns) {
+TEST(CThread, Execute_ReturnsWhileBodyRuns) {
   bool ended = false;
   Worker worker([&](Worker& self) {
     self.wait_for_stop();
@@ -89,7 +89,7 @@ TEST(CThread, ExecuteReturnsWhileTheBodyRuns) {
   EXPECT_TRUE(ended);
 }
 
-TEST(CThread, JoinIsLegalTwiceAndWithoutExecute) {
+TEST(CThread, Join_AllowedTwiceAndWithoutExecute) {
   int runs = 0;
   Worker worker([&](Worker&) { ++runs; });
   worker.join();
@@ -100,7 +100,7 @@ TEST(CThread, JoinIsLegalTwiceAndWithoutExecute) {
   EXPECT_EQ(runs, 1);
 }
 
-TEST(CThread, JoinIsLegalFromSeveralThreadsAtOnce) {
+TEST(CThread, Join_AllowedFromSeveralThreads) {
   int value = 0;
   Worker worker([&](Worker& self) {
     self.wait_for_stop();
@@ -120,7 +120,7 @@ TEST(CThread, JoinIsLegalFromSeveralThreadsAtOnce) {
   }
 }
 
-TEST(CThread, JoinFromTheBodyReturnsWithAWarning) {
+TEST(CThread, JoinFromBody_ReturnsWithWarning) {
   const std::string text = stderr_of([] {
     Worker worker([](Worker& self) { self.join(); });
     worker.execute();
@@ -129,13 +129,13 @@ TEST(CThread, JoinFromTheBodyReturnsWithAWarning) {
   EXPECT_THAT(text, HasSubstr("[WARN] CThread::join()"));
 }
 
-TEST(CThread, ExecuteWhileRunningThrows) {
+TEST(CThread, ExecuteWhileRunning_Throws) {
   Worker worker([](Worker& self) { self.wait_for_stop(); });
   worker.execute();
   EXPECT_THROW(worker.execute(), imr::exception);
 }
 
-TEST(CThread, ExecuteFromTheBodyThrows) {
+TEST(CThread, ExecuteFromBody_Throws) {
   bool refused = false;
   Worker worker([&](Worker& self) {
     try {
@@ -149,7 +149,7 @@ TEST(CThread, ExecuteFromTheBodyThrows) {
   EXPECT_TRUE(refused);
 }
 
-TEST(CThread, MayBeExecutedAgainAfterItsEnd) {
+TEST(CThread, ExecuteAfterEnd_RunsAgain) {
   int runs = 0;
   Worker worker([&](Worker&) { ++runs; });
   for (int i = 0; i < 3; ++i) {
@@ -159,7 +159,7 @@ TEST(CThread, MayBeExecutedAgainAfterItsEnd) {
   EXPECT_EQ(runs, 3);
 }
 
-TEST(CThread, StandardExceptionInTheBodyIsLoggedAsError) {
+TEST(CThread, StandardException_LoggedAsError) {
   const std::string text = stderr_of([] {
     Worker worker([](Worker&) { throw std::runtime_error("wheel lost"); });
     worker.execute();
@@ -168,7 +168,7 @@ TEST(CThread, StandardExceptionInTheBodyIsLoggedAsError) {
   EXPECT_EQ(text, "[ERROR] thread ended by an exception of type std::runtime_error: wheel lost\n");
 }
 
-TEST(CThread, ImrExceptionInTheBodyIsLoggedAsError) {
+TEST(CThread, ImrException_LoggedAsError) {
   const std::string text = stderr_of([] {
     Worker worker([](Worker&) { throw imr::exception("no map"); });
     worker.execute();
@@ -177,7 +177,7 @@ TEST(CThread, ImrExceptionInTheBodyIsLoggedAsError) {
   EXPECT_EQ(text, "[ERROR] thread ended by an exception of type imr::exception: no map\n");
 }
 
-TEST(CThread, ExceptionOfAnotherTypeIsLoggedWithItsType) {
+TEST(CThread, OtherException_LoggedWithType) {
   const std::string text = stderr_of([] {
     Worker worker([](Worker&) { throw 42; });
     worker.execute();
@@ -186,7 +186,7 @@ TEST(CThread, ExceptionOfAnotherTypeIsLoggedWithItsType) {
   EXPECT_EQ(text, "[ERROR] thread ended by an exception of type int\n");
 }
 
-TEST(CThread, TheEndOfTheRunEndsTheThreadQuietly) {
+TEST(CThread, EndOfRun_EndsThreadWithoutMessage) {
   using PlayerCc::PlayerError;
   for (const int code : {PlayerError::kRunIsOver, PlayerError::kDisconnected}) {
     const std::string text = stderr_of([code] {
@@ -202,7 +202,7 @@ TEST(CThread, TheEndOfTheRunEndsTheThreadQuietly) {
 }
 
 // The test identifies them by their type, not by the name of their class.
-TEST(CThread, OtherErrorsOfTheClientLibraryAreErrors) {
+TEST(CThread, OtherClientErrors_LoggedAsErrors) {
   const std::string text = stderr_of([] {
     Worker worker([](Worker&) {
       throw PlayerCc::PlayerError("LaserProxy::GetRange", "there is no beam 999",
@@ -225,7 +225,7 @@ TEST(CThread, OtherErrorsOfTheClientLibraryAreErrors) {
               testing::StartsWith("[ERROR] thread ended by an exception of type"));
 }
 
-TEST(CThread, MayBeExecutedAgainAfterAnException) {
+TEST(CThread, ExecuteAfterException_RunsAgain) {
   int runs = 0;
   const std::string text = stderr_of([&] {
     Worker worker([&](Worker&) {
@@ -242,7 +242,7 @@ TEST(CThread, MayBeExecutedAgainAfterAnException) {
   EXPECT_THAT(text, HasSubstr("first time"));
 }
 
-TEST(CThread, PthreadExitEndsTheThread) {
+TEST(CThread, PthreadExit_EndsThread) {
   const std::string text = stderr_of([] {
     Worker worker([](Worker&) { pthread_exit(nullptr); });
     worker.execute();
@@ -251,7 +251,7 @@ TEST(CThread, PthreadExitEndsTheThread) {
   EXPECT_EQ(text, "");
 }
 
-TEST(CThread, DestructorOfTheDerivedClassMayJoin) {
+TEST(CThread, DerivedDestructor_MayJoin) {
   bool ended = false;
   {
     Worker worker([&](Worker& self) {
@@ -263,7 +263,7 @@ TEST(CThread, DestructorOfTheDerivedClassMayJoin) {
   EXPECT_TRUE(ended);
 }
 
-TEST(CThread, MayBeDeletedThroughTheBase) {
+TEST(CThread, DeletedThroughBase_Works) {
   const auto token = std::make_shared<int>(0);
   imr::concurrent::CThread* thread = new Worker([token](Worker&) {});
   EXPECT_EQ(token.use_count(), 2);
@@ -271,7 +271,7 @@ TEST(CThread, MayBeDeletedThroughTheBase) {
   EXPECT_EQ(token.use_count(), 1);
 }
 
-TEST(CThread, ObjectMayBeDeletedByItsOwnThread) {
+TEST(CThread, DeletedByItsOwnThread_Works) {
   const auto deleted = std::make_shared<std::promise<void>>();
   const std::string text = stderr_of([&] {
     Worker* worker = new Worker([deleted](Worker& self) {
@@ -287,7 +287,7 @@ TEST(CThread, ObjectMayBeDeletedByItsOwnThread) {
 }
 
 // GoogleTest runs suites of this name first, before any thread exists.
-TEST(CThreadDeathTest, ExitInTheBodyEndsTheProcessWithItsStatus) {
+TEST(CThreadDeathTest, ExitInBody_EndsProcessWithStatus) {
   EXPECT_EXIT(
       {
         // exit() destroys the static object in its own thread.
@@ -299,7 +299,7 @@ TEST(CThreadDeathTest, ExitInTheBodyEndsTheProcessWithItsStatus) {
       testing::ExitedWithCode(3), "");
 }
 
-TEST(CThread, TellsWhetherItRunsOrHasEnded) {
+TEST(CThread, Running_TrueUntilEnd) {
   course::Worker worker([](course::Worker& self) { self.wait_for_stop(); });
   EXPECT_FALSE(worker.isRunning());
   EXPECT_FALSE(worker.isFinished());

@@ -27,7 +27,7 @@ double slow_distance_cells(const Mask& blocked, const Cell& from, Outside outsid
   return least;
 }
 
-TEST(Distance, IsThatOfAllBlockedCells) {
+TEST(Distance, NearestOfAllBlockedCells) {
   std::mt19937 random(7);
   for (int round = 0; round < 60; ++round) {
     const GridFrame frame =
@@ -44,44 +44,44 @@ TEST(Distance, IsThatOfAllBlockedCells) {
   }
 }
 
-TEST(Distance, IsInfiniteWhereNothingIsBlocked) {
+TEST(Distance, NothingBlocked_Infinite) {
   const Grid<double> distances = distance_to_blocked_m(test::mask({"..", ".."}), Outside::kFree);
   for (const double d : distances.values()) EXPECT_TRUE(std::isinf(d));
 }
 
-TEST(Inflate, GrowsACellIntoADisc) {
+TEST(Inflate, GrowsCellIntoDisc) {
   const Mask grown =
       inflate(test::mask({".....", ".....", "..#..", ".....", "....."}), 2.0, Outside::kFree);
   EXPECT_EQ(grown.values(), test::mask({"..#..", ".###.", "#####", ".###.", "..#.."}).values());
 }
 
-TEST(Inflate, BlocksCellsAlongTheEdgeWhereTheOutsideIsBlocked) {
+TEST(Inflate, BlockedOutside_BlocksCellsAlongEdge) {
   EXPECT_EQ(inflate(Mask(test::frame(4, 4)), 1.0).values(),
             test::mask({"####", "#..#", "#..#", "####"}).values());
   EXPECT_EQ(count(inflate(Mask(test::frame(4, 4)), 1.0, Outside::kFree)), 0U);
 }
 
-TEST(Inflate, ByNothingChangesNothing) {
+TEST(Inflate, ByZero_ChangesNothing) {
   std::mt19937 random(1);
   const Mask blocked = test::random_mask(test::frame(20, 10), 30, random);
   EXPECT_EQ(inflate(blocked, 0.0).values(), blocked.values());
 }
 
-TEST(Inflate, TakesARadiusOfWholeCellsAsSuchWhateverItsRounding) {
+TEST(Inflate, RadiusOfWholeCells_IndependentOfRounding) {
   // 0.06 / 0.02 is 2.9999999999999996 in double precision, but means three cells.
   Mask blocked(test::frame(9, 1, 0.02));
   blocked[{4, 0}] = 1;
   EXPECT_EQ(count(inflate(blocked, 0.06, Outside::kFree)), 7U);
 }
 
-TEST(Inflate, RefusesRadiiThatAreNone) {
+TEST(Inflate, InvalidRadius_Refused) {
   EXPECT_THROW(static_cast<void>(inflate(test::mask({"."}), -0.1)), std::invalid_argument);
   EXPECT_THROW(
       static_cast<void>(inflate(test::mask({"."}), std::numeric_limits<double>::quiet_NaN())),
       std::invalid_argument);
 }
 
-TEST(NearestFree, IsTheCellItselfOrTheNearestWithinReach) {
+TEST(NearestFree, CellItselfOrNearestWithinReach) {
   const Mask blocked = test::mask({"####.", "####.", "##..."});
   EXPECT_EQ(nearest_free(blocked, {4, 0}, 0.0), (Cell{4, 0}));
   // From (0, 0): (2, 2) at sqrt(8) cells, (4, 0) at 4.

@@ -24,7 +24,7 @@ Grid<CellState> states(const std::vector<std::string>& rows) {
   return result;
 }
 
-TEST(Frontiers, AreFreeCellsBesideUnknownOnes) {
+TEST(Frontiers, FreeCellsBesideUnknown) {
   const Mask frontier = frontier_cells(states({"???????",  //
                                                "?#####?",  //
                                                "?#...??",  // only its right end is open
@@ -38,14 +38,14 @@ TEST(Frontiers, AreFreeCellsBesideUnknownOnes) {
                                    .values());
 }
 
-TEST(Frontiers, AreNotAtTheEdgeOfTheGridNorAcrossCorners) {
+TEST(Frontiers, EdgeAndCorners_AreNone) {
   EXPECT_EQ(count(frontier_cells(states({"...", "..."}))), 0U);
   // The unknown cell touches free ones only at a corner.
   EXPECT_EQ(count(frontier_cells(states({"?#", "#."}))), 0U);
   EXPECT_EQ(count(frontier_cells(states({"##", "??"}))), 0U);
 }
 
-TEST(Cluster, PutsCellsTogetherThatTouchEvenAtCorners) {
+TEST(Cluster, TouchingCells_JoinedAlsoAtCorners) {
   const std::vector<Frontier> frontiers = cluster(test::mask({"#....",  //
                                                               ".#..#",  //
                                                               "....#",  //
@@ -57,7 +57,7 @@ TEST(Cluster, PutsCellsTogetherThatTouchEvenAtCorners) {
   EXPECT_EQ(frontiers[2].cells, (std::vector<Cell>{{0, 3}, {1, 3}}));
 }
 
-TEST(Cluster, LeavesOutSmallOnes) {
+TEST(Cluster, SmallClusters_LeftOut) {
   const Mask cells = test::mask({"#.##.###"});
   EXPECT_EQ(cluster(cells, 1).size(), 3U);
   EXPECT_EQ(cluster(cells, 2).size(), 2U);
@@ -65,7 +65,7 @@ TEST(Cluster, LeavesOutSmallOnes) {
   EXPECT_TRUE(cluster(cells, 4).empty());
 }
 
-TEST(Cluster, CentresAreCellsOfTheFrontierEvenIfItIsBent) {
+TEST(Cluster, Centre_IsCellOfBentFrontier) {
   // The mean of a ring is its empty middle.
   const std::vector<Frontier> ring = cluster(test::mask({"###", "#.#", "###"}));
   ASSERT_EQ(ring.size(), 1U);
@@ -73,14 +73,14 @@ TEST(Cluster, CentresAreCellsOfTheFrontierEvenIfItIsBent) {
   EXPECT_EQ(distance_cells(ring[0].centre, {1, 1}), 1.0);
 }
 
-TEST(Frontiers, AreFoundAndPutTogetherAtOnce) {
+TEST(Frontiers, FoundAndClusteredInOneCall) {
   const std::vector<Frontier> frontiers = find_frontiers(states({"..?..", "..?.."}));
   ASSERT_EQ(frontiers.size(), 2U);
   EXPECT_EQ(frontiers[0].cells, (std::vector<Cell>{{1, 0}, {1, 1}}));
   EXPECT_EQ(frontiers[1].cells, (std::vector<Cell>{{3, 0}, {3, 1}}));
 }
 
-TEST(Split, CutsALongFrontierIntoPartsOfAFewLooks) {
+TEST(Split, LongFrontier_CutIntoShortParts) {
   const Frontier line = cluster(test::mask({std::string(36, '#')})).front();
   // 36 cells, range 10: 1 + floor(36 / 18 + 0.5) = 3 parts of 12, plus or minus a cell that is
   // midway between two means.
@@ -96,7 +96,7 @@ TEST(Split, CutsALongFrontierIntoPartsOfAFewLooks) {
   for (int i = 0; i < 36; ++i) EXPECT_EQ(columns[static_cast<std::size_t>(i)], i);
 }
 
-TEST(Split, LeavesShortFrontiersWhole) {
+TEST(Split, ShortFrontier_Whole) {
   const Frontier line = cluster(test::mask({"#####"})).front();
   // 1 + floor(5 / 18 + 0.5) = 1.
   EXPECT_EQ(split(line, 10.0).size(), 1U);
@@ -105,7 +105,7 @@ TEST(Split, LeavesShortFrontiersWhole) {
   EXPECT_THROW(static_cast<void>(split(line, 0.0)), std::invalid_argument);
 }
 
-TEST(InformationGain, CountsUnknownCellsWithinRangeThatNothingHides) {
+TEST(InformationGain, CountsVisibleUnknownCellsWithinRange) {
   const Grid<CellState> map = states({".....??",  //
                                       "....#??",  //
                                       ".....??"});
@@ -117,7 +117,7 @@ TEST(InformationGain, CountsUnknownCellsWithinRangeThatNothingHides) {
   EXPECT_EQ(information_gain(map, {-1, 1}, 100.0), 0U) << "outside";
 }
 
-TEST(InformationGain, OfAllUnknownIsADisc) {
+TEST(InformationGain, AllUnknown_CountsDisc) {
   const Grid<CellState> unknown(test::frame(41, 41), CellState::kUnknown);
   // Cells whose centre is within 10 cells: 317 (Gauss's circle problem, N(10)).
   EXPECT_EQ(information_gain(unknown, {20, 20}, 10.0), 317U);

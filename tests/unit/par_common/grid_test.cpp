@@ -10,7 +10,7 @@
 namespace par {
 namespace {
 
-TEST(GridFrame, CountsRowsFromTheTop) {
+TEST(GridFrame, Rows_CountedFromTop) {
   const GridFrame frame;  // of the default arena's canvas
   // x = 0.05 m is in the third column (0.04 .. 0.06 m); y = 0.05 m is in the third row from the
   // bottom, which is row 186 - 1 - 2 from the top.
@@ -18,7 +18,7 @@ TEST(GridFrame, CountsRowsFromTheTop) {
   EXPECT_EQ(frame.cell_of({0.01, 3.71}), (Cell{0, 0}));
 }
 
-TEST(GridFrame, TellsCellsOutsideAsOutside) {
+TEST(GridFrame, OutsideCells_Detected) {
   const GridFrame frame = test::frame(4, 3, 0.5);
   EXPECT_EQ(frame.cell_of({-0.1, -0.1}), (Cell{-1, 3}));
   EXPECT_FALSE(frame.contains(frame.cell_of({-0.1, 0.1})));
@@ -28,7 +28,7 @@ TEST(GridFrame, TellsCellsOutsideAsOutside) {
   EXPECT_FALSE(frame.contains(frame.cell_of({std::numeric_limits<double>::quiet_NaN(), 0.1})));
 }
 
-TEST(GridFrame, CentresLieInTheirCellsAndIndicesComeBack) {
+TEST(GridFrame, Centres_MapBackToIndices) {
   GridFrame frame = test::frame(7, 5, 0.25);
   frame.origin = {-1.0, 2.0};
   for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -41,7 +41,7 @@ TEST(GridFrame, CentresLieInTheirCellsAndIndicesComeBack) {
   EXPECT_EQ(frame.centre_of({0, 4}), (Point{-0.875, 2.125}));
 }
 
-TEST(Grid, HoldsAValueACellTheTopRowFirst) {
+TEST(Grid, StoresValuesTopRowFirst) {
   Grid<int> grid(test::frame(3, 2), 7);
   grid[{2, 0}] = 1;
   grid[{0, 1}] = 2;
@@ -51,7 +51,7 @@ TEST(Grid, HoldsAValueACellTheTopRowFirst) {
   EXPECT_EQ(grid.value_or({0, -1}, -1), -1);
 }
 
-TEST(Grid, RefusesFramesWithoutCells) {
+TEST(Grid, FrameWithoutCells_Refused) {
   EXPECT_THROW(Mask(test::frame(0, 3)), std::invalid_argument);
   EXPECT_THROW(Mask(test::frame(3, -1)), std::invalid_argument);
   EXPECT_THROW(Mask(test::frame(3, 3, 0.0)), std::invalid_argument);
@@ -59,15 +59,15 @@ TEST(Grid, RefusesFramesWithoutCells) {
                std::invalid_argument);
 }
 
-TEST(Grid, WithoutAFrameHasNoCells) {
+TEST(Grid, NoFrame_HasNoCells) {
   const Mask none;
   EXPECT_FALSE(none.contains({0, 0}));
   EXPECT_EQ(count(none), 0U);
 }
 
-TEST(Grid, CountsTheCellsOfASet) { EXPECT_EQ(count(test::mask({"#..", ".##"})), 3U); }
+TEST(Grid, CountsCellsOfState) { EXPECT_EQ(count(test::mask({"#..", ".##"})), 3U); }
 
-TEST(Angle, IsBroughtIntoHalfATurnEitherWay) {
+TEST(Angle, WrappedToHalfTurn) {
   EXPECT_DOUBLE_EQ(normalize_angle(1.5 * kPi), -0.5 * kPi);
   EXPECT_DOUBLE_EQ(normalize_angle(-kPi), kPi);
   EXPECT_DOUBLE_EQ(normalize_angle(kPi), kPi);

@@ -22,7 +22,7 @@ Scan one_beam(double range_m) {
   return scan;
 }
 
-TEST(OccupancyGrid, KnowsNothingAtFirst) {
+TEST(OccupancyGrid, StartsUnknown) {
   const OccupancyGrid map(corridor());
   EXPECT_EQ(map.state({3, 0}), CellState::kUnknown);
   EXPECT_DOUBLE_EQ(map.probability({3, 0}), 0.5);
@@ -30,7 +30,7 @@ TEST(OccupancyGrid, KnowsNothingAtFirst) {
   EXPECT_EQ(map.state({-1, 0}), CellState::kUnknown);
 }
 
-TEST(OccupancyGrid, ABeamAddsMissesOnItsWayAndAHitAtItsEnd) {
+TEST(OccupancyGrid, Beam_AddsMissesAndHitAtEnd) {
   OccupancyGrid map(corridor());
   map.update(one_beam(0.5));  // ends at x = 0.55 m, 0.56 m with its depth: in cell 5
   for (int column = 0; column < 5; ++column) {
@@ -43,7 +43,7 @@ TEST(OccupancyGrid, ABeamAddsMissesOnItsWayAndAHitAtItsEnd) {
   EXPECT_EQ(map.state({5, 0}), CellState::kOccupied);
 }
 
-TEST(OccupancyGrid, ConvergesToItsLimitsAndCanChangeItsMind) {
+TEST(OccupancyGrid, Converges_ToLimitsAndRecovers) {
   OccupancyGrid map(corridor());
   for (int i = 0; i < 1000; ++i) map.update(one_beam(0.5));
   EXPECT_FLOAT_EQ(static_cast<float>(map.log_odds({5, 0})), 3.5F);
@@ -57,7 +57,7 @@ TEST(OccupancyGrid, ConvergesToItsLimitsAndCanChangeItsMind) {
   EXPECT_EQ(map.state({5, 0}), CellState::kFree);
 }
 
-TEST(OccupancyGrid, CountsACellOnceAScanAndHitsBeforeMisses) {
+TEST(OccupancyGrid, CellOfScan_CountedOnceHitsFirst) {
   OccupancyGrid map(corridor());
   Scan scan = one_beam(0.5);
   // all along the row: two beams pass through the cell that three hit
@@ -67,7 +67,7 @@ TEST(OccupancyGrid, CountsACellOnceAScanAndHitsBeforeMisses) {
   EXPECT_FLOAT_EQ(static_cast<float>(map.log_odds({1, 0})), -0.40F);
 }
 
-TEST(OccupancyGrid, ABeamThatMetNothingOnlyTellsOfFreeCells) {
+TEST(OccupancyGrid, BeamWithoutHit_AddsMissesOnly) {
   OccupancyGrid map(corridor());
   Scan scan = one_beam(5.0);
   scan.max_range_m = 0.6;
@@ -80,7 +80,7 @@ TEST(OccupancyGrid, ABeamThatMetNothingOnlyTellsOfFreeCells) {
   EXPECT_EQ(map.log_odds({7, 0}), 0.0);
 }
 
-TEST(OccupancyGrid, DoesNotTrustBeamsBeyondTheUsableRange) {
+TEST(OccupancyGrid, BeamBeyondUsableRange_Ignored) {
   OccupancyParams params;
   params.usable_range_m = 0.3;
   OccupancyGrid map(corridor(), params);
@@ -90,7 +90,7 @@ TEST(OccupancyGrid, DoesNotTrustBeamsBeyondTheUsableRange) {
   EXPECT_EQ(map.log_odds({5, 0}), 0.0) << "a hit, but too far away";
 }
 
-TEST(OccupancyGrid, TurnsBeamsByHeadingAndBearing) {
+TEST(OccupancyGrid, Beams_RotatedByHeadingAndBearing) {
   OccupancyGrid map(test::frame(9, 9, 0.1));
   Scan scan;
   scan.sensor = {0.45, 0.45, 0.5 * kPi};  // in the middle, looking up
@@ -104,7 +104,7 @@ TEST(OccupancyGrid, TurnsBeamsByHeadingAndBearing) {
   EXPECT_EQ(count(cells_in_state(map.states(), CellState::kOccupied)), 3U);
 }
 
-TEST(OccupancyGrid, LeavesOutReadingsThatAreNoneAndPartsOutside) {
+TEST(OccupancyGrid, InvalidReadingsAndOutside_LeftOut) {
   OccupancyGrid map(corridor());
   for (const double range : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
     map.update(one_beam(range));
@@ -120,7 +120,7 @@ TEST(OccupancyGrid, LeavesOutReadingsThatAreNoneAndPartsOutside) {
   EXPECT_LT(other.log_odds({3, 0}), 0.0);
 }
 
-TEST(OccupancyGrid, StatesAndProbabilitiesAgreeWithTheSingleCells) {
+TEST(OccupancyGrid, StatesAndProbabilities_MatchSingleCells) {
   OccupancyGrid map(test::frame(20, 20, 0.1));
   std::mt19937 random(9);
   for (int i = 0; i < 40; ++i) {
@@ -166,7 +166,7 @@ std::size_t occupied_before_the_wall(const OccupancyParams& params) {
   return occupied;
 }
 
-TEST(OccupancyGrid, DepthKeepsWallsOutOfTheFreeCellsInFrontOfThem) {
+TEST(OccupancyGrid, Depth_KeepsWallOutOfFreeCells) {
   // 10 mm deeper at up to 0.7 rad from the normal are at least 7.6 mm in x, more than 5 mm of
   // noise.
   EXPECT_EQ(occupied_before_the_wall(OccupancyParams()), 0U);
@@ -175,7 +175,7 @@ TEST(OccupancyGrid, DepthKeepsWallsOutOfTheFreeCellsInFrontOfThem) {
   EXPECT_GT(occupied_before_the_wall(flat), 10U);
 }
 
-TEST(OccupancyGrid, TakesTheFloorUnderTheRobotAsFree) {
+TEST(OccupancyGrid, FloorUnderRobot_Free) {
   OccupancyGrid map(test::frame(9, 9, 0.1));
   map.set_free({0.45, 0.45}, 0.1);
   EXPECT_EQ(map.state({4, 4}), CellState::kFree);
@@ -186,7 +186,7 @@ TEST(OccupancyGrid, TakesTheFloorUnderTheRobotAsFree) {
   EXPECT_EQ(map.state({0, 8}), CellState::kFree);
 }
 
-TEST(OccupancyGrid, ForgetsTheCellsOfARectangle) {
+TEST(OccupancyGrid, Rectangle_Forgotten) {
   const auto unknown_of = [](const Pose& centre, double length_m, double width_m) {
     OccupancyGrid map(test::frame(9, 9, 0.1));
     map.set_free({0.45, 0.45}, 2.0);  // all cells
@@ -207,7 +207,7 @@ TEST(OccupancyGrid, ForgetsTheCellsOfARectangle) {
   EXPECT_EQ(map.state({2, 2}), CellState::kFree);
 }
 
-TEST(OccupancyGrid, RefusesParametersWithoutSense) {
+TEST(OccupancyGrid, InvalidParameters_Refused) {
   const auto refused = [](auto change) {
     OccupancyParams params;
     change(params);

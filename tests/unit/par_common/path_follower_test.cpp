@@ -68,7 +68,7 @@ Drive follow(PathFollower& follower, const std::vector<Point>& way, const Pose& 
   return drive;
 }
 
-TEST(PathFollower, DrivesStraightToTheEndAndStops) {
+TEST(PathFollower, DrivesStraightToEndAndStops) {
   PathFollower follower;
   const std::vector<Point> way = {{0.0, 0.0}, {2.0, 0.0}};
   const Drive drive = follow(follower, way, {0.0, 0.0, 0.0});
@@ -82,7 +82,7 @@ TEST(PathFollower, DrivesStraightToTheEndAndStops) {
   EXPECT_EQ(after.turn_radps, 0.0);
 }
 
-TEST(PathFollower, TurnsOnTheSpotFirstIfItLooksTheOtherWay) {
+TEST(PathFollower, PathBehind_TurnsOnSpotFirst) {
   PathFollower follower;
   follower.set_path({{0.0, 0.0}, {1.0, 0.0}});
   Unicycle robot;
@@ -99,7 +99,7 @@ TEST(PathFollower, TurnsOnTheSpotFirstIfItLooksTheOtherWay) {
   EXPECT_LT(std::fabs(robot.pose.yaw), 0.15);
 }
 
-TEST(PathFollower, StaysNearItsWayRoundSharpCorners) {
+TEST(PathFollower, SharpCorners_StaysNearPath) {
   PathFollower follower;
   // A right angle, a hairpin (there and back), and 45 degrees.
   const std::vector<Point> way = {{0.0, 0.0}, {0.6, 0.0}, {0.6, 0.6}, {0.6, 0.2}, {1.0, 0.6}};
@@ -112,7 +112,7 @@ TEST(PathFollower, StaysNearItsWayRoundSharpCorners) {
   EXPECT_GT(drive.robot.driven_m, 0.9 * path_length_m(way)) << "no short cuts";
 }
 
-TEST(PathFollower, FollowsPlannedWaysOnRandomGrids) {
+TEST(PathFollower, RandomGrids_FollowsPlannedPaths) {
   std::mt19937 random(21);
   int driven = 0;
   for (int round = 0; round < 60; ++round) {
@@ -134,7 +134,7 @@ TEST(PathFollower, FollowsPlannedWaysOnRandomGrids) {
   EXPECT_GT(driven, 20);
 }
 
-TEST(PathFollower, DoesNotJumpToWhereTheWayCrossesItself) {
+TEST(PathFollower, CrossingPath_DoesNotJump) {
   PathFollower follower;
   // An eight: the path crosses itself at (0.5, 0).
   const std::vector<Point> way = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.5}, {0.5, 0.5}, {0.5, -0.5}};
@@ -143,7 +143,7 @@ TEST(PathFollower, DoesNotJumpToWhereTheWayCrossesItself) {
   EXPECT_GT(drive.robot.driven_m, 0.9 * path_length_m(way));
 }
 
-TEST(PathFollower, EndsNotWhereALoopBeginsThoughItsEndIsThere) {
+TEST(PathFollower, Loop_DoesNotEndAtItsStart) {
   PathFollower follower;
   const std::vector<Point> way = {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}, {0.0, 0.0}};
   const Drive drive = follow(follower, way, {0.0, 0.0, 0.0});
@@ -151,7 +151,7 @@ TEST(PathFollower, EndsNotWhereALoopBeginsThoughItsEndIsThere) {
   EXPECT_GT(drive.robot.driven_m, 1.8);  // of 2 m
 }
 
-TEST(PathFollower, TellsHowFarItIsAndHowFarBeside) {
+TEST(PathFollower, ReportsRemainingDistanceAndDeviation) {
   PathFollower follower;
   follower.set_path({{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}});
   EXPECT_DOUBLE_EQ(follower.remaining_m(), 2.0);
@@ -162,7 +162,7 @@ TEST(PathFollower, TellsHowFarItIsAndHowFarBeside) {
   EXPECT_FALSE(follower.done());
 }
 
-TEST(PathFollower, WithoutAWayHasNothingToDo) {
+TEST(PathFollower, NoPath_Idle) {
   PathFollower follower;
   EXPECT_TRUE(follower.done());
   EXPECT_EQ(follower.update({}).forward_mps, 0.0);
@@ -173,7 +173,7 @@ TEST(PathFollower, WithoutAWayHasNothingToDo) {
   EXPECT_TRUE(follower.done());
 }
 
-TEST(PathFollower, GoesToASinglePointAndThroughPointsThatRepeat) {
+TEST(PathFollower, SingleAndRepeatedPoints_Reached) {
   for (const std::vector<Point>& way :
        {std::vector<Point>{{0.05, 0.02}}, std::vector<Point>{{0.0, 0.0}, {0.3, 0.0}, {0.3, 0.0}}}) {
     PathFollower follower;
@@ -183,7 +183,7 @@ TEST(PathFollower, GoesToASinglePointAndThroughPointsThatRepeat) {
   }
 }
 
-TEST(PathFollower, RefusesParametersWithoutSense) {
+TEST(PathFollower, InvalidParameters_Refused) {
   FollowerParams params;
   params.max_speed_mps = 0.0;
   EXPECT_THROW(PathFollower{params}, std::invalid_argument);

@@ -116,7 +116,7 @@ void expect_steps(const Problem& problem, const Path& path) {
   EXPECT_NEAR(path.length_m, path_length_m(problem.blocked.frame(), path.cells), kRounding);
 }
 
-TEST(Planners, FindWaysAsShortAsBellmanAndFord) {
+TEST(Planners, Length_MatchesBellmanFord) {
   int found = 0;
   for (const Problem& problem : random_problems(300, 24)) {
     const Grid<double> distances = slow_distances(problem.blocked, problem.start);
@@ -135,7 +135,7 @@ TEST(Planners, FindWaysAsShortAsBellmanAndFord) {
   EXPECT_GT(found, 100);
 }
 
-TEST(Planners, DistanceFieldTellsTheWayToEveryCell) {
+TEST(Planners, DistanceField_LeadsFromEveryCell) {
   for (const Problem& problem : random_problems(60, 16)) {
     const Grid<double> distances = slow_distances(problem.blocked, problem.start);
     const DistanceField field(problem.blocked, problem.start);
@@ -159,7 +159,7 @@ TEST(Planners, DistanceFieldTellsTheWayToEveryCell) {
   }
 }
 
-TEST(Planners, ThetaStarIsNeverLongerThanAStarNorShorterThanTheStraightLine) {
+TEST(Planners, ThetaStar_BetweenStraightLineAndAStar) {
   int shorter = 0;
   for (const Problem& problem : random_problems(600, 60)) {
     const Path a_stars = a_star(problem.blocked, problem.start, problem.goal);
@@ -176,13 +176,13 @@ TEST(Planners, ThetaStarIsNeverLongerThanAStarNorShorterThanTheStraightLine) {
   EXPECT_GT(shorter, 100) << "any angle should pay";
 }
 
-TEST(Planners, ThetaStarGoesStraightWhereNothingIsInTheWay) {
+TEST(Planners, ThetaStar_StraightInFreeSpace) {
   const Path path = theta_star(Mask(test::frame(30, 20)), {2, 3}, {27, 14});
   EXPECT_EQ(path.cells, (std::vector<Cell>{{2, 3}, {27, 14}}));
   EXPECT_DOUBLE_EQ(path.length_m, std::hypot(25.0, 11.0));
 }
 
-TEST(Planners, DoNotCutCorners) {
+TEST(Planners, Corners_NotCut) {
   // The diagonal from (1, 1) to (2, 0) would touch the wall's corner; the path around it has two
   // steps.
   const Mask blocked = test::mask({"#..", "..."});
@@ -196,7 +196,7 @@ TEST(Planners, DoNotCutCorners) {
   EXPECT_FALSE(theta_star(closed, {0, 0}, {1, 1}).found());
 }
 
-TEST(Planners, FindNoWayFromOrToWallsAndTheOutside) {
+TEST(Planners, WallsAndOutside_HaveNoPath) {
   const Mask blocked = test::mask({".#", ".."});
   for (const auto& planner : {dijkstra, a_star, theta_star}) {
     EXPECT_FALSE(planner(blocked, {1, 0}, {0, 0}).found());
@@ -209,7 +209,7 @@ TEST(Planners, FindNoWayFromOrToWallsAndTheOutside) {
   }
 }
 
-TEST(Planners, AStarLooksAtFewerCellsThanDijkstra) {
+TEST(Planners, Dijkstra_ExpandsMoreCellsThanAStar) {
   const Mask empty(test::frame(60, 60));
   // Straight across from the middle of a side: Dijkstra's wave fills the grid, A*'s goes straight
   // ahead.
@@ -219,7 +219,7 @@ TEST(Planners, AStarLooksAtFewerCellsThanDijkstra) {
   EXPECT_EQ(a_stars.expanded, 60U);  // only the cells of the path
 }
 
-TEST(Planners, ExpandEachCellOfTheArenaAtMostOnceSoThatTheyAreFast) {
+TEST(Planners, EachCell_ExpandedAtMostOnce) {
   // Counts expansions, because a clock would fail on a busy machine (bench_planning measures time).
   std::mt19937 random(5);
   const Mask blocked = test::random_mask(GridFrame(), 10, random);
@@ -234,7 +234,7 @@ TEST(Planners, ExpandEachCellOfTheArenaAtMostOnceSoThatTheyAreFast) {
   EXPECT_LE(theta_star(open, start, goal).expanded, cells + cells / 4);
 }
 
-TEST(LineOfSight, SeesWhatNoBlockedCellTouches) {
+TEST(LineOfSight, TrueWhereNoBlockedCellIsTouched) {
   std::mt19937 random(11);
   int seen = 0;
   for (int round = 0; round < 4000; ++round) {
@@ -252,12 +252,12 @@ TEST(LineOfSight, SeesWhatNoBlockedCellTouches) {
   EXPECT_LT(seen, 3600);
 }
 
-TEST(LineOfSight, IsFalseToTheOutside) {
+TEST(LineOfSight, Outside_False) {
   EXPECT_FALSE(line_of_sight(test::mask({".."}), {0, 0}, {2, 0}));
   EXPECT_FALSE(line_of_sight(test::mask({".."}), {0, -1}, {0, 0}));
 }
 
-TEST(LineOfSight, BetweenNeighboursIsTheStepOfThePlanners) {
+TEST(LineOfSight, Neighbours_MatchPlannerSteps) {
   std::mt19937 random(2);
   const Mask blocked = test::random_mask(test::frame(20, 20), 30, random);
   for (std::size_t i = 0; i < blocked.frame().size(); ++i) {
@@ -269,7 +269,7 @@ TEST(LineOfSight, BetweenNeighboursIsTheStepOfThePlanners) {
   }
 }
 
-TEST(Smooth, KeepsWaysFreeAndNeverMakesThemLonger) {
+TEST(Smooth, Path_StaysFreeAndGetsNoLonger) {
   int shorter = 0;
   for (const Problem& problem : random_problems(300, 50)) {
     for (const auto& planner : {dijkstra, theta_star}) {
@@ -289,26 +289,26 @@ TEST(Smooth, KeepsWaysFreeAndNeverMakesThemLonger) {
   EXPECT_GT(shorter, 50);
 }
 
-TEST(Smooth, KeepsOnlyTheTurnsThatAreNeeded) {
+TEST(Smooth, KeepsNecessaryTurnsOnly) {
   const Mask blocked = test::mask({".....", ".###.", "....."});
   const Path path = dijkstra(blocked, {0, 0}, {4, 2});
   EXPECT_EQ(smooth(blocked, path).cells.size(), 3U);  // round one corner
 }
 
-TEST(Trace, NamesTheCellsOfTheWholeWay) {
+TEST(Trace, ListsCellsOfPath) {
   EXPECT_EQ(trace({{0, 0}, {2, 0}, {2, 1}}), (std::vector<Cell>{{0, 0}, {1, 0}, {2, 0}, {2, 1}}));
   EXPECT_EQ(trace({{3, 3}}), (std::vector<Cell>{{3, 3}}));
   EXPECT_TRUE(trace({}).empty());
 }
 
-TEST(Trace, StaysOnFreeCellsWhereTheWayIsFree) {
+TEST(Trace, FreePath_StaysOnFreeCells) {
   for (const Problem& problem : random_problems(100, 40)) {
     const Path path = theta_star(problem.blocked, problem.start, problem.goal);
     for (const Cell& cell : trace(path.cells)) EXPECT_EQ(problem.blocked[cell], 0);
   }
 }
 
-TEST(IsFree, LooksAtEachStretch) {
+TEST(IsFree, ChecksEachSegment) {
   const Mask blocked = test::mask({"...", ".#.", "..."});
   EXPECT_TRUE(is_free(blocked, {{0, 0}, {2, 0}, {2, 2}}));
   EXPECT_FALSE(is_free(blocked, {{0, 0}, {2, 2}}));
@@ -316,7 +316,7 @@ TEST(IsFree, LooksAtEachStretch) {
   EXPECT_TRUE(is_free(blocked, {}));
 }
 
-TEST(BresenhamLine, GoesFromNeighbourToNeighbourNearTheTrueLine) {
+TEST(BresenhamLine, ConnectedAndNearTrueLine) {
   std::mt19937 random(4);
   const GridFrame frame = test::frame(40, 40);
   for (int round = 0; round < 500; ++round) {
@@ -338,7 +338,7 @@ TEST(BresenhamLine, GoesFromNeighbourToNeighbourNearTheTrueLine) {
   }
 }
 
-TEST(PathLength, OfPointsIsTheSumOfTheStretches) {
+TEST(PathLength, SumOfSegments) {
   EXPECT_DOUBLE_EQ(path_length_m(std::vector<Point>{{0.0, 0.0}, {3.0, 4.0}, {3.0, 5.0}}), 6.0);
   EXPECT_EQ(path_length_m(std::vector<Point>{}), 0.0);
 }

@@ -30,7 +30,7 @@ std::string error_of(const std::string& text) {
   return "no error";
 }
 
-TEST(TextMap, IsAHeightAndSoManyRows) {
+TEST(TextMap, HeightAndRows_Parsed) {
   const Mask map = read("2\n..#\n#..\n");
   EXPECT_EQ(map.values(), test::mask({"..#", "#.."}).values());
   EXPECT_EQ(map.width(), 3);
@@ -38,18 +38,18 @@ TEST(TextMap, IsAHeightAndSoManyRows) {
   EXPECT_EQ(map.frame().cell_size_m, 0.1);
 }
 
-TEST(TextMap, DoesNotMindBlanksWindowsNorAMissingLastLineEnd) {
+TEST(TextMap, BlanksCarriageReturnsAndMissingLineEnd_Accepted) {
   EXPECT_EQ(read(" 2 \r\n..#\r\n#..  ").values(), test::mask({"..#", "#.."}).values());
   EXPECT_EQ(read("1\n.\n\n  \n").values(), test::mask({"."}).values());
 }
 
-TEST(TextMap, ComesBackFromItsOwnText) {
+TEST(TextMap, RoundTrips) {
   std::mt19937 random(1);
   const Mask map = test::random_mask(test::frame(31, 17, 0.1), 40, random);
   EXPECT_EQ(read(to_text_map(map)).values(), map.values());
 }
 
-TEST(TextMap, ErrorsNameFileLineAndWhatWasFound) {
+TEST(TextMap, Errors_NameFileLineAndText) {
   EXPECT_EQ(error_of(""), "map.txt:1: expected the number of rows, found an empty file");
   EXPECT_EQ(error_of("..#\n"),
             "map.txt:1: expected the number of rows, a whole number from 1 to 8192, found "
@@ -62,7 +62,7 @@ TEST(TextMap, ErrorsNameFileLineAndWhatWasFound) {
   EXPECT_EQ(error_of("1\n\n...\n"), "map.txt:2: expected a row of . and #, found an empty line");
 }
 
-TEST(TextMap, RefusesHeightsThatAreNone) {
+TEST(TextMap, InvalidHeight_Refused) {
   for (const char* height :
        {"0", "-1", "8193", "99999999999999999999", "2.5", "0x2", "2 3", "+2"}) {
     EXPECT_THAT(error_of(std::string(height) + "\n.\n.\n"),
@@ -70,17 +70,17 @@ TEST(TextMap, RefusesHeightsThatAreNone) {
   }
 }
 
-TEST(TextMap, RefusesRowsThatAreTooLong) {
+TEST(TextMap, LongRows_Refused) {
   EXPECT_THAT(error_of("1\n" + std::string(8193, '.') + "\n"), HasSubstr("found 8193"));
   EXPECT_EQ(read("1\n" + std::string(8192, '.') + "\n").width(), 8192);
 }
 
-TEST(TextMap, ShowsNothingOfAFileThatCouldUpsetATerminal) {
+TEST(TextMap, Errors_EscapeControlCharacters) {
   const std::string error = error_of("\x1b[2J\x07\n");
   for (const char c : error) EXPECT_TRUE(c >= ' ' && c <= '~');
 }
 
-TEST(TextMap, IsLoadedFromAFile) {
+TEST(TextMap, LoadsFile) {
   const test_support::TemporaryFolder folder;
   const std::string file = folder.write("a.txt", "1\n.#\n");
   EXPECT_EQ(load_text_map(file).values(), test::mask({".#"}).values());

@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Each, Arm,
                                          test::Transport::kJson),
                          [](const auto& it) { return test::transport_name(it.param); });
 
-TEST_P(Arm, HasItsGeometryFromTheStart) {
+TEST_P(Arm, Geometry_KnownFromStart) {
   EXPECT_EQ(arm_.GetCount(), 0U);
   EXPECT_FALSE(arm_.IsPowered());
   arm_.RequestGeometry();
@@ -95,7 +95,7 @@ TEST_P(Arm, HasItsGeometryFromTheStart) {
   EXPECT_NEAR(arm_.GetBaseOrientation().proll, kPi / 18, 1e-12);
 }
 
-TEST_P(Arm, ReadsItsJoints) {
+TEST_P(Arm, Joints_Read) {
   EXPECT_EQ(arm_.GetActuatorData(0).state, 0);
   read(1);
   ASSERT_EQ(arm_.GetCount(), 2U);
@@ -108,7 +108,7 @@ TEST_P(Arm, ReadsItsJoints) {
   EXPECT_THAT(text.str(), HasSubstr("0.523599\t0\t1\n0.02\t0\t1\n"));
 }
 
-TEST_P(Arm, MovesToPositionsAndHome) {
+TEST_P(Arm, PositionCommandsAndHome_Move) {
   arm_.MoveTo(0, 1.0F);
   read(5);
   EXPECT_EQ(arm_[0].state, PLAYER_ACTARRAY_ACTSTATE_MOVING);
@@ -132,7 +132,7 @@ TEST_P(Arm, MovesToPositionsAndHome) {
   EXPECT_NEAR(arm_[1].position, 0.1, kFloat);
 }
 
-TEST_P(Arm, MovesAtSpeedsUntilItStalls) {
+TEST_P(Arm, SpeedCommand_MovesUntilStall) {
   arm_.MoveAtSpeedMulti({0.3F, -0.05F});
   read(10);
   EXPECT_NEAR(arm_[0].speed, 0.3, kFloat);
@@ -144,7 +144,7 @@ TEST_P(Arm, MovesAtSpeedsUntilItStalls) {
   EXPECT_EQ(arm_[1].state, PLAYER_ACTARRAY_ACTSTATE_STALLED);
 }
 
-TEST_P(Arm, PushesWithCurrents) {
+TEST_P(Arm, CurrentCommand_Pushes) {
   arm_.SetActuatorCurrent(0, 0.5F);
   read(100);
   EXPECT_NEAR(arm_[0].current, 0.5, kFloat);
@@ -155,7 +155,7 @@ TEST_P(Arm, PushesWithCurrents) {
   EXPECT_GT(arm_[1].speed, 0.0F);
 }
 
-TEST_P(Arm, TakesSettings) {
+TEST_P(Arm, Settings_Accepted) {
   arm_.SetSpeedConfig(0, 0.1F);
   arm_.SetAccelerationConfig(0, 0.2F);
   arm_.MoveTo(0, 2.0F);
@@ -169,7 +169,7 @@ TEST_P(Arm, TakesSettings) {
   EXPECT_NEAR(arm_.GetActuatorGeom(1).config_speed, 0.05, kFloat);
 }
 
-TEST_P(Arm, StopsWithoutPowerAndUnderBrakes) {
+TEST_P(Arm, PowerOffAndBrakes_Stop) {
   arm_.MoveToMulti({1.0F, 0.1F});
   read(3);
   arm_.SetBrakesConfig(true);
@@ -204,7 +204,7 @@ TEST_P(Arm, StopsWithoutPowerAndUnderBrakes) {
   EXPECT_NEAR(arm_[1].position, 0.2, kFloat);
 }
 
-TEST_P(Arm, WarnsOnceAboutJointsPastTheEnd) {
+TEST_P(Arm, JointBeyondEnd_WarnsOnce) {
   read(1);
   EXPECT_EQ(warning_of([&] {
               EXPECT_EQ(arm_.GetActuatorData(2).state, 0);
@@ -228,7 +228,7 @@ TEST_P(Arm, WarnsOnceAboutJointsPastTheEnd) {
   EXPECT_NEAR(commanded[1].position, 0.1, kFloat);
 }
 
-TEST_P(Arm, MovesToTheLimitAndWarnsOnce) {
+TEST_P(Arm, PositionBeyondLimit_ClampedWithOneWarning) {
   EXPECT_THAT(warning_of([&] {
                 arm_.MoveTo(0, 2.0943952F);  // 120 degrees, rounded up
                 arm_.MoveTo(1, 3.0F);
@@ -242,7 +242,7 @@ TEST_P(Arm, MovesToTheLimitAndWarnsOnce) {
   EXPECT_EQ(arm_[1].state, PLAYER_ACTARRAY_ACTSTATE_IDLE);
 }
 
-TEST_P(Arm, RefusesWhatNoJointCanHave) {
+TEST_P(Arm, InvalidValues_Refused) {
   EXPECT_EQ(error_of([&] { arm_.SetSpeedConfig(2, 0.1F); }).GetErrorCode(),
             PlayerError::kBadArgument);
   EXPECT_THAT(error_of([&] { arm_.SetAccelerationConfig(5, 0.1F); }).GetErrorStr(),
@@ -254,7 +254,7 @@ TEST_P(Arm, RefusesWhatNoJointCanHave) {
             PlayerError::kBadArgument);
 }
 
-TEST(ArmOfNoRobot, IsToBeFoundInTheWorldThatTheErrorNames) {
+TEST(ArmOfNoRobot, ErrorNamesWorldWithArm) {
   const auto host = playerlike::Host::create(sim::load_world_text(
       R"({"arena": {"size": [2, 2]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}}]})"));
   PlayerClient client(host->connect(6665));
@@ -362,7 +362,7 @@ TEST_F(CArm, TakesAllCommands) {
   EXPECT_EQ(arm->motor_state, 0);
 }
 
-TEST_F(CArm, ReportsErrors) {
+TEST_F(CArm, Errors_Reported) {
   subscribe();
   EXPECT_EQ(playerc_actarray_speed_config(arm_.get(), 2, 0.1F), -1);
   EXPECT_EQ(playerc_actarray_accel_config(arm_.get(), 0, 0.0F), -1);

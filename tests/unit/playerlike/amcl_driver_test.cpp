@@ -52,7 +52,7 @@ double error_m(const AmclDriver& driver, const Position2dProxy& truth) {
   return std::hypot(mean.px - truth.GetXPos(), mean.py - truth.GetYPos());
 }
 
-TEST_P(AmclDriverTest, TracksARobotFromAKnownPose) {
+TEST_P(AmclDriverTest, KnownPose_Tracked) {
   start(arena());
   PlayerClient client(host->connect(6665));
   Position2dProxy truth(&client, 0);
@@ -87,7 +87,7 @@ TEST_P(AmclDriverTest, TracksARobotFromAKnownPose) {
   EXPECT_EQ(driver.GetParticleWeight(count), 0.0);
 }
 
-TEST_P(AmclDriverTest, FindsARobotThatMayBeAnywhere) {
+TEST_P(AmclDriverTest, UnknownPose_Found) {
   start(arena());
   PlayerClient client(host->connect(6665));
   Position2dProxy truth(&client, 0);
@@ -99,7 +99,7 @@ TEST_P(AmclDriverTest, FindsARobotThatMayBeAnywhere) {
   EXPECT_LT(error_m(driver, truth), 0.1);
 }
 
-TEST_P(AmclDriverTest, SpreadForgetsThePose) {
+TEST_P(AmclDriverTest, Spread_ForgetsPose) {
   start(arena());
   PlayerClient client(host->connect(6665));
   AmclDriver driver(&client);
@@ -113,7 +113,7 @@ TEST_P(AmclDriverTest, SpreadForgetsThePose) {
   EXPECT_EQ(driver.GetUpdates(), updates + 1);  // the next scan is used although the robot stands
 }
 
-TEST_P(AmclDriverTest, ASettingStartsTheFilterAnewFromTheLastPose) {
+TEST_P(AmclDriverTest, Setting_RestartsFilterFromLastPose) {
   start(arena());
   PlayerClient client(host->connect(6665));
   AmclDriver driver(&client);
@@ -128,7 +128,7 @@ TEST_P(AmclDriverTest, ASettingStartsTheFilterAnewFromTheLastPose) {
   EXPECT_NEAR(driver.GetHypoth(0).mean.px, 0.5, 0.1);
 }
 
-TEST_P(AmclDriverTest, NumbersAtTheEndOfTheRangeAreRefusedOrUsed) {
+TEST_P(AmclDriverTest, ExtremeNumbers_RefusedOrUsed) {
   start(arena());
   PlayerClient client(host->connect(6665));
   Position2dProxy odometry(&client, 1);
@@ -160,7 +160,7 @@ TEST_P(AmclDriverTest, NumbersAtTheEndOfTheRangeAreRefusedOrUsed) {
   }
 }
 
-TEST_P(AmclDriverTest, SettingsHaveNamesAndRanges) {
+TEST_P(AmclDriverTest, Settings_HaveNamesAndRanges) {
   start(arena());
   PlayerClient client(host->connect(6665));
   AmclDriver driver(&client);
@@ -191,7 +191,7 @@ TEST_P(AmclDriverTest, SettingsHaveNamesAndRanges) {
   EXPECT_EQ(driver.Get("pf_err"), 0.01);
 }
 
-TEST_P(AmclDriverTest, WrongArgumentsAreRefused) {
+TEST_P(AmclDriverTest, WrongArguments_Refused) {
   start(arena());
   PlayerClient client(host->connect(6665));
   EXPECT_EQ(error_code_of([&] { AmclDriver other(nullptr); }), PlayerError::kBadArgument);
@@ -208,7 +208,7 @@ TEST_P(AmclDriverTest, WrongArgumentsAreRefused) {
             PlayerError::kBadArgument);
 }
 
-TEST_P(AmclDriverTest, IsRefusedWhereClientsMayReadTheirOwnSensorsOnly) {
+TEST_P(AmclDriverTest, OwnSensorsOnly_Refused) {
   start(arena(R"({"privacy": "own"})"));
   PlayerClient client(host->connect(6665));
   EXPECT_NE(error_code_of([&] { AmclDriver driver(&client); }), 0);
@@ -232,7 +232,7 @@ std::string localised_run(Transport transport) {
   return trace.str();
 }
 
-TEST_P(AmclDriverTest, RunsAreRepeatable) {
+TEST_P(AmclDriverTest, Repeatable) {
   const std::string first = localised_run(Transport::kInProcess);
   for (int i = 0; i < 2; ++i) EXPECT_EQ(localised_run(GetParam()), first) << "run " << i + 2;
 }

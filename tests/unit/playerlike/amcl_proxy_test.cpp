@@ -90,13 +90,13 @@ INSTANTIATE_TEST_SUITE_P(Transports, AmclTransports,
                                          test::Transport::kJson),
                          [](const auto& instance) { return test::transport_name(instance.param); });
 
-TEST_P(AmclTransports, HypothesesParticlesAndSetPoseWork) {
+TEST_P(AmclTransports, HypothesesParticlesAndSetPose_Work) {
   const test::ReachableHost host(test::patient_host(world_with(kDriver)), GetParam());
   PlayerCc::PlayerClient client(host.connect(6665));
   expect_tracking(client);
 }
 
-TEST(AmclProxy, HypothesesParticlesAndSetPoseWorkOverPlayersProtocol) {
+TEST(AmclProxy, PlayerProtocol_HypothesesParticlesAndSetPoseWork) {
   ServerSettings settings;
   settings.port = 0;
   settings.player_port = 0;
@@ -141,21 +141,21 @@ Spread spread_after(const Covariance& cov) {
 constexpr double kVariance_m2 = 0.04;
 constexpr double kBound_m2 = 4.0 * 0.0224 * kVariance_m2;
 
-TEST(AmclProxy, ReadsSixNumbersOfAnArrayAsPlayer3HasThem) {
+TEST(AmclProxy, Array_ReadsSixNumbersAsPlayer3) {
   const double whole[6] = {kVariance_m2, kVariance_m2, 0.01, 0.03, 0.0, 0.0};
   const Spread spread = spread_after(whole);
   EXPECT_NEAR(spread.xx, kVariance_m2, kBound_m2);
   EXPECT_NEAR(spread.xy, 0.03, kBound_m2);
 }
 
-TEST(AmclProxy, ReadsThreeNumbersOfAnArrayAsPlayer2HasThem) {
+TEST(AmclProxy, Array_ReadsThreeNumbersAsPlayer2) {
   const double variances[3] = {kVariance_m2, kVariance_m2, 0.01};
   const Spread spread = spread_after(variances);
   EXPECT_NEAR(spread.xx, kVariance_m2, kBound_m2);
   EXPECT_NEAR(spread.xy, 0.0, kBound_m2);
 }
 
-TEST(AmclProxy, ReadsTheThreeVariancesOfAPointer) {
+TEST(AmclProxy, Pointer_ReadsThreeVariances) {
   double whole[6] = {kVariance_m2, kVariance_m2, 0.01, 9.0, 9.0, 9.0};
   double* const pointer = whole;
   const Spread spread = spread_after(pointer);
@@ -163,7 +163,7 @@ TEST(AmclProxy, ReadsTheThreeVariancesOfAPointer) {
   EXPECT_NEAR(spread.xy, 0.0, kBound_m2);
 }
 
-TEST(AmclProxy, RefusesACovarianceThatNoPoseHas) {
+TEST(AmclProxy, InvalidCovariance_Refused) {
   const auto host = Host::create(world_with(kDriver));
   PlayerCc::PlayerClient client(host->connect(6665));
   PlayerCc::LocalizeProxy localize(&client, 0);
@@ -176,7 +176,7 @@ TEST(AmclProxy, RefusesACovarianceThatNoPoseHas) {
   localize.SetPose(pose, NULL);  // as C programs write it
 }
 
-TEST(AmclProxy, FollowsTheArenasLocalisation) {
+TEST(AmclProxy, FollowsLocalisationInArena) {
   const auto host = Host::create(world_with(kDriver));
   PlayerCc::PlayerClient client(host->connect(6665));
   PlayerCc::LocalizeProxy measured(&client, 1);
@@ -188,7 +188,7 @@ TEST(AmclProxy, FollowsTheArenasLocalisation) {
   EXPECT_EQ(measured.GetParticleWeight(0), 1.0);
 }
 
-TEST(AmclProxy, DriverAndDeviceAreTheSame) {
+TEST(AmclProxy, DriverAndDevice_Equal) {
   const auto driver = world_with(R"("drivers": [{"type": "amcl", "pf_min_samples": 50}])");
   const auto device = world_with(R"("devices": {"amcl": {"pf_min_samples": 50}})");
   sim::Simulation first(driver);
@@ -211,7 +211,7 @@ void expect_issue(const std::string& robot, const std::string& id, const std::st
   }
 }
 
-TEST(AmclProxy, RefusesBadDrivers) {
+TEST(AmclProxy, InvalidDrivers_Refused) {
   expect_issue(R"("drivers": [{"type": "amcl", "pf_erro": 1}])", "world/unknown-key",
                "/robots/0/drivers/0/pf_erro");
   expect_issue(R"("drivers": [{"type": "amcl"}, {"type": "amcl"}])", "world/duplicate-name",

@@ -105,7 +105,7 @@ const auto kTransportName = [](const auto& instance) { return transport_name(ins
 INSTANTIATE_TEST_SUITE_P(Transports, Arena, kTransports, kTransportName);
 INSTANTIATE_TEST_SUITE_P(Transports, PlainArena, kTransports, kTransportName);
 
-TEST_P(Arena, ListsItsParts) {
+TEST_P(Arena, ListsParts) {
   EXPECT_EQ(arena_.GetConfigurationCount(), 3U);
   EXPECT_THAT(arena_.GetConfigurationNames(), ElementsAre("open", "closed", "crowded"));
   EXPECT_EQ(arena_.GetConfigurationName(1), "closed");
@@ -129,7 +129,7 @@ TEST_P(Arena, ListsItsParts) {
   EXPECT_EQ(host_.time().steps, 0U) << "questions take no simulated time";
 }
 
-TEST_P(Arena, ChangesToConfigurations) {
+TEST_P(Arena, Configuration_Changes) {
   arena_.SetConfiguration("open");
   EXPECT_EQ(arena_.GetConfiguration(), "open");
   EXPECT_EQ(arena_.GetBlockState("gate"), "sinking");
@@ -158,7 +158,7 @@ TEST_P(Arena, ChangesToConfigurations) {
   EXPECT_EQ(arena_.GetConfiguration(), "crowded");
 }
 
-TEST_P(Arena, MovesSingleBlocks) {
+TEST_P(Arena, SingleBlocks_Move) {
   arena_.ExtendBlock("side");
   EXPECT_EQ(arena_.GetBlockState("side"), "extended");
   arena_.RetractBlock("side");
@@ -179,7 +179,7 @@ TEST_P(Arena, MovesSingleBlocks) {
                           "0.01 extended seat", HasSubstr("0.1 refused stool r2")));
 }
 
-TEST_P(Arena, SwitchesTimersAndTraps) {
+TEST_P(Arena, TimersAndTraps_Switched) {
   arena_.EnableTimer("tick");
   EXPECT_TRUE(arena_.IsTimerEnabled("tick"));
   EXPECT_NEAR(arena_.GetTimeLeft("tick"), 0.5, 1e-9);
@@ -205,7 +205,7 @@ TEST_P(Arena, SwitchesTimersAndTraps) {
                           "1.71 message home at home", "1.8 disabled home"));
 }
 
-TEST_P(Arena, TellsTheVerdictAfterTheRun) {
+TEST_P(Arena, Verdict_ReadAfterRun) {
   arena_.EnableTrap("goal");
   EXPECT_EQ(error_of([&] { pass(100); }).GetErrorCode(), PlayerError::kRunIsOver);
   ASSERT_TRUE(arena_.HasVerdict());
@@ -215,7 +215,7 @@ TEST_P(Arena, TellsTheVerdictAfterTheRun) {
   EXPECT_EQ(arena_.GetEvents().back().kind, "end");
 }
 
-TEST_P(Arena, RefusesUnknownNames) {
+TEST_P(Arena, UnknownNames_Refused) {
   const auto refused = [](const char* function, const char* part, auto action) {
     const PlayerError error = error_of(action);
     EXPECT_EQ(error.GetErrorCode(), PlayerError::kBadArgument) << function;
@@ -253,7 +253,7 @@ TEST_P(Arena, RefusesUnknownNames) {
   EXPECT_THAT(arena_.GetEvents(), IsEmpty());
 }
 
-TEST_P(Arena, CountsEventsThatAreNoLongerKept) {
+TEST_P(Arena, DroppedEvents_Counted) {
   arena_.EnableTimer("fast");
   pass(15);
   const std::vector<ArenaEvent> events = arena_.GetEvents();
@@ -265,7 +265,7 @@ TEST_P(Arena, CountsEventsThatAreNoLongerKept) {
   EXPECT_EQ(arena_.GetLostEventCount(), events.front().number - 1);
 }
 
-TEST_P(Arena, GivesEachEventToOneOfSeveralThreads) {
+TEST_P(Arena, Event_DeliveredToOneThread) {
   arena_.EnableTimer("fast");
   pass(5);
   std::vector<std::vector<ArenaEvent>> parts(4);
@@ -284,7 +284,7 @@ TEST_P(Arena, GivesEachEventToOneOfSeveralThreads) {
   EXPECT_EQ(count, ArenaProxy(client_.get()).GetEvents().size());
 }
 
-TEST_P(Arena, ServesMorseClientsAndOutlivesThem) {
+TEST_P(Arena, MorseClients_ServedAndOutlived) {
   auto morse = std::make_unique<CCMorse::MorseClient>(host_.connect(4000));
   ArenaProxy arena(*morse);
   arena.SetConfiguration("open");
@@ -305,7 +305,7 @@ TEST_P(Arena, ServesMorseClientsAndOutlivesThem) {
 }
 
 // A restored state has the configuration of that state; events continue.
-TEST_P(Arena, GoesBackWithTheWorld) {
+TEST_P(Arena, RestoredWorld_RestoresArena) {
   SimulationProxy simulation(client_.get(), 0);
   arena_.SetConfiguration("open");
   pass(1);
@@ -362,7 +362,7 @@ void expect_no_change(ArenaProxy& arena, const char* part) {
   refused([&] { arena.DisableTrap("home"); });
 }
 
-TEST_P(ClosedArena, IsOnlyReadWhereTheWorldIsLocked) {
+TEST_P(ClosedArena, LockedWorld_ReadOnly) {
   const test::ReachableHost host(
       playerlike::Host::create(sim::load_world_text(with_simulation(R"("lock_objects": true)"))),
       GetParam());
@@ -380,7 +380,7 @@ TEST_P(ClosedArena, IsOnlyReadWhereTheWorldIsLocked) {
 }
 
 // Events and waiting blocks would tell where the other robots are.
-TEST_P(ClosedArena, IsHiddenInAPrivateWorld) {
+TEST_P(ClosedArena, PrivateWorld_Hidden) {
   const test::ReachableHost host(
       playerlike::Host::create(sim::load_world_text(with_simulation(R"("privacy": "own")"))),
       GetParam());
@@ -394,7 +394,7 @@ TEST_P(ClosedArena, IsHiddenInAPrivateWorld) {
   }
 }
 
-TEST(ArenaOfAServer, ChangesOnlyForThoseWhoMayCommandAllRobots) {
+TEST(ArenaOfAServer, Changes_NeedTokensOfAllRobots) {
   const test::TokenServer server(kWorld);
   const auto some = server.client(test::TokenServer::kServerToken);
   ArenaProxy arena(some.get());
@@ -409,7 +409,7 @@ TEST(ArenaOfAServer, ChangesOnlyForThoseWhoMayCommandAllRobots) {
 
 // --- SimulationProxy
 
-TEST_P(Arena, HasPropertiesOfTheSimulationProxy) {
+TEST_P(Arena, Properties_MatchSimulationProxy) {
   SimulationProxy simulation(client_.get(), 0);
   char text[64] = {};
   const auto property = [&](const char* object, const char* name) -> std::string {
@@ -445,7 +445,7 @@ TEST_P(Arena, HasPropertiesOfTheSimulationProxy) {
   EXPECT_TRUE(after.HasVerdict());
 }
 
-TEST_P(Arena, WarnsOfPropertiesThatItHasNot) {
+TEST_P(Arena, UnknownProperty_Warns) {
   SimulationProxy simulation(client_.get(), 0);
   char value[64] = {};
   const auto warning_of = [](auto action) {
@@ -474,7 +474,7 @@ TEST_P(Arena, WarnsOfPropertiesThatItHasNot) {
 }
 
 // Worlds may have an obstacle of this name.
-TEST(ArenaProperties, BelongToAnObstacleOfThatName) {
+TEST(ArenaProperties, ObstacleOfSameName_HasProperties) {
   const auto host = playerlike::Host::create(sim::load_world_text(R"({
       "arena": {"size": [4, 2], "obstacles": [{"name": "arena", "center": [3, 1], "size": [0.2, 0.2]}]},
       "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}}]})"));

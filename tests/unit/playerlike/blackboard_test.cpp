@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, Blackboard,
                          testing::Values(Transport::kInProcess, Transport::kCbor, Transport::kJson),
                          [](const auto& instance) { return transport_name(instance.param); });
 
-TEST_P(Blackboard, KeepsWhatOneClientSetsForTheOthers) {
+TEST_P(Blackboard, Entry_VisibleToOtherClients) {
   BlackBoardProxy one(&first, 0);
   BlackBoardProxy two(&second, 0);
   EXPECT_EQ(one.GetInterfaceStr(), "blackboard");
@@ -105,7 +105,7 @@ TEST_P(Blackboard, KeepsWhatOneClientSetsForTheOthers) {
   EXPECT_EQ(text_of(*Entry(one.GetEntry("k", ""))), "/k=other group");
 }
 
-TEST_P(Blackboard, ReportsChangesOfWhatIsSubscribedTo) {
+TEST_P(Blackboard, SubscribedChanges_Reported) {
   BlackBoardProxy one(&first, 0);
   BlackBoardProxy two(&second, 0);
   Position2dProxy position(&second, 0);
@@ -139,7 +139,7 @@ TEST_P(Blackboard, ReportsChangesOfWhatIsSubscribedTo) {
   EXPECT_EQ(heard.size(), 3U);
 }
 
-TEST_P(Blackboard, ReportsTheEntriesThatAGroupHasAndTheirTime) {
+TEST_P(Blackboard, Groups_ReportEntriesWithTime) {
   BlackBoardProxy one(&first, 0);
   Position2dProxy position(&first, 0);
   for (int i = 0; i < 5; ++i) first.Read();
@@ -154,7 +154,7 @@ TEST_P(Blackboard, ReportsTheEntriesThatAGroupHasAndTheirTime) {
   EXPECT_NEAR(one.GetDataTime(), now_s, 1e-6);
 }
 
-TEST_P(Blackboard, WorksForAProgramWithoutSensors) {
+TEST_P(Blackboard, ProgramWithoutSensors_Works) {
   BlackBoardProxy one(&first, 0);
   one.SetEventHandler(hear);
   one.SubscribeToGroup("");
@@ -163,7 +163,7 @@ TEST_P(Blackboard, WorksForAProgramWithoutSensors) {
   EXPECT_THAT(heard, ElementsAre("/a=1"));
 }
 
-TEST_P(Blackboard, RefusesNullPointersAndWhatIsTooLong) {
+TEST_P(Blackboard, NullPointersAndLongValues_Refused) {
   BlackBoardProxy one(&first, 0);
   const auto code = [&](auto action) { return error_code_of(action); };
   EXPECT_EQ(code([&] { one.GetEntry(nullptr, ""); }), PlayerError::kBadArgument);
@@ -182,7 +182,7 @@ TEST_P(Blackboard, RefusesNullPointersAndWhatIsTooLong) {
   set(one, "", "last", std::string(65000, 'x'));
 }
 
-TEST_P(Blackboard, DeliversAllOfAFullBlackboard) {
+TEST_P(Blackboard, FullBlackboard_Delivered) {
   BlackBoardProxy one(&first, 0);
   BlackBoardProxy two(&second, 0);
   for (int i = 0; i < 1024; ++i) set(one, "", std::to_string(i), std::string(500, 'x'));
@@ -199,7 +199,7 @@ TEST_P(Blackboard, DeliversAllOfAFullBlackboard) {
   EXPECT_EQ(bytes, 1024U * 500U);
 }
 
-TEST_P(Blackboard, KeepsItsEntriesWhenAStateIsRestored) {
+TEST_P(Blackboard, RestoredState_KeepsEntries) {
   BlackBoardProxy one(&first, 0);
   PlayerCc::SimulationProxy simulation(&first, 0);
   simulation.SaveState("before");
@@ -208,7 +208,7 @@ TEST_P(Blackboard, KeepsItsEntriesWhenAStateIsRestored) {
   EXPECT_EQ(text_of(*Entry(one.GetEntry("k", "g"))), "g/k=1");
 }
 
-TEST_P(Blackboard, LetsItsHandlerDeleteTheProxy) {
+TEST_P(Blackboard, Handler_MayDeleteProxy) {
   BlackBoardProxy one(&first, 0);
   auto two = std::make_unique<BlackBoardProxy>(&second, 0);
   int count = 0;
@@ -224,7 +224,7 @@ TEST_P(Blackboard, LetsItsHandlerDeleteTheProxy) {
   second.Read();
 }
 
-TEST_P(Blackboard, ReportsChangesToAThreadThatReadsInTheBackground) {
+TEST_P(Blackboard, BackgroundThread_GetsChanges) {
   BlackBoardProxy one(&first, 0);
   BlackBoardProxy two(&second, 0);
   std::promise<std::string> reported;
@@ -292,7 +292,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, BlackboardInLockstep,
 
 // The threads compute side by side between two steps. What one of them reads must not depend on
 // how fast the other one is. The last change of the shared entry is that of the newer client.
-TEST_P(BlackboardInLockstep, ShowsTheChangesOfOtherThreadsFromTheNextStepOn) {
+TEST_P(BlackboardInLockstep, ChangesOfOtherThreads_VisibleFromNextStep) {
   const test::ReachableHost host(
       playerlike::Host::create(sim::load_world_text(R"({"simulation": {"clients": 2},
           "arena": {"size": [4, 4]}, "robots": [{"pose": {"x": 1, "y": 1}},
@@ -307,7 +307,7 @@ TEST_P(BlackboardInLockstep, ShowsTheChangesOfOtherThreadsFromTheNextStepOn) {
   EXPECT_EQ(b.rounds, rounds_of("b", "a"));
 }
 
-TEST(BlackboardOfAPrivateWorld, IsClosed) {
+TEST(BlackboardOfAPrivateWorld, Closed) {
   const auto host = playerlike::Host::create(
       sim::load_world_text(R"({"simulation": {"privacy": "own"}, "robots": [{}, {}]})"));
   PlayerClient client(host->connect(6665));
@@ -370,7 +370,7 @@ TEST(BlackboardOfTheCLibrary, SetsGetsAndReports) {
 
 // The library must not access what the program's function has destroyed; the sanitizer builds check
 // this.
-TEST(BlackboardOfTheCLibrary, LetsTheProgramsFunctionDestroyTheDeviceAndTheClient) {
+TEST(BlackboardOfTheCLibrary, Callback_MayDestroyDeviceAndClient) {
   const test::ReachableHost host(playerlike::Host::create(sim::load_world_text(kWorld)),
                                  Transport::kCbor);
   static playerc_client_t* client = nullptr;

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Who commands which robot, and which robots stop when those are gone. Times are given, so nothing
 // waits.
-#include "host/commanders.h"
+#include "host/stepping/commanders.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ class CommandersTest : public testing::Test {
   const WallClock::time_point begin_ = WallClock::now();
 };
 
-TEST_F(CommandersTest, ARobotStopsWhenTheLastClientLeavesThatCommandsOrReadsIt) {
+TEST_F(CommandersTest, LastCommanderOrReaderLeaves_RobotStops) {
   drive(&a_, 0);
   open(b_, 0);
   open(a_, 0);
@@ -78,13 +78,13 @@ TEST_F(CommandersTest, ARobotStopsWhenTheLastClientLeavesThatCommandsOrReadsIt) 
   EXPECT_THAT(commanders_.note_gone(&b_), IsEmpty()) << "it stands already";
 }
 
-TEST_F(CommandersTest, ClosingPosition2dCountsAsLeaving) {
+TEST_F(CommandersTest, ClosedPosition2d_CountsAsLeaving) {
   open(a_, 1);
   drive(&a_, 1);
   EXPECT_THAT(close(a_, 1), ElementsAre(1));
 }
 
-TEST_F(CommandersTest, ARobotThatNobodyHasCommandedIsNotStopped) {
+TEST_F(CommandersTest, UncommandedRobot_NotStopped) {
   open(a_, 0);
   EXPECT_THAT(close(a_, 0), IsEmpty());
   EXPECT_EQ(commanders_.note(&a_, device(0, "pen"), Kind::kClient), std::nullopt);
@@ -92,14 +92,14 @@ TEST_F(CommandersTest, ARobotThatNobodyHasCommandedIsNotStopped) {
   EXPECT_THAT(commanders_.note_closed(a_, {7, 0}), IsEmpty()) << "there is no such robot";
 }
 
-TEST_F(CommandersTest, WhoOnlyLooksOnKeepsNoRobotGoing) {
+TEST_F(CommandersTest, Watchers_KeepNoRobotDriving) {
   b_.onlooker = true;
   open(b_, 0);
   drive(&a_, 0);
   EXPECT_THAT(commanders_.note_gone(&a_), ElementsAre(0));
 }
 
-TEST_F(CommandersTest, SimulatedRobotsOfMorseDriveOn) {
+TEST_F(CommandersTest, MorseRobots_DriveOn) {
   drive(&a_, 0, Kind::kMorse);
   EXPECT_THAT(commanders_.note_gone(&a_), IsEmpty());
 }
@@ -109,7 +109,7 @@ class MirroredCommanders : public CommandersTest {
   MirroredCommanders() : CommandersTest(two_robots(R"(, "real": {"server": "tcp://robot"})")) {}
 };
 
-TEST_F(MirroredCommanders, ARealRobotStopsWhenItsCommanderIsGoneWhoeverReadsIt) {
+TEST_F(MirroredCommanders, CommanderLeaves_RealRobotStopsDespiteReaders) {
   for (const Kind kind : {Kind::kClient, Kind::kFollower, Kind::kMorse}) {
     open(b_, 0);
     drive(&a_, 0, kind);
@@ -121,7 +121,7 @@ TEST_F(MirroredCommanders, ARealRobotStopsWhenItsCommanderIsGoneWhoeverReadsIt) 
   EXPECT_THAT(commanders_.note_gone(&a_), IsEmpty()) << "the other one commanded it later";
 }
 
-TEST_F(CommandersTest, WhoIsInChargeMustShowItselfInTime) {
+TEST_F(CommandersTest, Commander_MustSendHeartbeat) {
   open(b_, 0);
   EXPECT_FALSE(commanders_.take_charge(&a_, charge(0.5), begin_));
   EXPECT_THAT(commanders_.overdue(begin_ + wall(9.0)), IsEmpty()) << "nothing moves";
@@ -139,7 +139,7 @@ TEST_F(CommandersTest, WhoIsInChargeMustShowItselfInTime) {
       << "another client that is there drives it";
 }
 
-TEST_F(CommandersTest, ARobotStopsWhenWhoIsInChargeIsGone) {
+TEST_F(CommandersTest, CommanderLost_RobotStops) {
   open(b_, 0);
   EXPECT_FALSE(commanders_.take_charge(&a_, charge(0.5), begin_));
   drive(&a_, 0);
@@ -147,7 +147,7 @@ TEST_F(CommandersTest, ARobotStopsWhenWhoIsInChargeIsGone) {
   EXPECT_FALSE(commanders_.take_charge(&b_, charge(0.5), begin_)) << "the charge is free";
 }
 
-TEST_F(CommandersTest, OnlyOneIsInChargeUntilAnotherTakesOver) {
+TEST_F(CommandersTest, OneCommander_UntilTakenOver) {
   EXPECT_FALSE(commanders_.take_charge(&a_, charge(0.5, "the mirror on host A"), begin_));
   EXPECT_THAT(
       [&] { static_cast<void>(commanders_.take_charge(&b_, charge(0.5, "B"), begin_)); },
@@ -166,10 +166,8 @@ TEST_F(CommandersTest, OnlyOneIsInChargeUntilAnotherTakesOver) {
 class HostCommanders : public testing::Test {
  protected:
   [[nodiscard]] double speed() const {
-    double speed = 0.0;
-    host_->with_simulation(
-        [&](const sim::Simulation& simulation) { speed = simulation.body(0).twist.v_mps; });
-    return speed;
+    return host_->with_simulation(
+        [](const sim::Simulation& simulation) { return simulation.body(0).twist.v_mps; });
   }
   /// Lets some steps pass by a client of the other robot.
   void step() {
@@ -181,7 +179,7 @@ class HostCommanders : public testing::Test {
   std::unique_ptr<Session> other_ = host_->connect(6666);
 };
 
-TEST_F(HostCommanders, WhatALeavingClientHasSentIsExecutedBeforeItsRobotStops) {
+TEST_F(HostCommanders, LeavingClient_CommandsExecutedBeforeStop) {
   auto session = host_->connect(6665);
   session->request(SubscribeRequest{position_.reading});
   session->send(*position_.motion, sim::TwistCommand{{0.2, 0.0, 0.0}});
@@ -193,7 +191,7 @@ TEST_F(HostCommanders, WhatALeavingClientHasSentIsExecutedBeforeItsRobotStops) {
   EXPECT_EQ(speed(), 0.0);
 }
 
-TEST_F(HostCommanders, ARobotStopsWhenItsPosition2dIsClosed) {
+TEST_F(HostCommanders, ClosedPosition2d_RobotStops) {
   const auto session = host_->connect(6665);
   session->request(SubscribeRequest{position_.reading});
   session->send(*position_.motion, sim::TwistCommand{{0.2, 0.0, 0.0}});
@@ -202,7 +200,7 @@ TEST_F(HostCommanders, ARobotStopsWhenItsPosition2dIsClosed) {
   EXPECT_EQ(speed(), 0.0);
 }
 
-TEST_F(HostCommanders, ACommanderActsAtOnceAndItsSimulatedRobotDrivesOn) {
+TEST_F(HostCommanders, Commander_CommandsAtOnceAndLeavesRobotDriving) {
   auto commander = std::make_unique<Commander>(host_);
   EXPECT_EQ(commander->command(*position_.motion, sim::TwistCommand{{0.2, 0.0, 0.0}}),
             std::nullopt);
@@ -217,7 +215,7 @@ TEST_F(HostCommanders, ACommanderActsAtOnceAndItsSimulatedRobotDrivesOn) {
               Optional(HasSubstr("the run is over")));
 }
 
-TEST_F(HostCommanders, ChargesAreChecked) {
+TEST_F(HostCommanders, Charges_Checked) {
   const auto session = host_->connect(6665);
   const auto refusal = [&](const TakeChargeRequest& what) {
     try {

@@ -22,7 +22,7 @@ WorldDescription room_with(const std::string& settings) {
   return load_world_text(R"({"arena": {"size": [2, 2]}, "robots": [)" + robot + settings + "}}]}");
 }
 
-TEST(CompassHeading, IsTheTurnFromMagneticNorth) {
+TEST(CompassHeading, AngleFromMagneticNorth) {
   constexpr double kNorth = 0.5 * kPi;                                         // W's y axis
   EXPECT_DOUBLE_EQ(compass_heading_rad({1.0, 2.0, kNorth}, kNorth), 0.0);      // along y: north
   EXPECT_DOUBLE_EQ(compass_heading_rad({1.0, 2.0, 0.0}, kNorth), -0.5 * kPi);  // along x: east
@@ -31,7 +31,7 @@ TEST(CompassHeading, IsTheTurnFromMagneticNorth) {
   EXPECT_DOUBLE_EQ(compass_heading_rad({1.0, 2.0, -kPi}, kNorth), 0.5 * kPi);
 }
 
-TEST(Compass, MeasuresAtItsFrequency) {
+TEST(Compass, MeasuresAtFrequency) {
   Simulation simulation(room_with(R"({"frequency": 20, "north_deg": 180})"));
   for (int i = 0; i < 100; ++i) simulation.step();  // 1 s
   const auto& compass =
@@ -41,7 +41,7 @@ TEST(Compass, MeasuresAtItsFrequency) {
   EXPECT_NEAR(std::abs(compass.reading().heading_rad), kPi, 1e-12);
 }
 
-TEST(Compass, ScattersByItsNoise) {
+TEST(Compass, Noise_HasDeviation) {
   Simulation simulation(room_with(R"({"frequency": 100, "noise_deg": 2})"));
   const auto& compass =
       dynamic_cast<const Compass&>(simulation.device(0, *simulation.find_device(0, "compass")));
@@ -60,7 +60,7 @@ TEST(Compass, ScattersByItsNoise) {
   EXPECT_NEAR(std::sqrt(squares / kReadings), sigma, 4.0 * sigma / std::sqrt(2.0 * kReadings));
 }
 
-TEST(Compass, RefusesSettingsOutOfRange) {
+TEST(Compass, InvalidSettings_Refused) {
   try {
     static_cast<void>(room_with(R"({"noise_deg": -1})"));
     FAIL() << "a negative noise was read";
@@ -71,7 +71,7 @@ TEST(Compass, RefusesSettingsOutOfRange) {
   }
 }
 
-TEST(Compass, IsShownByTheProxyOfItsInterface) {
+TEST(Compass, Proxy_ShowsReading) {
   const auto host = playerlike::Host::create(room_with("{}"));
   PlayerCc::PlayerClient client(host->connect(6665));
   PlayerCc::ImuProxy compass(&client, 0);

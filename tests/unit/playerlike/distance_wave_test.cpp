@@ -41,7 +41,7 @@ std::vector<std::string> empty_rows(int width, int height) {
                                   std::string(static_cast<std::size_t>(width), '.'));
 }
 
-TEST(DistanceWave, ClearancesAreThoseOfAllPairsOfCells) {
+TEST(DistanceWave, Clearances_MatchAllPairsOfCells) {
   std::mt19937_64 random(3);
   for (int round = 0; round < 20; ++round) {
     std::vector<std::string> rows = empty_rows(17, 11);
@@ -67,7 +67,7 @@ TEST(DistanceWave, ClearancesAreThoseOfAllPairsOfCells) {
   }
 }
 
-TEST(DistanceWave, InTheOpenTheOnlyWaypointIsTheGoal) {
+TEST(DistanceWave, FreeSpace_WaypointIsGoal) {
   const DistanceWave wave(map_of(empty_rows(30, 30)), point_robot());
   const auto path = wave.plan({0.55, 0.55}, {2.45, 1.85});
   ASSERT_TRUE(path);
@@ -76,7 +76,7 @@ TEST(DistanceWave, InTheOpenTheOnlyWaypointIsTheGoal) {
   EXPECT_DOUBLE_EQ(path->length_m, std::hypot(1.9, 1.3));
 }
 
-TEST(DistanceWave, GoesRoundAWallByTheShorterSideAndKeepsItsDistance) {
+TEST(DistanceWave, Wall_PassedOnShorterSideWithClearance) {
   std::vector<std::string> rows = empty_rows(40, 40);
   // A wall at x = 2.0 from the bottom up to y = 2.4.
   for (std::size_t r = 16; r < 40; ++r) rows[r][20] = '#';
@@ -97,7 +97,7 @@ TEST(DistanceWave, GoesRoundAWallByTheShorterSideAndKeepsItsDistance) {
   }
 }
 
-TEST(DistanceWave, ThereIsNoPathThroughAGapThatIsTooNarrowOrUnknown) {
+TEST(DistanceWave, NarrowOrUnknownGap_NoPath) {
   std::vector<std::string> rows = empty_rows(40, 20);
   for (std::string& row : rows) row[20] = '#';
   for (const std::size_t r : {9U, 10U, 11U, 12U}) rows[r][20] = '.';
@@ -111,7 +111,7 @@ TEST(DistanceWave, ThereIsNoPathThroughAGapThatIsTooNarrowOrUnknown) {
   EXPECT_FALSE(DistanceWave(map_of(rows), settings).plan({1.0, 1.0}, {3.0, 1.0}));
 }
 
-TEST(DistanceWave, APenaltyKeepsThePathInTheMiddle) {
+TEST(DistanceWave, Penalty_KeepsPathInMiddle) {
   const std::vector<std::string> rows = empty_rows(60, 20);  // a corridor of 2 m
   WavefrontSettings settings = point_robot();
   settings.robot_radius_m = 0.2;
@@ -130,7 +130,7 @@ TEST(DistanceWave, APenaltyKeepsThePathInTheMiddle) {
   EXPECT_GT(lowest(5.0), 0.8);
 }
 
-TEST(DistanceWave, AStartNearAWallIsMovedAndAGoalThereHasNoPath) {
+TEST(DistanceWave, StartNearWall_MovedButGoalNearWallHasNoPath) {
   WavefrontSettings settings = point_robot();
   settings.robot_radius_m = 0.3;
   const DistanceWave wave(map_of(empty_rows(40, 40)), settings);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "field_pages.h"
+#include "field_schema.h"
 #include "playerlike/messages/driver_settings.h"
 #include "temporary_folder.h"
 
@@ -76,20 +76,18 @@ bool has_own_default(const sim::Field& field, const void* defaults) {
 }
 
 std::string table_of(const DriverType& type, const void* defaults) {
-  std::string table = "| key | unit | range | default | meaning |\n|---|---|---|---|---|\n";
+  std::string table = sim::test::kFieldTableHead;
   for (const sim::Field& field : type.settings->fields) {
-    const std::string unit = field.range.unit;
-    table += "| `" + std::string(field.name) + "` | " + (unit.empty() ? "–" : unit) + " | " +
-             sim::test::range_text(field) + " | " +
-             (has_own_default(field, defaults)
-                  ? "`" + sim::test::line_of_json(sim::test::value_json(field, defaults)) + "`"
-                  : "–") +
-             " | " + field.meaning + " |\n";
+    table += sim::test::field_row(
+        field, sim::test::range_text(field),
+        has_own_default(field, defaults)
+            ? "`" + sim::test::line_of_json(sim::test::value_json(field, defaults)) + "`"
+            : "–");
   }
   return table;
 }
 
-TEST(DriverPages, EachDriverHasAPage) {
+TEST(DriverPages, ExistsForEachDriver) {
   std::vector<std::string> types;
   for (const DriverType& type : driver_types()) types.push_back(type.name);
   std::vector<std::string> described;
@@ -97,7 +95,7 @@ TEST(DriverPages, EachDriverHasAPage) {
   EXPECT_EQ(types, described);
 }
 
-TEST(DriverPages, HaveTheTablesThatTheFieldsMake) {
+TEST(DriverPages, Tables_MatchFields) {
   for_each_driver([](const DriverType& type, const void* defaults) {
     if (type.settings->fields.empty()) return;
     const std::string file = kRoot + "/docs/" + page_of(type).file;
@@ -113,18 +111,11 @@ TEST(DriverPages, HaveTheTablesThatTheFieldsMake) {
       }
       return;
     }
-    const std::size_t section = page.find(type.name == "goto" ? "\n## goto\n" : "\n## Settings\n");
-    ASSERT_NE(section, std::string::npos) << file;
-    const std::size_t found = page.find("\n| key |", section);
-    ASSERT_NE(found, std::string::npos) << file;
-    const std::size_t first = found + 1;
-    const std::size_t last = std::min(page.find("\n\n", first) + 1, page.size());
     const std::string made = table_of(type, defaults);
-    if (sim::test::writes_pages()) {
-      sim::test::write_page(file, page.substr(0, first) + made + page.substr(last));
-    } else {
-      EXPECT_EQ(page.substr(first, last - first), made) << "PLAYPEN_WRITE_PAGES=1 writes it anew";
-    }
+    const std::string heading = type.name == "goto" ? "## goto" : "## Settings";
+    EXPECT_TRUE(sim::test::is_table_of_page(file, heading, made))
+        << file << ": PLAYPEN_WRITE_PAGES=1 writes it anew\n"
+        << made;
   });
 }
 
@@ -194,7 +185,7 @@ Json with_drivers(Json schema) {
   return schema;
 }
 
-TEST(DriverPages, SchemaIsMadeOfTheFields) {
+TEST(DriverPages, Schema_MatchesFields) {
   const std::string file = kRoot + "/worlds/schema/world.schema.json";
   const std::string now = test_support::read_bytes(file);
   const std::string made = sim::test::json_text(with_drivers(Json::parse(now))) + "\n";

@@ -41,7 +41,7 @@ class EmbeddedWorlds : public testing::Test {
 };
 
 // As in a fixture of tests with a client of its own: each test begins at the start.
-TEST_F(EmbeddedWorlds, AWorldThatAProgramNamesBeginsAnewAfterItsLastClient) {
+TEST_F(EmbeddedWorlds, NamedWorld_RestartsAfterLastClient) {
   double first_x = 0.0;
   double second_x = 0.0;
   const double first_s = drive("sim:" + world_, first_x);
@@ -51,7 +51,7 @@ TEST_F(EmbeddedWorlds, AWorldThatAProgramNamesBeginsAnewAfterItsLastClient) {
   EXPECT_EQ(first_x, second_x);
 }
 
-TEST_F(EmbeddedWorlds, AClientKeepsTheWorldForOthers) {
+TEST_F(EmbeddedWorlds, OpenClient_KeepsWorld) {
   PlayerClient holder("sim:" + world_, 6665);
   double first_x = 0.0;
   double second_x = 0.0;
@@ -61,7 +61,7 @@ TEST_F(EmbeddedWorlds, AClientKeepsTheWorldForOthers) {
 }
 
 // As at a Player server, whose world goes on between two clients.
-TEST_F(EmbeddedWorlds, LocalhostContinues) {
+TEST_F(EmbeddedWorlds, Localhost_Continues) {
   setenv("PLAYPEN_WORLD", world_.c_str(), 1);
   double first_x = 0.0;
   double second_x = 0.0;
@@ -72,7 +72,7 @@ TEST_F(EmbeddedWorlds, LocalhostContinues) {
   EXPECT_GT(second_x, first_x + 0.1);
 }
 
-TEST_F(EmbeddedWorlds, AProxyAloneKeepsNothing) {
+TEST_F(EmbeddedWorlds, ProxyAlone_DoesNotKeepWorld) {
   double x = 0.0;
   const double begin_s = drive("sim:" + world_, x);
   auto robot = std::make_unique<PlayerClient>("sim:" + world_, 6665);
@@ -83,7 +83,7 @@ TEST_F(EmbeddedWorlds, AProxyAloneKeepsNothing) {
   EXPECT_EQ(again_x, x);
 }
 
-TEST_F(EmbeddedWorlds, TheCLibraryBeginsAnewAfterItsLastDisconnect) {
+TEST_F(EmbeddedWorlds, CLibrary_RestartsAfterLastDisconnect) {
   playerc_client_t* const client = playerc_client_create(nullptr, ("sim:" + world_).c_str(), 6665);
   double times_s[2] = {-1.0, -2.0};
   for (double& time_s : times_s) {

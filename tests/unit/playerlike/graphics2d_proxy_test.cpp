@@ -36,7 +36,7 @@ class Graphics2d : public testing::Test {
   WindowProxy& window = WindowProxy::GetInstance(&client, 172, 186);
 };
 
-TEST_F(Graphics2d, PointsAreDrawnInMetres) {
+TEST_F(Graphics2d, Points_DrawnInMetres) {
   Graphics2dProxy graphics(&client, 0);
   player_point_2d_t points[] = {{0.01, 0.01}, {1.01, 2.01}, {-5.0, 99.0}};
   graphics.Color(255, 0, 0, 255);
@@ -48,7 +48,7 @@ TEST_F(Graphics2d, PointsAreDrawnInMetres) {
   EXPECT_EQ(at(50, 85).a, 0);
 }
 
-TEST_F(Graphics2d, ColoursWithoutAlphaAreOpaque) {
+TEST_F(Graphics2d, ColoursWithoutAlpha_Opaque) {
   Graphics2dProxy graphics(&client, 0);
   player_point_2d_t point[] = {{0.01, 0.01}};
   graphics.DrawPoints(point, 1);
@@ -64,7 +64,7 @@ TEST_F(Graphics2d, ColoursWithoutAlphaAreOpaque) {
   EXPECT_EQ(at(0, 185), ImageColour_t(0, 0, 255, 100));
 }
 
-TEST_F(Graphics2d, LinesJoinPoints) {
+TEST_F(Graphics2d, Lines_JoinPoints) {
   Graphics2dProxy graphics(&client, 0);
   graphics.Color(1, 2, 3, 255);
   player_point_2d_t points[] = {{0.01, 0.01}, {0.09, 0.01}, {0.09, 0.09}, {0.01, 0.09}, {1.0, 1.0}};
@@ -81,7 +81,7 @@ TEST_F(Graphics2d, LinesJoinPoints) {
   EXPECT_EQ(at(50, 135).a, 0) << "the odd one is left out";
 }
 
-TEST_F(Graphics2d, PolygonsAreClosedAndMayBeFilled) {
+TEST_F(Graphics2d, Polygons_ClosedAndOptionallyFilled) {
   Graphics2dProxy graphics(&client, 0);
   graphics.Color(255, 0, 0, 255);
   player_point_2d_t square[] = {{0.01, 0.01}, {0.09, 0.01}, {0.09, 0.09}, {0.01, 0.09}};
@@ -97,7 +97,7 @@ TEST_F(Graphics2d, PolygonsAreClosedAndMayBeFilled) {
   graphics.DrawPolygon(square, 0, true, fill);
 }
 
-TEST_F(Graphics2d, EachProxyHasALayerOfItsOwn) {
+TEST_F(Graphics2d, Proxies_HaveSeparateLayers) {
   window.CreateLayer("graphics2d_1");
   Graphics2dProxy first(&client, 0);
   {
@@ -116,7 +116,7 @@ TEST_F(Graphics2d, EachProxyHasALayerOfItsOwn) {
   EXPECT_EQ(window.GetLayerNames().size(), 4U);
 }
 
-TEST_F(Graphics2d, BadArgumentsAreRefused) {
+TEST_F(Graphics2d, InvalidArguments_Refused) {
   Graphics2dProxy graphics(&client, 0);
   player_point_2d_t points[] = {{0.0, 0.0}, {std::nan(""), 0.0}};
   const auto refused = [](auto action) {
@@ -130,7 +130,7 @@ TEST_F(Graphics2d, BadArgumentsAreRefused) {
             PlayerError::kNoSuchDevice);
 }
 
-TEST_F(Graphics2d, TellsWhatItIs) {
+TEST_F(Graphics2d, ReportsInterfaceDriverAndCapabilities) {
   Graphics2dProxy graphics(&client);
   EXPECT_EQ(graphics.GetInterfaceStr(), "graphics2d");
   EXPECT_EQ(graphics.GetDriverName(), "pen");
@@ -142,7 +142,7 @@ TEST_F(Graphics2d, TellsWhatItIs) {
   EXPECT_THAT(out.str(), HasSubstr("graphics2d:0"));
 }
 
-TEST(Graphics2dClient, IsNeededForDrawing) {
+TEST(Graphics2dClient, RequiredForDrawing) {
   auto world = make_fake_world();
   auto client = std::make_unique<PlayerClient>(fake_session(world));
   Graphics2dProxy graphics(client.get());

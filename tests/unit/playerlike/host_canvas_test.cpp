@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, HostCanvas,
 constexpr auto kBadArgument = SessionError::Code::kBadArgument;
 constexpr auto kNotAvailable = SessionError::Code::kNotAvailable;
 
-TEST_P(HostCanvas, DrawingsReachOthersWithTheNextStep) {
+TEST_P(HostCanvas, Drawings_VisibleToOthersFromNextStep) {
   const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
@@ -115,7 +115,7 @@ TEST_P(HostCanvas, DrawingsReachOthersWithTheNextStep) {
   EXPECT_EQ(at(*second, 6, 5), kRed);
 }
 
-TEST_P(HostCanvas, MoreDrawingsThanFitTheQueueKeepTheirOrder) {
+TEST_P(HostCanvas, FullQueue_KeepsOrder) {
   const auto host = create(two_robots());
   const auto session = host->connect(6665);
   constexpr int kCount = 3 * static_cast<int>(DrawQueue::kCapacity) + 7;
@@ -127,7 +127,7 @@ TEST_P(HostCanvas, MoreDrawingsThanFitTheQueueKeepTheirOrder) {
   }
 }
 
-TEST_P(HostCanvas, CellsAreSetInTheOrderOfTheDrawings) {
+TEST_P(HostCanvas, Cells_SetInOrderOfDrawings) {
   const auto host = create(two_robots());
   const auto session = host->connect(6665);
   dot(*session, 0, 0, kRed);
@@ -148,7 +148,7 @@ TEST_P(HostCanvas, CellsAreSetInTheOrderOfTheDrawings) {
             kBadArgument);
 }
 
-TEST_P(HostCanvas, LayersBelongToTheirSession) {
+TEST_P(HostCanvas, Layers_BelongToSession) {
   const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
@@ -187,7 +187,7 @@ TEST_P(HostCanvas, LayersBelongToTheirSession) {
   EXPECT_EQ(first->request(LayersRequest{}).size(), 1U);
 }
 
-TEST_P(HostCanvas, DrawingsOnAnothersLayerAreLeftOut) {
+TEST_P(HostCanvas, DrawingsOnForeignLayers_Ignored) {
   const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
@@ -204,7 +204,7 @@ TEST_P(HostCanvas, DrawingsOnAnothersLayerAreLeftOut) {
   EXPECT_EQ(at(*first, 1, 1), kRed);
 }
 
-TEST_P(HostCanvas, EqualPrioritiesAreStackedByPortWhoeverConnectsFirst) {
+TEST_P(HostCanvas, EqualPriorities_StackedByPort) {
   for (const bool swapped : {false, true}) {
     const auto host = create(two_robots());
     const auto one = host->connect(swapped ? 6666 : 6665);
@@ -218,7 +218,7 @@ TEST_P(HostCanvas, EqualPrioritiesAreStackedByPortWhoeverConnectsFirst) {
   }
 }
 
-TEST_P(HostCanvas, LayersOutliveTheirSessionUntilOneOfTheSamePortMakesThemAnew) {
+TEST_P(HostCanvas, Layers_OutliveSessionUntilRecreated) {
   const auto host = create(two_robots());
   const auto watcher = host->connect(kMorsePort);
   {
@@ -236,7 +236,7 @@ TEST_P(HostCanvas, LayersOutliveTheirSessionUntilOneOfTheSamePortMakesThemAnew) 
   EXPECT_EQ(composed_at(*watcher, 3, 3).a, 0);
 }
 
-TEST_P(HostCanvas, ResizingIsSeenByAll) {
+TEST_P(HostCanvas, Resize_VisibleToAll) {
   const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
@@ -252,7 +252,7 @@ TEST_P(HostCanvas, ResizingIsSeenByAll) {
   EXPECT_EQ(first->request(CanvasInfoRequest{}).width, 120);
 }
 
-TEST_P(HostCanvas, LockedViewModesStay) {
+TEST_P(HostCanvas, LockedViewMode_Stays) {
   const auto free = create(two_robots())->connect(6665);
   free->request(SetViewModeRequest{sim::ViewMode::kMiniMap});
   EXPECT_EQ(free->request(ViewModeRequest{}), sim::ViewMode::kMiniMap);
@@ -264,7 +264,7 @@ TEST_P(HostCanvas, LockedViewModesStay) {
   EXPECT_EQ(locked->request(ViewModeRequest{}), sim::ViewMode::kFullScreen);
 }
 
-TEST_P(HostCanvas, PicturesStayInsideTheOutputFolder) {
+TEST_P(HostCanvas, Pictures_StayInsideOutputFolder) {
   const test_support::TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = (folder.path() / "out").string();
@@ -289,7 +289,7 @@ TEST_P(HostCanvas, PicturesStayInsideTheOutputFolder) {
             kNotAvailable);
 }
 
-TEST_P(HostCanvas, TheFilesOfClientsHaveALimit) {
+TEST_P(HostCanvas, ClientFiles_Limited) {
   const test_support::TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = folder.path().string();
@@ -312,7 +312,7 @@ TEST_P(HostCanvas, TheFilesOfClientsHaveALimit) {
   EXPECT_EQ(refusal([&] { three->request(logging); }), kNotAvailable);
 }
 
-TEST_P(HostCanvas, LayersAreSavedOneByOne) {
+TEST_P(HostCanvas, Layers_SavedOneByOne) {
   const test_support::TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = folder.path().string();
@@ -381,7 +381,7 @@ TEST_P(HostCanvas, LayersAreSavedOneByOne) {
             kNotAvailable);
 }
 
-TEST_P(HostCanvas, WorldMapShowsTheArena) {
+TEST_P(HostCanvas, WorldMap_ShowsArena) {
   const auto host = create(two_robots());
   const auto session = host->connect(6665);
   const sim::OccupancyMap map = session->request(WorldMapRequest{0.1}).map;
@@ -397,7 +397,7 @@ TEST_P(HostCanvas, WorldMapShowsTheArena) {
   }
 }
 
-TEST_P(HostCanvas, JoiningHoldsTheClockUntilTheThreadWaits) {
+TEST_P(HostCanvas, Join_HoldsClockUntilThreadWaits) {
   const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
@@ -419,7 +419,7 @@ TEST_P(HostCanvas, JoiningHoldsTheClockUntilTheThreadWaits) {
   EXPECT_EQ(host->time().steps, 10U);
 }
 
-TEST_P(HostCanvas, ClosedSessionsRefuseDrawings) {
+TEST_P(HostCanvas, ClosedSession_RefusesDrawings) {
   const auto host = create(two_robots());
   const auto session = host->connect(6665);
   dot(*session, 1, 1, kRed);
@@ -433,7 +433,7 @@ TEST_P(HostCanvas, ClosedSessionsRefuseDrawings) {
 
 // Also for ThreadSanitizer: threads draw on one session while its owner reads, another thread reads
 // the canvas, and layers come and go.
-TEST_P(HostCanvas, ManyThreadsMayUseOneSession) {
+TEST_P(HostCanvas, ManyThreads_ShareSession) {
   const auto host = create(two_robots());
   const auto session = host->connect(6665);
   const LayerId layer = session->request(CreateLayerRequest{LayerKind::kColour, named("shared")});
@@ -463,7 +463,7 @@ TEST_P(HostCanvas, ManyThreadsMayUseOneSession) {
 
 // The pictures of 2 million cells take a while. The thread that makes steps for others does not
 // write them; the clients learn of the end when they are there.
-TEST(HostEnd, TheLastPicturesOfALargeCanvasAreWrittenBesideTheServer) {
+TEST(HostEnd, LastPicturesOfLargeCanvas_WrittenWithoutBlockingServer) {
   const test_support::TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = folder.path();
@@ -485,7 +485,7 @@ TEST(HostEnd, TheLastPicturesOfALargeCanvasAreWrittenBesideTheServer) {
   EXPECT_TRUE(std::filesystem::exists(folder / "canvas.png"));
 }
 
-TEST(HostEnd, ResultsThatAreTakenOverAreCompletedFromTheMemory) {
+TEST(HostEnd, TakenOverResults_CompletedFromMemory) {
   const test_support::TemporaryFolder folder;
   const KeptRun kept(std::size_t{1} << 22U);
   RunSettings settings;
@@ -509,7 +509,7 @@ TEST(HostEnd, ResultsThatAreTakenOverAreCompletedFromTheMemory) {
   EXPECT_TRUE(std::filesystem::exists(folder / "canvas.png"));
 }
 
-TEST(HostCanvasSize, AControllerThatFillsItBoundsItsSize) {
+TEST(HostCanvasSize, ControllerThatFillsCanvas_BoundsSize) {
   const auto host = test::patient_host(two_robots(
       R"(}, "controller": {"timers": [{"every": 1, "do": [{"canvas": {"colour": "#ff0000"}}]}])"));
   const auto session = host->connect(6665);

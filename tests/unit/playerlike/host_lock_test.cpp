@@ -55,7 +55,7 @@ class HostLock : public testing::Test {
     settings.time_mode = sim::TimeMode::kPaced;
     settings.start_at_once = true;
     host_ = Host::create(sim::load_world_text(world), settings);
-    host_->with_simulation([](sim::Simulation&) { test_support::watch_last_mutex(); });
+    host_->with_simulation([](const sim::Simulation&) { test_support::watch_last_mutex(); });
     client_ = host_->connect_events(
         kMorsePort, [] {}, EventRole::kParticipant);
   }
@@ -104,7 +104,7 @@ class HostLock : public testing::Test {
   std::map<std::string, double> held_ms_;
 };
 
-TEST_F(HostLock, IsHeldForAtMost20MillisecondsOnTheLargestCanvas) {
+TEST_F(HostLock, LargestCanvas_HeldAtMost20Milliseconds) {
   start(kRoom);
   for (int i = 0; i < kTries; ++i) {
     measure("resize_canvas", [&] { session().request(ResizeCanvasRequest{kSide, kSide}); });
@@ -145,7 +145,7 @@ TEST_F(HostLock, IsHeldForAtMost20MillisecondsOnTheLargestCanvas) {
 }
 
 // All layers together may have two times as many cells.
-TEST_F(HostLock, IsHeldForAtMost20MillisecondsForTheLargestLayers) {
+TEST_F(HostLock, LargestLayers_HeldAtMost20Milliseconds) {
   start(kRoom);
   session().request(ResizeCanvasRequest{kSide, kSide / 2});
   sim::LayerStyle style;
@@ -170,7 +170,7 @@ TEST_F(HostLock, IsHeldForAtMost20MillisecondsForTheLargestLayers) {
 }
 
 // Saving takes longer, so it is tried once on a canvas that is hardly drawn on.
-TEST_F(HostLock, IsNotHeldWhileFilesAreWritten) {
+TEST_F(HostLock, FileWrites_NotHeld) {
   start(kRoom);
   session().request(ResizeCanvasRequest{kSide, kSide});
   for (int i = 0; i < kTries; ++i) {
@@ -187,7 +187,7 @@ TEST_F(HostLock, IsNotHeldWhileFilesAreWritten) {
 }
 
 // The most that a controller may do: it colours 1500 x 1500 cells in a step.
-TEST_F(HostLock, IsNotHeldForLongByAController) {
+TEST_F(HostLock, Controller_HeldBriefly) {
   start(R"({"name": "colours", "arena": {"size": [5, 5]},
             "canvas": {"size": [1500, 1500], "cell_size": 0.003},
             "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}}],

@@ -11,15 +11,15 @@
 #include <string>
 #include <vector>
 
-#include "host/alarms.h"
-#include "host/blackboard.h"
-#include "host/clients.h"
-#include "host/inputs.h"
-#include "host/lockstep.h"
-#include "host/pace.h"
-#include "host/progress.h"
-#include "host/results.h"
-#include "host/stalled_time_warning.h"
+#include "host/requests/blackboard.h"
+#include "host/results/results.h"
+#include "host/stepping/alarms.h"
+#include "host/stepping/clients.h"
+#include "host/stepping/inputs.h"
+#include "host/stepping/lockstep.h"
+#include "host/stepping/pace.h"
+#include "host/stepping/progress.h"
+#include "host/stepping/stalled_time_warning.h"
 #include "sim/devices/localization.h"
 #include "temporary_folder.h"
 
@@ -65,7 +65,7 @@ class HostPartsTest : public testing::Test {
 
 using ClientsTest = HostPartsTest;
 
-TEST_F(ClientsTest, FollowersComeFirstAndOnlookersLastEachKindInOrder) {
+TEST_F(ClientsTest, FollowersFirstAndOnlookersLast) {
   clients.add(6665, EventRole::kOnlooker, {});
   EXPECT_FALSE(clients.any_but_onlookers());
   clients.add(6665, EventRole::kParticipant, {});
@@ -79,7 +79,7 @@ TEST_F(ClientsTest, FollowersComeFirstAndOnlookersLastEachKindInOrder) {
   EXPECT_TRUE(clients.any_but_onlookers());
 }
 
-TEST_F(ClientsTest, ReadingsGoToThoseWhoHaveSubscribed) {
+TEST_F(ClientsTest, Readings_SentToSubscribers) {
   const auto reader = clients.add(6665, EventRole::kParticipant, {});
   const auto other = clients.add(6666, EventRole::kParticipant, {});
   clients.subscribe(*reader, pose);
@@ -96,7 +96,7 @@ TEST_F(ClientsTest, ReadingsGoToThoseWhoHaveSubscribed) {
   EXPECT_THAT(clients.take(*other), IsEmpty());
 }
 
-TEST_F(ClientsTest, SubscriptionsCount) {
+TEST_F(ClientsTest, Subscriptions_Counted) {
   const auto client = clients.add(6665, EventRole::kParticipant, {});
   clients.subscribe(*client, pose);
   clients.subscribe(*client, pose);
@@ -107,7 +107,7 @@ TEST_F(ClientsTest, SubscriptionsCount) {
   EXPECT_TRUE(client->subscriptions.empty());
 }
 
-TEST_F(ClientsTest, RoundsWithoutSubscriptionsTakeATenthOfASecond) {
+TEST_F(ClientsTest, RoundWithoutSubscriptions_TakesTenthOfSecond) {
   const auto client = clients.add(6665, EventRole::kParticipant, {});
   run(0.09);
   EXPECT_FALSE(client->has_data);
@@ -118,7 +118,7 @@ TEST_F(ClientsTest, RoundsWithoutSubscriptionsTakeATenthOfASecond) {
   EXPECT_FALSE(client->has_data);
 }
 
-TEST_F(ClientsTest, QueuesKeepAThousandReadings) {
+TEST_F(ClientsTest, Queue_KeepsThousandReadings) {
   const auto client = clients.add(6665, EventRole::kParticipant, {});
   clients.set_replace(*client, std::nullopt, false);
   clients.subscribe(*client, pose);
@@ -130,7 +130,7 @@ TEST_F(ClientsTest, QueuesKeepAThousandReadings) {
   EXPECT_LT(taken[0].second->time_ns, taken[1].second->time_ns);
 }
 
-TEST_F(ClientsTest, WhatWaitsKeepsWaitingUnderAnotherRule) {
+TEST_F(ClientsTest, RuleChange_KeepsNewestReading) {
   const auto client = clients.add(6665, EventRole::kParticipant, {});
   clients.set_replace(*client, std::nullopt, false);
   clients.subscribe(*client, pose);
@@ -156,7 +156,7 @@ class LockstepTest : public HostPartsTest {
   Lockstep lockstep{clients, /*gate=*/2, /*silence_limit_s=*/5.0, warn};
 };
 
-TEST_F(LockstepTest, TheGateOpensOnce) {
+TEST_F(LockstepTest, Gate_OpensOnce) {
   const auto first = join(1);
   EXPECT_FALSE(lockstep.gate_open());
   EXPECT_EQ(lockstep.silence_limit(), WallClock::duration::max());
@@ -169,7 +169,7 @@ TEST_F(LockstepTest, TheGateOpensOnce) {
   EXPECT_EQ(lockstep.silence_limit(), seconds(5));
 }
 
-TEST_F(LockstepTest, AThreadWaitsIfOneOfItsClientsDoes) {
+TEST_F(LockstepTest, Thread_WaitsIfOneOfItsClientsWaits) {
   const auto a = join(1);
   const auto b = join(1);
   const auto c = join(2);
@@ -184,7 +184,7 @@ TEST_F(LockstepTest, AThreadWaitsIfOneOfItsClientsDoes) {
   EXPECT_TRUE(lockstep.all_wait()) << "nobody waits for a thread that has ended";
 }
 
-TEST_F(LockstepTest, TimeGoesOnWithoutThoseWhoAreSilent) {
+TEST_F(LockstepTest, SilentClients_NotAwaited) {
   const auto waits = join(1);
   const auto thinks = join(2);
   ASSERT_TRUE(lockstep.gate_open());
@@ -197,12 +197,12 @@ TEST_F(LockstepTest, TimeGoesOnWithoutThoseWhoAreSilent) {
   EXPECT_TRUE(lockstep.all_wait());
   EXPECT_THAT(warnings,
               ElementsAre("client 2 (port 6665) has not called Read() for 5 s of wall time; "
-                          "simulated time goes on without it until it does"));
+                          "simulated time advances without it until it does"));
   lockstep.adopt(*thinks, 2);
   EXPECT_FALSE(lockstep.all_wait());
 }
 
-TEST_F(LockstepTest, TimeGoesOnForProgramsOnly) {
+TEST_F(LockstepTest, TimeAdvancesForProgramsOnly) {
   const auto follower = clients.add(6665, EventRole::kFollower, {});
   lockstep.adopt(*follower, 1);
   EXPECT_FALSE(lockstep.program_takes_part());
@@ -213,7 +213,7 @@ TEST_F(LockstepTest, TimeGoesOnForProgramsOnly) {
 
 // --- Pace
 
-TEST(Pace, StepsNeitherDriftNorCatchUp) {
+TEST(Pace, Steps_NeitherDriftNorCatchUp) {
   Pace pace(0.01, 2.0);  // a step takes 5 ms
   const Pace::Time t0{seconds(1000)};
   pace.begin_at(t0);
@@ -229,7 +229,7 @@ TEST(Pace, StepsNeitherDriftNorCatchUp) {
   EXPECT_EQ(pace.due(), t0 + milliseconds(226 + 10));
 }
 
-TEST(Pace, AnotherSpeedHoldsFromTheNewestStepOn) {
+TEST(Pace, NewSpeed_CountsFromNewestStep) {
   Pace pace(0.01, 1.0);
   const Pace::Time t0{seconds(1000)};
   pace.begin_at(t0);
@@ -240,7 +240,7 @@ TEST(Pace, AnotherSpeedHoldsFromTheNewestStepOn) {
   EXPECT_EQ(pace.due(), t0 + milliseconds(10) + milliseconds(20));
 }
 
-TEST(Pace, ALimitIsUsedUpStepByStep) {
+TEST(Pace, Limit_UsedUpStepByStep) {
   Pace pace(0.01, 1.0);
   pace.add_to_limit(3);
   EXPECT_FALSE(pace.limited()) << "there is none to add to";
@@ -263,7 +263,7 @@ TEST(Pace, ALimitIsUsedUpStepByStep) {
 
 using InputsTest = HostPartsTest;
 
-TEST_F(InputsTest, OfCommandsInARowTheLastIsApplied) {
+TEST_F(InputsTest, RepeatedCommands_LastApplied) {
   Inputs inputs(simulation, describe_robots(simulation), warn);
   const auto client = clients.add(6665, EventRole::kParticipant, {});
   const DeviceId motion = device(0, "motion");
@@ -277,7 +277,7 @@ TEST_F(InputsTest, OfCommandsInARowTheLastIsApplied) {
   EXPECT_THAT(warnings, IsEmpty());
 }
 
-TEST_F(InputsTest, RefusedCommandsAreWarnings) {
+TEST_F(InputsTest, RefusedCommands_Warn) {
   Inputs inputs(simulation, describe_robots(simulation), warn);
   const auto client = clients.add(6665, EventRole::kParticipant, {});
   static_cast<void>(inputs.add(*client, pose, sim::TwistCommand{}));
@@ -285,7 +285,7 @@ TEST_F(InputsTest, RefusedCommandsAreWarnings) {
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("pose")));
 }
 
-TEST_F(InputsTest, AQueueOfCommandsHasALimit) {
+TEST_F(InputsTest, CommandQueue_Limited) {
   Inputs inputs(simulation, describe_robots(simulation), warn);
   const auto client = clients.add(6665, EventRole::kParticipant, {});
   const DeviceId motion = device(0, "motion");
@@ -301,7 +301,7 @@ TEST_F(InputsTest, AQueueOfCommandsHasALimit) {
   EXPECT_TRUE(client->commands.empty());
 }
 
-TEST_F(InputsTest, DrawingsOnLayersOfOthersAreLeftOut) {
+TEST_F(InputsTest, ForeignLayers_DrawingsIgnored) {
   Inputs inputs(simulation, describe_robots(simulation), warn);
   const auto owner = clients.add(6665, EventRole::kParticipant, {});
   const auto other = clients.add(6666, EventRole::kParticipant, {});
@@ -327,7 +327,7 @@ TEST_F(InputsTest, DrawingsOnLayersOfOthersAreLeftOut) {
 
 using AlarmsTest = HostPartsTest;
 
-TEST_F(AlarmsTest, RingOnceInTheirOrder) {
+TEST_F(AlarmsTest, RingOnceInOrder) {
   Alarms alarms;
   std::string rung;
   const auto alarm = [&](char name, sim::SimTime until_ns) {
@@ -355,7 +355,7 @@ TEST_F(AlarmsTest, RingOnceInTheirOrder) {
 
 using StandingTimeTest = HostPartsTest;
 
-TEST_F(StandingTimeTest, AProgramThatOnlyCommandsIsToldOnce) {
+TEST_F(StandingTimeTest, CommandsOnly_ReportedOnce) {
   StalledTimeWarning standing(robots.size(), /*sleeps_count=*/true, 5.0, warn);
   EXPECT_TRUE(standing.note_needs_time());
   EXPECT_FALSE(standing.note_needs_time());
@@ -374,7 +374,7 @@ TEST_F(StandingTimeTest, AProgramThatOnlyCommandsIsToldOnce) {
   EXPECT_EQ(warnings.size(), 1U) << "it knows";
 }
 
-TEST_F(StandingTimeTest, AProgramThatEndsBeforeItsFirstStepIsTold) {
+TEST_F(StandingTimeTest, EndBeforeFirstStep_Reported) {
   StalledTimeWarning standing(robots.size(), /*sleeps_count=*/false, 5.0, warn);
   standing.note_end();
   EXPECT_THAT(warnings, IsEmpty()) << "it has not wanted anything";
@@ -386,7 +386,7 @@ TEST_F(StandingTimeTest, AProgramThatEndsBeforeItsFirstStepIsTold) {
 
 // --- Progress
 
-TEST(Progress, TellsHowMuchIsLeft) {
+TEST(Progress, ReportsRemainingTime) {
   TimeStatistics time;
   time.sim_time_ns = sim::from_seconds(2.5);
   time.real_time_factor = 100.0;
@@ -399,7 +399,7 @@ TEST(Progress, TellsHowMuchIsLeft) {
   EXPECT_THAT(Progress::line(time), HasSubstr("[##############################]"));
 }
 
-TEST(Progress, CountsFromTheFirstStep) {
+TEST(Progress, CountsFromFirstStep) {
   Progress progress;
   TimeStatistics time;
   time.sim_time_ns = sim::from_seconds(6.0);
@@ -417,7 +417,7 @@ TEST(Progress, CountsFromTheFirstStep) {
 
 using ResultsTest = HostPartsTest;
 
-TEST_F(ResultsTest, TheReportFollowsTheRunAndSaysHowItEnded) {
+TEST_F(ResultsTest, Report_FollowsRunAndNamesEnd) {
   const test_support::TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = folder / "out";
@@ -464,7 +464,7 @@ std::vector<std::string> keys(const std::vector<BlackboardEntry>& entries) {
   return all;
 }
 
-TEST(BlackboardTest, ListsEntriesInTheOrderOfTheirLastChanges) {
+TEST(BlackboardTest, Entries_OrderedByLastChange) {
   Blackboard board;
   board.set(change("a", 1), 5);
   board.set(change("b", 1), 6);
@@ -481,7 +481,7 @@ TEST(BlackboardTest, ListsEntriesInTheOrderOfTheirLastChanges) {
   EXPECT_EQ(entry.data.size(), 2U);
 }
 
-TEST(BlackboardTest, WaitingChangesAreVisibleToTheirThreadOnly) {
+TEST(BlackboardTest, PendingChanges_VisibleToTheirThreadOnly) {
   constexpr ThreadId kOne = 7;
   constexpr ThreadId kTwo = 3;
   Blackboard board;
@@ -502,7 +502,7 @@ TEST(BlackboardTest, WaitingChangesAreVisibleToTheirThreadOnly) {
   EXPECT_EQ(board.find({0, "g", "a"}).at(0).data.at(0), 2) << "the last one in the order";
 }
 
-TEST(BlackboardTest, PublishesTheChangesOfThreadsWithoutClients) {
+TEST(BlackboardTest, ThreadsWithoutClients_ChangesPublished) {
   Blackboard board;
   board.set(change("a", 1), 0, 9);
   board.set(change("b", 1), 0, 8);
@@ -511,7 +511,7 @@ TEST(BlackboardTest, PublishesTheChangesOfThreadsWithoutClients) {
   EXPECT_THAT(keys(board.find({})), ElementsAre("a", "c", "b"));
 }
 
-TEST(BlackboardTest, WaitingChangesReserveTheirRoom) {
+TEST(BlackboardTest, PendingChanges_ReserveRoom) {
   constexpr std::size_t kNameBytes = 2;
   Blackboard board;
   for (char c = 'a'; c < 'h'; ++c) board.set(change({c}, Blackboard::kMostData), 0);
@@ -531,7 +531,7 @@ TEST(BlackboardTest, WaitingChangesReserveTheirRoom) {
   board.set(change("x", 1), 0);
 }
 
-TEST(BlackboardTest, HasRoomFor1024Entries) {
+TEST(BlackboardTest, HoldsAtMost1024Entries) {
   Blackboard board;
   for (int i = 0; i < 1023; ++i) board.set(change(std::to_string(i), 1), 0);
   board.set(change("last", 1), 0, 1);

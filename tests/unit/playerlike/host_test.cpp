@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, HostOverTest,
                          testing::Values(Transport::kInProcess, Transport::kCbor, Transport::kJson),
                          [](const auto& instance) { return transport_name(instance.param); });
 
-TEST_P(HostOverTest, OneReadIsATenthOfASecond) {
+TEST_P(HostOverTest, Read_TakesTenthOfSecond) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   for (int i = 1; i <= 20; ++i) {
@@ -121,7 +121,7 @@ TEST_P(HostOverTest, OneReadIsATenthOfASecond) {
   }
 }
 
-TEST_P(HostOverTest, TimeStandsStillBetweenReads) {
+TEST_P(HostOverTest, BetweenReads_TimeStands) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   read(*session);
@@ -130,7 +130,7 @@ TEST_P(HostOverTest, TimeStandsStillBetweenReads) {
   EXPECT_EQ(session->request(TimeRequest{}).steps, 10U);
 }
 
-TEST_P(HostOverTest, CommandsTakeEffectWithTheNextStepAndHold) {
+TEST_P(HostOverTest, Command_AppliesFromNextStepAndHolds) {
   const auto session = start(two_robots())->connect(6665);
   const InterfaceBinding binding = subscribe_position(*session);
   drive(*session, binding, 0.5);
@@ -138,7 +138,7 @@ TEST_P(HostOverTest, CommandsTakeEffectWithTheNextStepAndHold) {
   EXPECT_NEAR(read(*session).x_m, 1.10, 1e-9);
 }
 
-TEST_P(HostOverTest, ReadWithoutSubscriptionsLetsATenthOfASecondPass) {
+TEST_P(HostOverTest, ReadWithoutSubscriptions_TakesTenthOfSecond) {
   const auto session = start(two_robots())->connect(6665);
   Collector none;
   session->wait();
@@ -149,7 +149,7 @@ TEST_P(HostOverTest, ReadWithoutSubscriptionsLetsATenthOfASecondPass) {
   EXPECT_EQ(host->time().steps, 20U);
 }
 
-TEST_P(HostOverTest, FirstPeekLooksFurtherOnesStep) {
+TEST_P(HostOverTest, FirstPeek_TakesNoTimeAndFurtherOnesOneStep) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   read(*session);
@@ -166,7 +166,7 @@ TEST_P(HostOverTest, FirstPeekLooksFurtherOnesStep) {
   EXPECT_FALSE(session->peek(milliseconds(0)));
 }
 
-TEST_P(HostOverTest, PeekWithATimeoutWaitsInSimulatedTime) {
+TEST_P(HostOverTest, PeekWithTimeout_WaitsInSimulatedTime) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   read(*session);
@@ -176,7 +176,7 @@ TEST_P(HostOverTest, PeekWithATimeoutWaitsInSimulatedTime) {
   EXPECT_EQ(host->time().steps, 20U);
 }
 
-TEST_P(HostOverTest, NewReadingsReplaceOldOnesUnlessTheyAreQueued) {
+TEST_P(HostOverTest, NewReading_ReplacesOldUnlessQueued) {
   const auto world = start(two_robots());
   const auto session = world->connect(6665);
   const auto other = world->connect(6666);
@@ -190,7 +190,7 @@ TEST_P(HostOverTest, NewReadingsReplaceOldOnesUnlessTheyAreQueued) {
   EXPECT_THAT(read(*session).times_ns, testing::ElementsAre(400'000'000, 500'000'000, 600'000'000));
 }
 
-TEST_P(HostOverTest, OneThreadReadsSeveralClientsInTurn) {
+TEST_P(HostOverTest, OneThread_ReadsSeveralClientsInTurn) {
   const auto world = start(two_robots());
   const auto first = world->connect(6665);
   const auto second = world->connect(6666);
@@ -228,13 +228,13 @@ std::uint64_t two_threads_run(const std::shared_ptr<ReachableHost>& host) {
   return host->state_hash();
 }
 
-TEST_P(HostOverTest, TwoThreadsInLockstepGiveTheSameResultEveryTime) {
+TEST_P(HostOverTest, TwoThreadsInLockstep_Repeatable) {
   const std::string simulation = R"({"duration": 20, "clients": 2})";
   const std::uint64_t first = two_threads_run(start(two_robots(simulation)));
   for (int i = 0; i < 3; ++i) EXPECT_EQ(two_threads_run(start(two_robots(simulation))), first);
 }
 
-TEST_P(HostOverTest, StartGateHoldsTheClockUntilAllHaveJoined) {
+TEST_P(HostOverTest, StartGate_HoldsClockUntilAllJoin) {
   const auto world = start(two_robots(R"({"clients": 2})"));
   const auto first = world->connect(6665);
   const auto second = world->connect(6666);
@@ -247,7 +247,7 @@ TEST_P(HostOverTest, StartGateHoldsTheClockUntilAllHaveJoined) {
   EXPECT_EQ(host->time().steps, 10U);
 }
 
-TEST_P(HostOverTest, AClientThatIsDestroyedHoldsUpNobody) {
+TEST_P(HostOverTest, DestroyedClient_NotAwaited) {
   const auto world = start(two_robots());
   const auto session = world->connect(6665);
   subscribe_position(*session);
@@ -269,7 +269,7 @@ TEST_P(HostOverTest, AClientThatIsDestroyedHoldsUpNobody) {
   EXPECT_GE(host->time().steps, 60U);
 }
 
-TEST_P(HostOverTest, AThreadThatEndsHoldsUpNobodyThoughItsClientLives) {
+TEST_P(HostOverTest, EndedThread_NotAwaited) {
   const auto world = start(two_robots());
   const auto session = world->connect(6665);
   subscribe_position(*session);
@@ -281,7 +281,7 @@ TEST_P(HostOverTest, AThreadThatEndsHoldsUpNobodyThoughItsClientLives) {
   EXPECT_EQ(logged(), "");  // the silence limit was not reached
 }
 
-TEST_P(HostOverTest, AClientThatNeverReadsDoesNotTakePart) {
+TEST_P(HostOverTest, ClientWithoutReads_NotAwaited) {
   const auto world = start(two_robots());
   const auto reader = world->connect(6665);
   subscribe_position(*reader);
@@ -293,7 +293,7 @@ TEST_P(HostOverTest, AClientThatNeverReadsDoesNotTakePart) {
   EXPECT_NEAR(read(*all).x_m, 1.55, 1e-9);
 }
 
-TEST_P(HostOverTest, AClientThatOnlyCommandsDoesNotLoseTheLastCommand) {
+TEST_P(HostOverTest, ClientThatOnlyCommands_LastCommandApplied) {
   const auto session = start(two_robots())->connect(6665);
   const InterfaceBinding binding = position2d(*session);
   for (int i = 0; i < 20'001; ++i) {  // more than the queue holds
@@ -304,7 +304,7 @@ TEST_P(HostOverTest, AClientThatOnlyCommandsDoesNotLoseTheLastCommand) {
   EXPECT_NEAR(read(*session).x_m, 1.04, 1e-9);
 }
 
-TEST_P(HostOverTest, ASilentClientIsNamedAndLeftBehindUntilItReadsAgain) {
+TEST_P(HostOverTest, SilentClient_NamedAndSkippedUntilNextRead) {
   RunSettings settings;
   settings.silence_limit_s = 0.05;
   const auto world = start(two_robots(), settings);
@@ -328,7 +328,7 @@ TEST_P(HostOverTest, ASilentClientIsNamedAndLeftBehindUntilItReadsAgain) {
   for (int i = 0; i < 3; ++i) read(*session);
 }
 
-TEST_P(HostOverTest, CommandsFromAnotherThreadThanTheReaderAreLegal) {
+TEST_P(HostOverTest, Commands_AllowedFromOtherThread) {
   const auto session = start(two_robots(R"({"duration": 30})"))->connect(6665);
   const InterfaceBinding binding = subscribe_position(*session);
   std::atomic<bool> stop{false};
@@ -349,7 +349,7 @@ TEST_P(HostOverTest, CommandsFromAnotherThreadThanTheReaderAreLegal) {
   EXPECT_TRUE(host->finished());
 }
 
-TEST_P(HostOverTest, EndOfTheRunIsToldAfterTheLastReadings) {
+TEST_P(HostOverTest, EndOfRun_ReportedAfterLastReadings) {
   const auto session = start(two_robots(R"({"duration": 0.3})"))->connect(6665);
   subscribe_position(*session);
   for (int i = 0; i < 3; ++i) read(*session);
@@ -362,7 +362,7 @@ TEST_P(HostOverTest, EndOfTheRunIsToldAfterTheLastReadings) {
   }
 }
 
-TEST_P(HostOverTest, SleepLetsSimulatedTimePassAndKeepsTheReadings) {
+TEST_P(HostOverTest, Sleep_AdvancesTimeAndKeepsReadings) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   session->request(SleepRequest{0.25});
@@ -374,7 +374,7 @@ TEST_P(HostOverTest, SleepLetsSimulatedTimePassAndKeepsTheReadings) {
                SessionError);
 }
 
-TEST_P(HostOverTest, AClosedSessionThrowsAndWakesItsWaiter) {
+TEST_P(HostOverTest, ClosedSession_ThrowsAndWakesWaiter) {
   const auto world = start(two_robots(R"({"clients": 2})"));
   const auto session = world->connect(6665);
   subscribe_position(*session);
@@ -404,7 +404,7 @@ struct Looped {
   ThreadId thread_id = new_thread_id();
 };
 
-TEST_F(HostTest, AnEventLoopReadsAsAThreadDoes) {
+TEST_F(HostTest, EventLoop_ReadsLikeThread) {
   start(two_robots());
   Looped loop(*host, 6665);
   const InterfaceBinding binding = subscribe_position(loop.session());
@@ -423,7 +423,7 @@ TEST_F(HostTest, AnEventLoopReadsAsAThreadDoes) {
   }
 }
 
-TEST_F(HostTest, TimeNeitherWaitsForOnlookersNorAdvancesForThem) {
+TEST_F(HostTest, Watchers_NeitherAwaitedNorAdvanceTime) {
   start(two_robots());
   Looped onlooker(*host, 6665, EventRole::kOnlooker);
   subscribe_position(onlooker.session());
@@ -452,7 +452,7 @@ TEST_F(HostTest, TimeNeitherWaitsForOnlookersNorAdvancesForThem) {
   EXPECT_EQ(host->time().unrepeatable.size(), 1U);
 }
 
-TEST_F(HostTest, CommandsOfOnlookersComeAfterThoseOfPrograms) {
+TEST_F(HostTest, WatcherCommands_AppliedAfterThoseOfPrograms) {
   start(two_robots());
   Looped onlooker(*host, 6665, EventRole::kOnlooker);
   const auto session = host->connect(6665);  // connected later
@@ -463,7 +463,7 @@ TEST_F(HostTest, CommandsOfOnlookersComeAfterThoseOfPrograms) {
   EXPECT_NEAR(host->statistics(0).path_length_m, 0.02, 1e-9);
 }
 
-TEST_F(HostTest, AnEventLoopPeeksSleepsAndHearsOfTheEnd) {
+TEST_F(HostTest, EventLoop_PeeksSleepsAndGetsEnd) {
   start(two_robots(R"({"duration": 0.3})"));
   Looped loop(*host, 6665);
   subscribe_position(loop.session());
@@ -496,7 +496,7 @@ TEST_F(HostTest, AnEventLoopPeeksSleepsAndHearsOfTheEnd) {
   EXPECT_THROW(loop.client->begin_sleep(loop.thread_id, -1.0), SessionError);
 }
 
-TEST_F(HostTest, AdvanceStopsNowAndThen) {
+TEST_F(HostTest, Advance_StopsAtIntervals) {
   start(two_robots());
   Looped loop(*host, 6665);
   EXPECT_EQ(loop.client->begin_sleep(loop.thread_id, 3600.0), Outcome::kWaiting);
@@ -510,7 +510,7 @@ TEST_F(HostTest, AdvanceStopsNowAndThen) {
 
 // The reader steps the simulation to the time at which the sleeper goes on, and must wait for it
 // then.
-TEST_F(HostTest, AThreadThatStepsWakesOneThatSleepsLessLong) {
+TEST_F(HostTest, SteppingThread_WakesShorterSleeper) {
   const auto world = start(two_robots(R"({"clients": 2})"));
   const auto reader = world->connect(6665);
   const auto sleeper = world->connect(6666);
@@ -526,7 +526,7 @@ TEST_F(HostTest, AThreadThatStepsWakesOneThatSleepsLessLong) {
   EXPECT_EQ(logged(), "") << "nobody was silent";
 }
 
-TEST_F(HostTest, AThreadsClientsDoNotHoldOneAnotherUp) {
+TEST_F(HostTest, ClientsOfThread_DoNotBlockEachOther) {
   start(two_robots());
   Looped a(*host, 6665);
   Looped b(*host, 6666);
@@ -556,7 +556,7 @@ TEST_F(HostTest, AThreadsClientsDoNotHoldOneAnotherUp) {
   EXPECT_EQ(a.client->outcome(), Outcome::kData);
 }
 
-TEST_F(HostTest, AnEventLoopAndAThreadShareTheLockstep) {
+TEST_F(HostTest, EventLoopAndThread_ShareLockstep) {
   start(two_robots(R"({"clients": 2})"));
   Looped loop(*host, 6665);
   subscribe_position(loop.session());
@@ -580,7 +580,7 @@ TEST_F(HostTest, AnEventLoopAndAThreadShareTheLockstep) {
   EXPECT_EQ(host->time().steps, 50U);
 }
 
-TEST_F(HostTest, ASilentEventClientIsNamedAndLeftBehind) {
+TEST_F(HostTest, SilentEventClient_NamedAndSkipped) {
   RunSettings settings;
   settings.silence_limit_s = 0.02;
   start(two_robots(), settings);
@@ -597,7 +597,7 @@ TEST_F(HostTest, ASilentEventClientIsNamedAndLeftBehind) {
   EXPECT_THAT(logged(), HasSubstr("client 2 (port 6666) has not called Read() for"));
 }
 
-TEST_F(HostTest, AlarmsGoOffOnceAndLetLockstepTimePass) {
+TEST_F(HostTest, Alarms_RingOnceAndAdvanceLockstep) {
   start(two_robots(R"({"duration": 3})"));
   std::vector<std::string> rung;
   const auto alarm = [&](const std::string& name) {
@@ -640,7 +640,7 @@ TEST_F(HostTest, AlarmsGoOffOnceAndLetLockstepTimePass) {
   EXPECT_EQ(rung.back(), "after the end");
 }
 
-TEST_F(HostTest, StepCreditLimitsLockstepTime) {
+TEST_F(HostTest, StepCredit_LimitsLockstep) {
   start(two_robots());
   host->set_step_credit(3);
   EXPECT_FALSE(host->advance(kLong));
@@ -658,7 +658,7 @@ TEST_F(HostTest, StepCreditLimitsLockstepTime) {
   EXPECT_EQ(host->time().steps, 10U);
 }
 
-TEST_F(HostTest, StepCreditHoldsPacedTime) {
+TEST_F(HostTest, StepCredit_HoldsPacedTime) {
   RunSettings settings;
   settings.time_mode = sim::TimeMode::kPaced;
   settings.time_factor = 100.0;
@@ -674,7 +674,7 @@ TEST_F(HostTest, StepCreditHoldsPacedTime) {
   while (host->time().steps < 10) std::this_thread::yield();
 }
 
-TEST_F(HostTest, OnlyPacedTimeHasASpeed) {
+TEST_F(HostTest, Speed_OnlyInPacedTime) {
   start(two_robots());
   EXPECT_THAT(host->set_time_factor(2.0).value(), HasSubstr("lockstep"));
   RunSettings settings;
@@ -687,7 +687,7 @@ TEST_F(HostTest, OnlyPacedTimeHasASpeed) {
   while (host->time().steps < 10) std::this_thread::yield();
 }
 
-TEST_F(HostTest, UnknownPortsAndDevicesAreRefusedNamingWhatThereIs) {
+TEST_F(HostTest, UnknownPortsAndDevices_ErrorListsExisting) {
   const auto world = start(two_robots());
   try {
     static_cast<void>(world->connect(1234));
@@ -708,7 +708,7 @@ TEST_F(HostTest, UnknownPortsAndDevicesAreRefusedNamingWhatThereIs) {
                SessionError);
 }
 
-TEST_F(HostTest, OnPort4000TheIndexIsTheRobotsNumberUnlessTheWorldSaysOtherwise) {
+TEST_F(HostTest, Port4000_IndexIsRobotNumberUnlessWorldSetsIt) {
   const auto session = start(two_robots())->connect(kMorsePort);
   EXPECT_EQ(position2d(*session, 0).robot, 0);
   EXPECT_EQ(position2d(*session, 1).robot, 1);
@@ -719,13 +719,13 @@ TEST_F(HostTest, OnPort4000TheIndexIsTheRobotsNumberUnlessTheWorldSaysOtherwise)
   EXPECT_THROW(position2d(*renamed, 0), SessionError);
 }
 
-TEST_F(HostTest, NotANumberIsRefused) {
+TEST_F(HostTest, NotANumber_Refused) {
   const auto session = start(two_robots())->connect(6665);
   EXPECT_THROW(drive(*session, position2d(*session), std::numeric_limits<double>::quiet_NaN()),
                SessionError);
 }
 
-TEST_F(HostTest, DrawingsAreSeenAtOnceByTheirClientAndInOrderOfClients) {
+TEST_F(HostTest, Drawings_VisibleAtOnceToClientInOrderOfClients) {
   const auto world = start(two_robots());
   const auto first = world->connect(6665);
   const auto second = world->connect(6666);
@@ -743,7 +743,7 @@ TEST_F(HostTest, DrawingsAreSeenAtOnceByTheirClientAndInOrderOfClients) {
   EXPECT_FALSE(first->request(CellRequest{sim::kBaseLayer, -1, 0}).has_value());
 }
 
-TEST_F(HostTest, PacedTimeRunsByItselfAndNeverAheadOfTheClock) {
+TEST_F(HostTest, PacedTime_RunsByItselfBehindClock) {
   const auto begin = std::chrono::steady_clock::now();
   const auto session = start(two_robots(R"({"time": 200, "duration": 4})"))->connect(6665);
   const InterfaceBinding binding = subscribe_position(*session);
@@ -763,7 +763,7 @@ TEST_F(HostTest, PacedTimeRunsByItselfAndNeverAheadOfTheClock) {
   EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(20));
 }
 
-TEST_P(HostOverTest, ABackgroundReaderMakesTimeFollowTheWallClock) {
+TEST_P(HostOverTest, BackgroundReader_SwitchesToPacedTime) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   session->request(PreferRealTimeRequest{"a test"});
@@ -772,7 +772,7 @@ TEST_P(HostOverTest, ABackgroundReaderMakesTimeFollowTheWallClock) {
   EXPECT_THAT(logged(), HasSubstr("a test"));
 }
 
-TEST_P(HostOverTest, ATimeModeThatTheWorldChoseIsKept) {
+TEST_P(HostOverTest, TimeModeOfWorld_Kept) {
   const auto session = start(two_robots(R"({"time": "lockstep"})"))->connect(6665);
   subscribe_position(*session);
   session->request(PreferRealTimeRequest{"a test"});
@@ -781,7 +781,7 @@ TEST_P(HostOverTest, ATimeModeThatTheWorldChoseIsKept) {
   EXPECT_EQ(logged(), "");
 }
 
-TEST_P(HostOverTest, ResultsOfARunAreWrittenOnceItEnds) {
+TEST_P(HostOverTest, Results_WrittenOnceAtEnd) {
   const std::filesystem::path folder =
       std::filesystem::path(testing::TempDir()) / "playpen_host_test";
   std::filesystem::remove_all(folder);
@@ -810,7 +810,7 @@ TEST_P(HostOverTest, ResultsOfARunAreWrittenOnceItEnds) {
   std::filesystem::remove_all(folder);
 }
 
-TEST_F(HostTest, AnInterruptEndsARunOfPlaypenInGoodOrder) {
+TEST_F(HostTest, Interrupt_EndsRun) {
   RunSettings settings;
   settings.quiet_end = true;  // as under playpen run
   const auto session = start(two_robots(), settings)->connect(6665);
@@ -825,7 +825,7 @@ TEST_F(HostTest, AnInterruptEndsARunOfPlaypenInGoodOrder) {
   }
 }
 
-TEST_F(HostTest, AnOutputFolderThatCannotBeMadeIsAnErrorThatNamesIt) {
+TEST_F(HostTest, UnwritableOutputFolder_ErrorNamesIt) {
   RunSettings settings;
   settings.output_folder = "/proc/no/such/folder";
   EXPECT_THROW(start(two_robots(), settings), std::exception);

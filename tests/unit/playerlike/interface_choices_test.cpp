@@ -56,7 +56,7 @@ std::string error_of(std::initializer_list<const char*> texts) {
   return "";
 }
 
-TEST(InterfaceChoices, PutADeviceAtItsIndexAndKeepTheOrderOfTheOthers) {
+TEST(InterfaceChoices, DeviceMovesToIndexAndOthersKeepOrder) {
   EXPECT_THAT(rangers(0, {}), ElementsAre("laser", "sonar", "infrared"));
   EXPECT_THAT(rangers(0, {"ranger:0=sonar"}), ElementsAre("sonar", "laser", "infrared"));
   EXPECT_THAT(rangers(0, {"r1.ranger:2=laser"}), ElementsAre("sonar", "infrared", "laser"));
@@ -64,14 +64,14 @@ TEST(InterfaceChoices, PutADeviceAtItsIndexAndKeepTheOrderOfTheOthers) {
               ElementsAre("infrared", "sonar", "laser"));
 }
 
-TEST(InterfaceChoices, WithoutARobotAreForEachThatHasTheDevice) {
+TEST(InterfaceChoices, NoRobot_AppliesToEachWithDevice) {
   EXPECT_THAT(rangers(1, {"ranger:0=sonar"}), ElementsAre("laser"));
   EXPECT_THAT(rangers(1, {"ranger:0=laser"}), ElementsAre("laser"));
   EXPECT_THAT(rangers(0, {"r1.ranger:0=infrared"}), ElementsAre("infrared", "laser", "sonar"));
   EXPECT_THAT(rangers(0, {"r2.ranger:0=laser"}), ElementsAre("laser", "sonar", "infrared"));
 }
 
-TEST(InterfaceChoices, AreWhatProgramsSee) {
+TEST(InterfaceChoices, ProgramsSeeThem) {
   RunSettings settings;
   settings.interfaces = choices({"ranger:0=sonar"});
   const auto host = Host::create(sim::load_world_text(kWorld), settings);
@@ -84,7 +84,7 @@ TEST(InterfaceChoices, AreWhatProgramsSee) {
   EXPECT_EQ(laser.GetRangeCount(), 91U);
 }
 
-TEST(InterfaceChoices, AnUnknownRobotInterfaceOrDeviceIsNamedWithThoseThereAre) {
+TEST(InterfaceChoices, UnknownRobotInterfaceOrDevice_ErrorListsExisting) {
   EXPECT_EQ(error_of({"r3.ranger:0=laser"}),
             "--interface r3.ranger:0=laser: expected a robot of this world: r1, r2, found \"r3\" "
             "(did you mean \"r1\"?) [run/interface]");
@@ -99,7 +99,7 @@ TEST(InterfaceChoices, AnUnknownRobotInterfaceOrDeviceIsNamedWithThoseThereAre) 
   EXPECT_THAT(error_of({"ranger:0=pose"}), HasSubstr("found \"pose\""));
 }
 
-TEST(InterfaceChoices, AnIndexBeyondTheRobotsDevicesIsRefused) {
+TEST(InterfaceChoices, IndexBeyondDevices_Refused) {
   EXPECT_EQ(error_of({"r1.ranger:3=laser"}),
             "--interface r1.ranger:3=laser: expected an index from 0 to 2: r1 has 3 devices with "
             "the interface ranger, found 3 [run/interface]");
@@ -107,7 +107,7 @@ TEST(InterfaceChoices, AnIndexBeyondTheRobotsDevicesIsRefused) {
               HasSubstr("expected an index from 0 to 0: r2 has 1 device with"));
 }
 
-TEST(InterfaceChoices, AnIndexOrADeviceTwiceIsRefused) {
+TEST(InterfaceChoices, DuplicateIndexOrDevice_Refused) {
   EXPECT_EQ(error_of({"ranger:0=laser", "r1.ranger:0=sonar"}),
             "--interface r1.ranger:0=sonar: expected each index and each device of an interface "
             "once, found ranger:0 again, for r1 [run/interface]");
@@ -115,7 +115,7 @@ TEST(InterfaceChoices, AnIndexOrADeviceTwiceIsRefused) {
               HasSubstr("found laser again, for r1"));
 }
 
-TEST(InterfaceChoices, HaveOneForm) {
+TEST(InterfaceChoices, Syntax_Checked) {
   InterfaceChoice choice;
   for (const char* text : {"", "ranger", "ranger:0", "ranger=laser", "ranger:=laser", ":0=laser",
                            "ranger:0=", "ranger:-1=laser", "ranger:x=laser", ".ranger:0=laser",

@@ -44,7 +44,7 @@ class Layers : public testing::Test {
   WindowProxy& window = WindowProxy::GetInstance(&client, 172, 186);
 };
 
-TEST_F(Layers, AreMadeFoundAndRemovedByName) {
+TEST_F(Layers, MadeFoundAndRemovedByName) {
   EXPECT_THAT(window.GetLayerNames(), ElementsAre("canvas"));
   GridMapLayer& map = window.CreateLayer("map");
   GridMapLayer& below = window.CreateLayer("below", GridMapLayer::BINARY, -1);
@@ -68,7 +68,7 @@ TEST_F(Layers, AreMadeFoundAndRemovedByName) {
   EXPECT_NE(&window.CreateLayer("map"), &map) << "the old handle stays what it is";
 }
 
-TEST_F(Layers, RemovedOnesRefuseToWorkButAreSafeToTouch) {
+TEST_F(Layers, RemovedLayer_RefusesCallsSafely) {
   GridMapLayer& map = window.CreateLayer("map", GridMapLayer::GREY);
   window.RemoveLayer("map");
   EXPECT_EQ(map.GetName(), "map");
@@ -87,7 +87,7 @@ TEST_F(Layers, RemovedOnesRefuseToWorkButAreSafeToTouch) {
   refused([&] { map.SetDiscMetres(1, 1, 0.1, 1, 1, 1); });
 }
 
-TEST_F(Layers, NamesAreChecked) {
+TEST_F(Layers, Names_Checked) {
   window.CreateLayer("map");
   const auto refused = [this](const std::string& name) {
     EXPECT_EQ(error_code_of([&] { window.CreateLayer(name); }), PlayerError::kBadArgument) << name;
@@ -106,21 +106,21 @@ TEST_F(Layers, NamesAreChecked) {
             PlayerError::kBadArgument);
 }
 
-TEST_F(Layers, CanvasCannotBeRemovedOrRenamed) {
+TEST_F(Layers, Canvas_NeitherRemovedNorRenamed) {
   EXPECT_EQ(error_code_of([&] { window.RemoveLayer("canvas"); }), PlayerError::kNotAvailable);
   EXPECT_EQ(error_code_of([&] { window.GetLayer().SetName("map"); }), PlayerError::kNotAvailable);
   window.GetLayer().SetPixel(3, 3, 1, 2, 3);
   EXPECT_EQ(window.GetPixel(3, 3), ImageColour_t(1, 2, 3)) << "the window draws on it";
 }
 
-TEST_F(Layers, AreLimitedInNumber) {
+TEST_F(Layers, Number_Limited) {
   for (int i = 0; i < 64; ++i) window.CreateLayer("l" + std::to_string(i));
   EXPECT_EQ(error_code_of([&] { window.CreateLayer("one more"); }), PlayerError::kNotAvailable);
   window.RemoveLayer("l5");
   window.CreateLayer("one more");
 }
 
-TEST_F(Layers, LieOverOneAnotherByPriority) {
+TEST_F(Layers, Priority_OrdersLayers) {
   GridMapLayer& red = window.CreateLayer("red");
   GridMapLayer& blue = window.CreateLayer("blue");
   red.SetPixel(4, 4, 255, 0, 0);
@@ -140,7 +140,7 @@ TEST_F(Layers, LieOverOneAnotherByPriority) {
   EXPECT_EQ(red.GetPixel(4, 4), ImageColour_t(255, 0, 0));
 }
 
-TEST_F(Layers, SettingsHoldForAllThatIsDrawn) {
+TEST_F(Layers, Settings_ApplyToDrawings) {
   GridMapLayer& layer = window.CreateLayer("layer");
   layer.SetPixel(1, 1, 255, 0, 0);
   layer.SetTransparency(0.5);
@@ -160,7 +160,7 @@ TEST_F(Layers, SettingsHoldForAllThatIsDrawn) {
   EXPECT_EQ(composed(1, 1), ImageColour_t(255, 0, 0));
 }
 
-TEST_F(Layers, ColoursMayBeGivenInManyWays) {
+TEST_F(Layers, Colours_AcceptedInSeveralForms) {
   GridMapLayer& layer = window.CreateLayer("layer");
   EXPECT_EQ(layer.GetColour(), ImageColour_t(0, 0, 0));
   layer.SetColour(1, 2, 3);
@@ -181,7 +181,7 @@ TEST_F(Layers, ColoursMayBeGivenInManyWays) {
   }
 }
 
-TEST_F(Layers, BinaryCellsAreSetOrNot) {
+TEST_F(Layers, BinaryCells_SetOrUnset) {
   GridMapLayer& layer = window.CreateLayer("obstacles", GridMapLayer::BINARY);
   layer.SetColour("#0000ff");
   layer.SetCell(1, 1, true);
@@ -207,7 +207,7 @@ TEST_F(Layers, BinaryCellsAreSetOrNot) {
   EXPECT_EQ(layer.GetCell(3, 1), 0.0);
 }
 
-TEST_F(Layers, GreyCellsAreOccupancies) {
+TEST_F(Layers, GreyCells_AreOccupancies) {
   GridMapLayer& layer = window.CreateLayer("occupancy", GridMapLayer::GREY);
   EXPECT_DOUBLE_EQ(layer.GetCell(9, 9), 0.5);
   layer.SetCell(1, 1, 0.0);
@@ -239,7 +239,7 @@ class WholeLayers : public Layers {};
 using CellTypes = testing::Types<std::uint8_t, float, double>;
 TYPED_TEST_SUITE(WholeLayers, CellTypes);
 
-TYPED_TEST(WholeLayers, AreSetAndReadInEveryKind) {
+TYPED_TEST(WholeLayers, SetAndReadInEveryKind) {
   const bool bytes = std::is_same_v<TypeParam, std::uint8_t>;
   const auto number = [&](std::size_t i) {
     return static_cast<TypeParam>(bytes ? static_cast<double>(i % 256)
@@ -286,13 +286,13 @@ TYPED_TEST(WholeLayers, AreSetAndReadInEveryKind) {
   }
 }
 
-TEST_F(Layers, OfColoursHaveNoNumbersCellByCell) {
+TEST_F(Layers, ColourLayers_HaveNoCellNumbers) {
   GridMapLayer& layer = window.CreateLayer("layer");
   EXPECT_EQ(error_code_of([&] { layer.SetCell(1, 1, 1); }), PlayerError::kNotAvailable);
   EXPECT_EQ(error_code_of([&] { layer.GetCell(1, 1); }), PlayerError::kNotAvailable);
 }
 
-TEST_F(Layers, ImagesBecomeCellsOfTheLayersKind) {
+TEST_F(Layers, Images_ConvertedToKindOfLayer) {
   GridMapLayer& grey = window.CreateLayer("grey", GridMapLayer::GREY);
   std::vector<std::uint8_t> rgb(3 * kCells, 255);
   rgb[0] = rgb[1] = rgb[2] = 0;
@@ -302,7 +302,7 @@ TEST_F(Layers, ImagesBecomeCellsOfTheLayersKind) {
   EXPECT_EQ(grey.GetImage(3), rgb);
 }
 
-TEST_F(Layers, AreSavedByTheWorldOneByOne) {
+TEST_F(Layers, SavedOneByOne) {
   GridMapLayer& trail = window.CreateLayer("trail", GridMapLayer::BINARY);
   GridMapLayer& map = window.CreateLayer("map", GridMapLayer::GREY);
   trail.SaveImage("way");
@@ -345,7 +345,7 @@ class LoadedMaps : public Layers {
   std::string stem = (folder.path() / "map").string();
 };
 
-TEST_F(LoadedMaps, LieAtTheirPlaceInTheWorld) {
+TEST_F(LoadedMaps, PlacedByWorldPosition) {
   GridMapLayer& layer = window.CreateLayer("map", GridMapLayer::GREY);
   layer.SetCells(std::vector<double>(kCells, 0.25));
   EXPECT_EQ(layer.LoadMap(stem + ".yaml"), 24);
@@ -364,7 +364,7 @@ TEST_F(LoadedMaps, LieAtTheirPlaceInTheWorld) {
   EXPECT_EQ(others, kCells - 24) << "what the map does not cover stays";
 }
 
-TEST_F(LoadedMaps, ThatReachBeyondTheCanvasAreCutOff) {
+TEST_F(LoadedMaps, PartsBeyondCanvas_CutOff) {
   GridMapLayer& layer = window.CreateLayer("map", GridMapLayer::GREY);
   window.Resize(8,
                 5);  // to x = 0.16, y = 0.10: the lower left cell of the map, half the middle one
@@ -377,7 +377,7 @@ TEST_F(LoadedMaps, ThatReachBeyondTheCanvasAreCutOff) {
   EXPECT_EQ(layer.LoadMap(stem + ".yaml"), 0) << "it lies wholly outside";
 }
 
-TEST_F(LoadedMaps, WithSmallerCellsAreLookedAtInTheMiddles) {
+TEST_F(LoadedMaps, SmallerCells_SampledAtCentres) {
   sim::OccupancyMap map;  // 4 x 4 cells of 1 cm: 2 x 2 of the canvas's
   map.width = map.height = 4;
   map.cell_size_m = 0.01;
@@ -394,7 +394,7 @@ TEST_F(LoadedMaps, WithSmallerCellsAreLookedAtInTheMiddles) {
   EXPECT_EQ(layer.GetCell(1, 185), 0.0);
 }
 
-TEST_F(LoadedMaps, OrLayersThatAreNotRightAreRefused) {
+TEST_F(LoadedMaps, InvalidMaps_Refused) {
   GridMapLayer& layer = window.CreateLayer("map", GridMapLayer::GREY);
   try {
     layer.LoadMap(stem + "_2.yaml");
@@ -410,7 +410,7 @@ TEST_F(LoadedMaps, OrLayersThatAreNotRightAreRefused) {
   EXPECT_EQ(error_code_of([&] { layer.LoadMap(stem + ".yaml"); }), PlayerError::kNotAvailable);
 }
 
-TEST_F(Layers, AreResizedWithTheCanvas) {
+TEST_F(Layers, ResizedWithCanvas) {
   GridMapLayer& layer = window.CreateLayer("layer", GridMapLayer::GREY);
   layer.SetCell(0, 185, 1.0);
   window.Resize(20, 10);
@@ -419,7 +419,7 @@ TEST_F(Layers, AreResizedWithTheCanvas) {
   layer.SetCells(std::vector<float>(200, 0.0F));
 }
 
-TEST_F(Layers, OutliveTheWindowAndAreFoundByTheNext) {
+TEST_F(Layers, OutliveWindow) {
   window.CreateLayer("map", GridMapLayer::BINARY).SetCell(3, 3, 1);
   delete &window;
   WindowProxy& next = WindowProxy::GetInstance(&client, 172, 186);

@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, LocalDriversTest,
                          testing::Values(Transport::kInProcess, Transport::kCbor),
                          [](const auto& instance) { return transport_name(instance.param); });
 
-TEST_P(LocalDriversTest, WorldsDriversReachGoalsWithoutACollision) {
+TEST_P(LocalDriversTest, DriversOfWorld_ReachGoalsWithoutCollision) {
   for (const int index : {2, 3}) {
     start(room(kDrivers, kBlock));
     PlayerClient client(host->connect(6665));
@@ -66,7 +66,7 @@ TEST_P(LocalDriversTest, WorldsDriversReachGoalsWithoutACollision) {
   }
 }
 
-TEST_P(LocalDriversTest, GotoDrivesStraight) {
+TEST_P(LocalDriversTest, Goto_DrivesStraight) {
   start(room(kDrivers, ""));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 4);
@@ -98,7 +98,7 @@ std::string run(ReachableHost& host) {
   return trace.str();
 }
 
-TEST_P(LocalDriversTest, RunsAreRepeatable) {
+TEST_P(LocalDriversTest, Repeatable) {
   start(room("[]", kBlock));
   const std::string vfh = run<VfhDriver>(*host);
   start(room("[]", kBlock));
@@ -110,7 +110,7 @@ TEST_P(LocalDriversTest, RunsAreRepeatable) {
   EXPECT_NE(vfh, nd);
 }
 
-TEST_P(LocalDriversTest, SettingsHaveNamesAndRanges) {
+TEST_P(LocalDriversTest, Settings_HaveNamesAndRanges) {
   start(room("[]", ""));
   PlayerClient client(host->connect(6665));
   VfhDriver driver(&client);
@@ -151,7 +151,7 @@ std::string fault(const std::string& drivers, const std::string& devices = "{}")
   return "";
 }
 
-TEST(DriversTable, SettingsOfAllDriversAreChecked) {
+TEST(DriversTable, SettingsOfAllDrivers_Checked) {
   EXPECT_EQ(fault(kDrivers), "");
   EXPECT_THAT(fault(R"([{"type": "vfh", "window_diameter": 61.5}])"),
               AllOf(HasSubstr("/robots/0/drivers/0/window_diameter"),
@@ -165,7 +165,7 @@ TEST(DriversTable, SettingsOfAllDriversAreChecked) {
               HasSubstr("a robot with a laser"));
 }
 
-TEST(DriversTable, APlannerNeedsADriverAndAPose) {
+TEST(DriversTable, Planner_NeedsDriverAndPose) {
   EXPECT_EQ(fault(R"([{"type": "wavefront", "draw": false}, {"type": "vfh"}])"), "");
   EXPECT_THAT(fault(R"([{"type": "wavefront"}])"),
               AllOf(HasSubstr("a driver that drives to goals"), HasSubstr("world/driver-device")));

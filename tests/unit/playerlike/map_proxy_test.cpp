@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, MapProxyTest,
                                          test::Transport::kJson),
                          [](const auto& instance) { return transport_name(instance.param); });
 
-TEST_P(MapProxyTest, HasNoMapUntilItIsRequested) {
+TEST_P(MapProxyTest, EmptyUntilRequested) {
   const auto robot = client();
   MapProxy map(robot.get());
   EXPECT_FALSE(map.IsValid());
@@ -63,7 +63,7 @@ TEST_P(MapProxyTest, HasNoMapUntilItIsRequested) {
   map.GetMap(nullptr);  // no cells: nothing to copy
 }
 
-TEST_P(MapProxyTest, TellsTheWorldInPlayersOrder) {
+TEST_P(MapProxyTest, WorldMap_InPlayerOrder) {
   const auto robot = client();
   MapProxy map(robot.get());
   map.RequestMap();
@@ -88,7 +88,7 @@ TEST_P(MapProxyTest, TellsTheWorldInPlayersOrder) {
   }
 }
 
-TEST_P(MapProxyTest, CellsOutsideAreUnknown) {
+TEST_P(MapProxyTest, CellsOutside_Unknown) {
   const auto robot = client();
   MapProxy map(robot.get());
   map.RequestMap();
@@ -98,7 +98,7 @@ TEST_P(MapProxyTest, CellsOutsideAreUnknown) {
   EXPECT_EQ(error_of([&] { map.GetMap(nullptr); }).GetErrorCode(), PlayerError::kBadArgument);
 }
 
-TEST_P(MapProxyTest, IsOneForAllRobotsWithIndexZeroOnEveryPort) {
+TEST_P(MapProxyTest, SameMapOnEveryPortAtIndexZero) {
   for (const std::uint32_t port : {6665U, 6666U, 4000U}) {
     const auto robot = client(port);
     CCMorse::MapProxy map(robot.get(), 0);
@@ -123,7 +123,7 @@ TEST_P(MapProxyTest, IsOneForAllRobotsWithIndexZeroOnEveryPort) {
   }
 }
 
-TEST_P(MapProxyTest, TellsWhichRequestsItKnows) {
+TEST_P(MapProxyTest, Capabilities_ListRequests) {
   const auto robot = client();
   MapProxy map(robot.get());
   EXPECT_NE(map.HasCapability(PLAYER_MSGTYPE_REQ, PLAYER_MAP_REQ_GET_DATA), 0);
@@ -131,7 +131,7 @@ TEST_P(MapProxyTest, TellsWhichRequestsItKnows) {
   EXPECT_EQ(map.HasCapability(PLAYER_MSGTYPE_DATA, PLAYER_MAP_DATA_INFO), 0);
 }
 
-TEST_P(MapProxyTest, PrintsTheMapTheTopRowFirst) {
+TEST_P(MapProxyTest, Print_TopRowFirst) {
   const auto robot = client();
   MapProxy map(robot.get());
   map.RequestMap();
@@ -140,7 +140,7 @@ TEST_P(MapProxyTest, PrintsTheMapTheTopRowFirst) {
   EXPECT_THAT(out.str(), HasSubstr("..........\n...##.....\n..........\n"));
 }
 
-TEST_P(MapProxyTest, CarriesTheTimeOfTheRequest) {
+TEST_P(MapProxyTest, Time_OfRequest) {
   const auto robot = client();
   MapProxy map(robot.get());
   const PlayerCc::Position2dProxy position(robot.get());
@@ -149,7 +149,7 @@ TEST_P(MapProxyTest, CarriesTheTimeOfTheRequest) {
   EXPECT_DOUBLE_EQ(map.GetDataTime(), position.GetDataTime());
 }
 
-TEST_P(MapProxyTest, ThrowsWhenTheClientIsGone) {
+TEST_P(MapProxyTest, ClosedClient_Throws) {
   auto robot = client();
   MapProxy map(robot.get());
   robot.reset();
@@ -158,7 +158,7 @@ TEST_P(MapProxyTest, ThrowsWhenTheClientIsGone) {
             PlayerError::kDisconnected);
 }
 
-TEST(ShippedMaps, ParPlanningIsTheTrueMapOfItsWorld) {
+TEST(ShippedMaps, ParPlanning_EqualsTrueMapOfWorld) {
   const par::Mask file = par::load_text_map(PLAYPEN_SOURCE_DIR "/worlds/maps/par_planning.txt");
   PlayerClient client("sim:" PLAYPEN_SOURCE_DIR "/worlds/tasks/par_planning.json", 6665);
   MapProxy map(&client);
@@ -177,7 +177,7 @@ TEST(ShippedMaps, ParPlanningIsTheTrueMapOfItsWorld) {
   }
 }
 
-TEST(ShippedMaps, TwoRoomsIsWalledAllRound) {
+TEST(ShippedMaps, TwoRooms_HasClosedWalls) {
   const par::Mask map = par::load_text_map(PLAYPEN_SOURCE_DIR "/worlds/maps/two_rooms.txt");
   EXPECT_EQ(map.width(), 32);
   EXPECT_EQ(map.height(), 24);

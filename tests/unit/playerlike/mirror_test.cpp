@@ -1,21 +1,24 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Robots that mirror real ones. The real robot is a FakeSession, so a test says what it measures.
-#include "host/mirror.h"
+#include "host/mirror/mirror.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
+#include <stop_token>
+#include <string>
 #include <thread>
 
 #include "fake_session.h"
-#include "host/ghost.h"
-#include "host/scan_difference.h"
+#include "host/mirror/ghost.h"
+#include "host/mirror/scan_difference.h"
 #include "patience.h"
 #include "playerlike/host/host.h"
 #include "playerlike/server/server.h"
@@ -97,7 +100,7 @@ class MirrorTest : public testing::Test {
     const std::lock_guard lock(real_->mutex);
     return real_->sent;
   }
-  [[nodiscard]] nlohmann::ordered_json report() const { return mirror_->report().at(0); }
+  [[nodiscard]] MirrorReport report() const { return mirror_->report().at(0); }
 
   std::shared_ptr<FakeWorld> real_ = make_real_robot();
   std::optional<sim::Simulation> simulation_;
@@ -107,12 +110,12 @@ class MirrorTest : public testing::Test {
   std::unique_ptr<Mirror> mirror_;
 };
 
-TEST_F(MirrorTest, AWorldWithoutRealRobotsHasNone) {
+TEST_F(MirrorTest, WorldWithoutRealRobots_NoMirror) {
   sim::Simulation plain(sim::load_world_text("{}"));
   EXPECT_EQ(Mirror::open(plain, describe_robots(plain), opens(real_), {}), nullptr);
 }
 
-TEST_F(MirrorTest, ARobotStandsWhereTheRealOneSays) {
+TEST_F(MirrorTest, Robot_FollowsPoseOfRealRobot) {
   // The real robot's frame has its origin at (1, 2) and is turned by 90 degrees: its point
   // (0.5, 0.2) is (1 - 0.2, 2 + 0.5) in the world.
   open(world_text(R"(, "offset": {"x": 1, "y": 2, "yaw_deg": 90})"));
@@ -132,14 +135,14 @@ TEST_F(MirrorTest, ARobotStandsWhereTheRealOneSays) {
   EXPECT_NEAR(simulation_->statistics(0).path_length_m, 0.1, 1e-12);
 }
 
-TEST_F(MirrorTest, AnotherDeviceCanTellThePose) {
+TEST_F(MirrorTest, OtherDevice_MayProvidePose) {
   open(world_text(R"(, "pose": "position2d:1")"));
   measures({{test::kOdometry, test::pose_reading(1.0, {3.0, 3.0, 0.0})}});
   EXPECT_NEAR(pose().x_m, 3.0, 1e-12);
 }
 
 // A real robot that localises itself gives several hypotheses; the most likely one counts.
-TEST_F(MirrorTest, ALocalisationCanTellThePose) {
+TEST_F(MirrorTest, Localisation_MayProvidePose) {
   for (DeviceInfo& device : real_->robots[0].devices) {
     if (device.name == "pose") device.type = "amcl";
   }
@@ -164,7 +167,7 @@ TEST_F(MirrorTest, ALocalisationCanTellThePose) {
   EXPECT_NEAR(pose().x_m, 0.8, 1e-12);
 }
 
-TEST_F(MirrorTest, RealityWinsOverWalls) {
+TEST_F(MirrorTest, RealPose_OverridesWalls) {
   open(world_text());
   // An S1R reaches 0.087 m ahead of its axle, so it overlaps the border at x = 4.
   measures({{test::kPose, test::pose_reading(1.0, {3.97, 2.0, 0.0})}});
@@ -174,14 +177,14 @@ TEST_F(MirrorTest, RealityWinsOverWalls) {
   EXPECT_THAT(simulation_->collisions(), IsEmpty());
 }
 
-TEST_F(MirrorTest, InvalidPosesAreIgnored) {
+TEST_F(MirrorTest, InvalidPoses_Ignored) {
   open(world_text());
   measures({{test::kPose, test::pose_reading(1.0, {std::nan(""), 2.0, 0.0})}});
   EXPECT_EQ(pose().x_m, 1.0);
   EXPECT_THAT(warnings_, Contains(HasSubstr("the pose of the real robot of r1 is invalid")));
 }
 
-TEST_F(MirrorTest, ReadingsOfTheRealRobotReplaceThoseOfItsDevices) {
+TEST_F(MirrorTest, RealReadings_ReplaceSimulatedOnes) {
   open(world_text());
   for (const char* name : {"laser", "odometry", "pose"}) {
     EXPECT_TRUE(mirror_->replaces(device(name))) << name;
@@ -198,7 +201,7 @@ TEST_F(MirrorTest, ReadingsOfTheRealRobotReplaceThoseOfItsDevices) {
   EXPECT_THAT(mirror_->readings(), IsEmpty());
 }
 
-TEST_F(MirrorTest, DevicesThatTheRealRobotLacksStaySimulated) {
+TEST_F(MirrorTest, DevicesMissingOnRealRobot_StaySimulated) {
   std::erase_if(real_->robots[0].devices, [](const DeviceInfo& d) { return d.type == "laser"; });
   open(world_text());
   EXPECT_FALSE(mirror_->replaces(device("laser")));
@@ -209,14 +212,14 @@ TEST_F(MirrorTest, DevicesThatTheRealRobotLacksStaySimulated) {
   EXPECT_FALSE(mirror_->take_command(device("laser"), sim::TwistCommand{}));
 }
 
-TEST_F(MirrorTest, ReadingsOfAnotherKindAreIgnoredWithAWarning) {
+TEST_F(MirrorTest, ReadingsOfOtherType_IgnoredWithWarning) {
   open(world_text());
   real_->add_round({{test::kLaser, test::pose_reading(1.0, {})}});
   measures({{test::kOdometry, test::pose_reading(1.1, {})}});
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("gives other readings than its device laser")));
 }
 
-TEST_F(MirrorTest, CommandsGoToTheRealRobot) {
+TEST_F(MirrorTest, Commands_SentToRealRobot) {
   open(world_text());
   EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.25, 0.5, 0.0}}));
   EXPECT_TRUE(eventually([this] { return !sent().empty(); }));
@@ -225,7 +228,7 @@ TEST_F(MirrorTest, CommandsGoToTheRealRobot) {
 }
 
 // A goal in the world's frame W is sent in the frame F of the real robot's poses.
-TEST_F(MirrorTest, GoalsInTheWorldAreSentInTheRealRobotsFrame) {
+TEST_F(MirrorTest, WorldGoals_SentInFrameOfRealRobot) {
   open(world_text(R"(, "offset": {"x": 1, "y": 2, "yaw_deg": 90})"));
   EXPECT_TRUE(mirror_->take_command(device("motion"), sim::PositionCommand{{0.8, 2.5, 0.0}}));
   EXPECT_TRUE(eventually([this] { return !sent().empty(); }));
@@ -235,16 +238,16 @@ TEST_F(MirrorTest, GoalsInTheWorldAreSentInTheRealRobotsFrame) {
   EXPECT_EQ(goal.frame, test::kPose.device);
 }
 
-TEST_F(MirrorTest, TheRealRobotIsStoppedAtTheEnd) {
+TEST_F(MirrorTest, EndOfRun_StopsRealRobot) {
   open(world_text());
   mirror_->stop();
   ASSERT_FALSE(sent().empty());
   EXPECT_EQ(sent().back().first, test::kMotion);
   EXPECT_EQ(std::get<sim::TwistCommand>(sent().back().second).twist, sim::Twist{});
-  EXPECT_TRUE(report()["connected"]) << "the end of the run is no loss";
+  EXPECT_TRUE(report().connected) << "the end of the run is no loss";
 }
 
-TEST_F(MirrorTest, APauseStopsTheRealRobot) {
+TEST_F(MirrorTest, Pause_StopsRealRobot) {
   open(world_text());
   EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.25, 0.0, 0.0}}));
   EXPECT_TRUE(eventually([this] { return !sent().empty(); }));
@@ -253,7 +256,7 @@ TEST_F(MirrorTest, APauseStopsTheRealRobot) {
   EXPECT_EQ(std::get<sim::TwistCommand>(sent()[1].second).twist, sim::Twist{});
 }
 
-TEST_F(MirrorTest, ALostConnectionIsReportedOnceAndCommandsEnd) {
+TEST_F(MirrorTest, LostConnection_ReportedOnceAndEndsCommands) {
   open(world_text());
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
   step();
@@ -276,13 +279,13 @@ TEST_F(MirrorTest, ALostConnectionIsReportedOnceAndCommandsEnd) {
   mirror_->stop();
   EXPECT_THAT(sent(), IsEmpty());
   EXPECT_NEAR(pose().x_m, 2.0, 1e-12);
-  EXPECT_FALSE(report()["connected"]);
-  EXPECT_THAT(report()["lost"]["reason"].get<std::string>(), HasSubstr("is lost"));
+  EXPECT_FALSE(report().connected);
+  EXPECT_THAT(report().lost.value().reason, HasSubstr("is lost"));
 }
 
 // --- Who is in charge of the real robot
 
-TEST_F(MirrorTest, ItShowsTheServerThatItIsThere) {
+TEST_F(MirrorTest, Heartbeat_SentToServer) {
   open(world_text(R"(, "watchdog": 0.05)"));
   EXPECT_TRUE(eventually([this] {
     const std::lock_guard lock(real_->mutex);
@@ -292,7 +295,7 @@ TEST_F(MirrorTest, ItShowsTheServerThatItIsThere) {
   EXPECT_THAT(warnings_, IsEmpty());
 }
 
-TEST_F(MirrorTest, ARobotOfAnotherMirrorIsAnErrorUnlessItIsTakenOver) {
+TEST_F(MirrorTest, RobotOfOtherMirror_RefusedUnlessTakenOver) {
   real_->in_charge = "the mirror on lab7, process 12";
   EXPECT_THAT([&] { open(world_text()); },
               ThrowsMessage<sim::ConfigError>(
@@ -302,7 +305,7 @@ TEST_F(MirrorTest, ARobotOfAnotherMirrorIsAnErrorUnlessItIsTakenOver) {
   EXPECT_THAT(real_->in_charge, Not(HasSubstr("lab7")));
 }
 
-TEST_F(MirrorTest, AMirrorWhoseRobotIsTakenOverHasLostIt) {
+TEST_F(MirrorTest, TakenOverRobot_ReportedLost) {
   open(world_text(R"(, "watchdog": 0.05)"));
   {
     const std::lock_guard lock(real_->mutex);
@@ -315,7 +318,7 @@ TEST_F(MirrorTest, AMirrorWhoseRobotIsTakenOverHasLostIt) {
   EXPECT_THAT(losses_, ElementsAre(HasSubstr("another mirror is in charge")));
 }
 
-TEST_F(MirrorTest, TheUserIsToldThatTheWatchdogHasStoppedTheRobot) {
+TEST_F(MirrorTest, WatchdogStop_Reported) {
   open(world_text(R"(, "watchdog": 0.05)"));
   {
     const std::lock_guard lock(real_->mutex);
@@ -328,13 +331,13 @@ TEST_F(MirrorTest, TheUserIsToldThatTheWatchdogHasStoppedTheRobot) {
   EXPECT_THAT(warnings_[0], HasSubstr("has stopped it, since it had heard nothing for 0.05 s"));
 }
 
-TEST_F(MirrorTest, AServerThatCannotWatchIsNamedAtTheStart) {
+TEST_F(MirrorTest, ServerWithoutWatchdog_NamedAtStart) {
   real_->watches = false;
   open(world_text(R"(, "watchdog": 0.05)"));
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("if the network fails, the robot drives on")));
 }
 
-TEST_F(MirrorTest, ALostConnectionIsMadeAgainIfTheWorldSaysSo) {
+TEST_F(MirrorTest, LostConnection_ReconnectsIfWorldAllows) {
   open(world_text(R"(, "on_lost": "reconnect")"));
   const auto set_closed = [this](bool closed) {
     const std::lock_guard lock(real_->mutex);
@@ -350,19 +353,19 @@ TEST_F(MirrorTest, ALostConnectionIsMadeAgainIfTheWorldSaysSo) {
   EXPECT_EQ(mirror_->loss_of(device("pose")), "") << "nobody waits in vain";
   EXPECT_THAT(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}),
               testing::Optional(testing::Optional(HasSubstr("is lost"))));
-  EXPECT_FALSE(report()["connected"]);
+  EXPECT_FALSE(report().connected);
   set_closed(false);
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
   EXPECT_FALSE(mirror_->has_lost(0));
   EXPECT_THAT(warnings_, Contains(HasSubstr("is there again")));
-  EXPECT_TRUE(report()["connected"]);
-  EXPECT_EQ(report()["reconnections"], 1);
+  EXPECT_TRUE(report().connected);
+  EXPECT_EQ(report().reconnections, 1U);
   EXPECT_THAT(sent(), IsEmpty()) << "a new command must set it in motion";
 }
 
 // --- What cannot reach the real robot is refused
 
-TEST_F(MirrorTest, DevicesThatTheRealRobotLacksDoNotMoveIt) {
+TEST_F(MirrorTest, DevicesMissingOnRealRobot_DoNotMoveIt) {
   open(world_text(R"(}, "devices": {"go": {"type": "waypoint"}, "jump": {"type": "teleport"})"));
   const auto refusal = [this](const char* name, const sim::Command& command) {
     const auto executed = mirror_->take_command(device(name), command);
@@ -376,7 +379,7 @@ TEST_F(MirrorTest, DevicesThatTheRealRobotLacksDoNotMoveIt) {
               HasSubstr("names a frame"));
 }
 
-TEST_F(MirrorTest, DevicesThatAreSwitchedOffTakeNoCommandsAndGiveNoReadings) {
+TEST_F(MirrorTest, DisabledDevices_TakeNoCommandsAndGiveNoReadings) {
   open(world_text());
   simulation_->set_active(device("motion"), false);
   EXPECT_THAT(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}),
@@ -388,7 +391,7 @@ TEST_F(MirrorTest, DevicesThatAreSwitchedOffTakeNoCommandsAndGiveNoReadings) {
   EXPECT_THAT(sent(), IsEmpty());
 }
 
-TEST_F(MirrorTest, NobodyPutsItElsewhereOrHoldsItFast) {
+TEST_F(MirrorTest, PlacementAndSuspension_Refused) {
   open(world_text());
   const auto mirrors = testing::Optional(HasSubstr("robot r1 mirrors a real robot"));
   EXPECT_THAT(simulation_->place_object("r1", {2.0, 2.0, 0.0}), mirrors);
@@ -397,7 +400,7 @@ TEST_F(MirrorTest, NobodyPutsItElsewhereOrHoldsItFast) {
   EXPECT_THAT(simulation_->reset(), mirrors);
 }
 
-TEST_F(MirrorTest, ServersThatCannotBeReachedAreErrorsWithTheirPlace) {
+TEST_F(MirrorTest, UnreachableServers_ErrorNamesThem) {
   sim::Simulation simulation(sim::load_world_text(world_text(), "lab.json"));
   const OpenRealRobot refuses = [](const RealRobotPlace&) -> std::unique_ptr<Session> {
     throw SessionError(SessionError::Code::kDisconnected, "connection refused");
@@ -411,7 +414,7 @@ TEST_F(MirrorTest, ServersThatCannotBeReachedAreErrorsWithTheirPlace) {
               ThrowsMessage<sim::ConfigError>(HasSubstr("no way to connect to real robots")));
 }
 
-TEST_F(MirrorTest, ARealRobotWithoutTheDeviceOfThePoseIsAnError) {
+TEST_F(MirrorTest, MissingPoseDevice_Error) {
   EXPECT_THAT([&] { open(world_text(R"(, "pose": "position2d:5")")); },
               ThrowsMessage<sim::ConfigError>(
                   AllOf(HasSubstr("position2d:5"), HasSubstr("position2d:0 (r1.pose)"))));
@@ -419,17 +422,17 @@ TEST_F(MirrorTest, ARealRobotWithoutTheDeviceOfThePoseIsAnError) {
 
 // --- The ghost
 
-TEST_F(MirrorTest, AGhostFollowsTheSameCommands) {
+TEST_F(MirrorTest, Ghost_FollowsSameCommands) {
   open(world_text(R"(, "drive": "both")"));
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
-  EXPECT_EQ(report()["ghost"]["final_distance"], 0.0) << "it starts at the real robot";
+  EXPECT_EQ(report().ghost.value().final_distance_m, 0.0) << "it starts at the real robot";
   EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}));
   step(100);
   measures({{test::kPose, test::pose_reading(2.0, {2.05, 2.0, 0.5})}});
   // Without ramps the ghost drives 0.2 m in a second; the real one says 0.05 m.
-  EXPECT_NEAR(report()["ghost"]["final_distance"].get<double>(), 0.15, 1e-3);
-  EXPECT_NEAR(report()["ghost"]["distance"]["max"].get<double>(), 0.15, 1e-3);
-  EXPECT_NEAR(report()["ghost"]["heading"]["max"].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(report().ghost.value().final_distance_m, 0.15, 1e-3);
+  EXPECT_NEAR(report().ghost.value().distance_m.max, 0.15, 1e-3);
+  EXPECT_NEAR(report().ghost.value().heading_rad.max, 0.5, 1e-9);
   EXPECT_TRUE(eventually([this] { return !sent().empty(); })) << "the real robot drives as well";
   EXPECT_EQ(simulation_->robot_count(), 1) << "nobody else sees the ghost";
 
@@ -448,7 +451,7 @@ TEST_F(MirrorTest, AGhostFollowsTheSameCommands) {
   EXPECT_NEAR(nlohmann::json::parse(fields[3]).get<double>(), 0.15, 1e-3);
 }
 
-TEST(Ghost, CollidesWithTheArena) {
+TEST(Ghost, CollidesWithArena) {
   Ghost ghost(sim::load_world_text(world_text()), 0);
   EXPECT_FALSE(ghost.place({3.99, 2.0, 0.0}));
   ASSERT_TRUE(ghost.place({3.8, 2.0, 0.0}));
@@ -460,7 +463,7 @@ TEST(Ghost, CollidesWithTheArena) {
   ghost.stop();
 }
 
-TEST(Ghost, BlocksRiseForItAsInTheWorld) {
+TEST(Ghost, BlocksRiseAsInWorld) {
   const char* const text = R"({"arena": {"size": [4, 4], "obstacles": [
     {"name": "gate", "type": "dynamic", "center": [3, 2], "size": [0.2, 1]}], "retracted": ["gate"]},
     "robots": [{"name": "r1", "pose": {"x": 1, "y": 2}}]})";
@@ -473,7 +476,7 @@ TEST(Ghost, BlocksRiseForItAsInTheWorld) {
   EXPECT_LT(ghost.pose().x_m, 2.9);
 }
 
-TEST_F(MirrorTest, TheGhostStopsWhenTheConnectionIsLost) {
+TEST_F(MirrorTest, LostConnection_StopsGhost) {
   open(world_text(R"(, "drive": "both")"));
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
   EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}));
@@ -494,7 +497,7 @@ TEST_F(MirrorTest, TheGhostStopsWhenTheConnectionIsLost) {
 
 // --- Scans
 
-TEST(ScanDifference, ComparesBeamsOfTheSameAngle) {
+TEST(ScanDifference, ComparesBeamsOfSameAngle) {
   // Three real beams at -0.5, 0 and 0.5 rad; the predicted scan has beams at -0.5, -0.25, ... 0.5.
   sim::LaserReading real;
   real.angle_min_rad = -0.5;
@@ -518,7 +521,7 @@ TEST(ScanDifference, ComparesBeamsOfTheSameAngle) {
   EXPECT_NEAR(difference.places[1].p_L.norm(), 2.5, 1e-12) << "where the world has something";
 }
 
-TEST(ScanDifference, BeamsOutsideOfThePredictedScanDoNotCount) {
+TEST(ScanDifference, BeamsOutsidePredictedScan_Ignored) {
   sim::LaserReading real;
   real.angle_min_rad = -3.0;
   real.resolution_rad = 1.0;
@@ -534,7 +537,7 @@ TEST(ScanDifference, BeamsOutsideOfThePredictedScanDoNotCount) {
   EXPECT_EQ(compare_scans({}, predicted).beams, 0);
 }
 
-TEST_F(MirrorTest, TheRealScanIsDrawnAndCompared) {
+TEST_F(MirrorTest, RealScan_DrawnAndCompared) {
   open(world_text());
   // From (2, 2), the laser is at (2.035, 2) and looks along x. Ahead, the border is at 1.965 m;
   // something that the world lacks stands at 1 m.
@@ -546,8 +549,8 @@ TEST_F(MirrorTest, TheRealScanIsDrawnAndCompared) {
   EXPECT_NEAR(scene.robots[0].scan_points[0].x(), 3.035, 1e-9);
   EXPECT_NEAR(scene.robots[0].scan_points[0].y(), 2.0, 1e-9);
   // The predicted beam nearest to 0 is at most half a beam (0.2 degrees) away.
-  EXPECT_NEAR(report()["scan_difference"]["range"]["max"].get<double>(), 0.965, 1e-3);
-  EXPECT_EQ(report()["scan_difference"]["share"]["max"], 1.0);
+  EXPECT_NEAR(report().scan_difference.value().range_m.max, 0.965, 1e-3);
+  EXPECT_EQ(report().scan_difference.value().share.max, 1.0);
 
   const std::vector<sim::LayerInfo> layers = simulation_->layers().layers();
   ASSERT_THAT(layers, SizeIs(2)) << "the canvas, and the layer of the difference";
@@ -575,7 +578,7 @@ class Readings : public ReadingSink {
   std::vector<sim::SharedReading> readings;
 };
 
-TEST(MirroredRun, AProgramDrivesTheRealRobotAndReadsItsDevices) {
+TEST(MirroredRun, Program_DrivesAndReadsRealRobot) {
   const auto real = make_real_robot();
   const auto host = Host::create(sim::load_world_text(world_text()), settings_for(real));
   EXPECT_EQ(host->time().mode, sim::TimeMode::kPaced) << "a real robot lives in real time";
@@ -593,8 +596,8 @@ TEST(MirroredRun, AProgramDrivesTheRealRobotAndReadsItsDevices) {
   Readings sink;
   session->take(sink);
   EXPECT_THAT(sink.readings, ElementsAre(reading)) << "and no simulated one";
-  host->with_simulation(
-      [](sim::Simulation& simulation) { EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.5, 1e-12); });
+  EXPECT_NEAR(host->with_simulation([](const auto& all) { return all.body(0).X_WB.x_m; }), 2.5,
+              1e-12);
   EXPECT_THAT(host->set_time_factor(2.0), testing::Optional(HasSubstr("mirrors a real one")));
   host->finish();
   EXPECT_EQ(std::get<sim::TwistCommand>(real->sent.back().second).twist, sim::Twist{});
@@ -606,7 +609,7 @@ void lose(FakeWorld& real) {
   real.changed.notify_all();
 }
 
-TEST(MirroredRun, AProgramIsToldThatTheRealRobotIsLost) {
+TEST(MirroredRun, LostRobot_ReportedToProgram) {
   const auto real = make_real_robot();
   std::vector<std::string> log;
   std::mutex log_mutex;
@@ -636,7 +639,7 @@ TEST(MirroredRun, AProgramIsToldThatTheRealRobotIsLost) {
   host->finish();
 }
 
-TEST(MirroredRun, ForClientsOfAServerTheLossIsTheEnd) {
+TEST(MirroredRun, LostRobot_EndsRunForServerClients) {
   const auto real = make_real_robot();
   const auto host = Host::create(sim::load_world_text(world_text()), settings_for(real));
   const auto client = host->connect_events(6665, [] {});
@@ -650,7 +653,7 @@ TEST(MirroredRun, ForClientsOfAServerTheLossIsTheEnd) {
   host->finish();
 }
 
-TEST(MirroredRun, TheLossEndsTheRunIfTheWorldSaysSo) {
+TEST(MirroredRun, LostRobot_EndsRunIfWorldSaysSo) {
   const test_support::TemporaryFolder folder;
   const auto real = make_real_robot();
   RunSettings settings = settings_for(real);
@@ -669,7 +672,7 @@ TEST(MirroredRun, TheLossEndsTheRunIfTheWorldSaysSo) {
   EXPECT_FALSE(report["mirror"][0]["connected"]);
 }
 
-TEST(MirroredRun, TrajectoriesHaveTheGhostAndTheDifferences) {
+TEST(MirroredRun, Trajectory_HasGhostAndDifferences) {
   const test_support::TemporaryFolder folder;
   const auto real = make_real_robot();
   RunSettings settings = settings_for(real);
@@ -679,7 +682,7 @@ TEST(MirroredRun, TrajectoriesHaveTheGhostAndTheDifferences) {
   real->add_round({{test::kPose, test::pose_reading(1.0, {2.0, 3.0, 0.0})}});
   sim::SimTime followed_ns = 0;
   EXPECT_TRUE(eventually([&] {
-    host->with_simulation([&](sim::Simulation& simulation) {
+    host->with_simulation([&](const sim::Simulation& simulation) {
       if (simulation.body(0).X_WB.x_m == 2.0) followed_ns = simulation.now_ns();
     });
     return followed_ns > 0;
@@ -700,7 +703,7 @@ TEST(MirroredRun, TrajectoriesHaveTheGhostAndTheDifferences) {
                               "3.000000,0.000000,0.000000,,"));
 }
 
-TEST(MirroredRun, NeedsRealTime) {
+TEST(MirroredRun, RealTimeRequired) {
   RunSettings settings;
   settings.time_mode = sim::TimeMode::kLockstep;
   sim::WorldDescription world = sim::load_world_text(world_text());
@@ -720,7 +723,7 @@ TEST(MirroredRun, NeedsRealTime) {
               ThrowsMessage<sim::ConfigError>(HasSubstr("/simulation/time")));
 }
 
-TEST(MirroredRun, SettingsBindRobots) {
+TEST(MirroredRun, Settings_BindRobots) {
   RealRobotChoice choice;
   ASSERT_TRUE(parse_real_robot("r1=player://robot.example.org:6665", choice));
   EXPECT_EQ(choice.robot, "r1");
@@ -782,7 +785,7 @@ class MirroredMorse : public testing::Test {
   std::optional<Server> server_;
 };
 
-TEST_F(MirroredMorse, CommandsReachTheRealRobotAndAreRefusedWhereTheyCannot) {
+TEST_F(MirroredMorse, Commands_ReachRealRobotOrAreRefused) {
   auto client = connect();
   EXPECT_EQ(ask(client, "r1.motion set_speed [0.3, 0]"), "1 SUCCESS");
   EXPECT_TRUE(real_gets(0.3));
@@ -797,7 +800,7 @@ TEST_F(MirroredMorse, CommandsReachTheRealRobotAndAreRefusedWhereTheyCannot) {
   }
 }
 
-TEST_F(MirroredMorse, SwitchingItsMotorsOffStopsTheRealRobot) {
+TEST_F(MirroredMorse, MotorsOff_StopsRealRobot) {
   auto client = connect();
   EXPECT_EQ(ask(client, "r1.motion set_speed [0.3, 0]"), "1 SUCCESS");
   EXPECT_TRUE(real_gets(0.3));
@@ -809,7 +812,7 @@ TEST_F(MirroredMorse, SwitchingItsMotorsOffStopsTheRealRobot) {
   EXPECT_TRUE(real_gets(0.2));
 }
 
-TEST_F(MirroredMorse, TheRealRobotStopsWhenItsCommanderIsGone) {
+TEST_F(MirroredMorse, CommanderLeaves_RealRobotStops) {
   auto looker = connect();
   EXPECT_THAT(ask(looker, "simulation list_robots"), HasSubstr("r1"));
   {
@@ -820,7 +823,30 @@ TEST_F(MirroredMorse, TheRealRobotStopsWhenItsCommanderIsGone) {
   EXPECT_TRUE(real_gets(0.0));
 }
 
-TEST_F(MirroredMorse, AStreamOfCommandsStopsTheRealRobotAtItsEnd) {
+TEST_F(MirroredMorse, StreamOfSensor_CarriesAllReadingsOfTheRealRobot) {
+  auto client = connect();
+  const std::string answer = ask(client, R"(simulation get_stream_port ["r1.pose"])");
+  test_support::RawClient stream("127.0.0.1", std::stoi(answer.substr(answer.rfind(' '))));
+  // The robot has run for long, so its readings have far greater numbers than the simulated ones.
+  std::atomic<double> x_m{2.25};
+  const std::jthread feeder([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      const auto reading = test::pose_reading(42.0, {x_m, 2.0, 0.0});
+      reading->sequence = 1'000'000;
+      real_->add_round({{test::kPose, reading}});
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  EXPECT_THAT(stream.line(), HasSubstr("\"x\": 2.25"));
+  x_m = 2.5;
+  std::string line;
+  do {
+    line = stream.line();  // throws if the stream stands still
+  } while (line.find("\"x\": 2.25") != std::string::npos);
+  EXPECT_THAT(line, HasSubstr("\"x\": 2.5,"));
+}
+
+TEST_F(MirroredMorse, CommandStreamEnds_RealRobotStops) {
   auto client = connect();
   const std::string answer = ask(client, R"(simulation get_stream_port ["r1.motion"])");
   {

@@ -46,7 +46,7 @@ class Morse : public testing::Test {
   MorseRobot robot = client.GetRobot("r1");
 };
 
-TEST_F(Morse, ClientKnowsItsRobots) {
+TEST_F(Morse, Client_ListsRobots) {
   EXPECT_TRUE(client.Connected());
   EXPECT_THAT(client.GetRobotNames(), ElementsAre("r1"));
   EXPECT_TRUE(client.HasRobot("r1"));
@@ -62,7 +62,7 @@ TEST_F(Morse, ClientKnowsItsRobots) {
   }
 }
 
-TEST_F(Morse, RobotTellsWhatItIsAndHas) {
+TEST_F(Morse, Robot_ReportsTypeAndDevices) {
   EXPECT_EQ(robot.GetModel(), "s1r");
   EXPECT_EQ(robot.GetPort(), 6665U);
   EXPECT_DOUBLE_EQ(robot.GetInitialPose().pa, 1.5);
@@ -79,7 +79,7 @@ TEST_F(Morse, RobotTellsWhatItIsAndHas) {
   EXPECT_EQ(error_code_of([&] { robot.GetDevice("sonar"); }), MorseError::kNoSuchDevice);
 }
 
-TEST_F(Morse, DevicesAreFoundByNameOrType) {
+TEST_F(Morse, Devices_FoundByNameOrType) {
   EXPECT_EQ(MorseLaser(robot).GetName(), "laser");
   EXPECT_EQ(MorsePose(robot, "pose").GetType(), "pose");
   EXPECT_EQ(MorsePose(robot).GetRobot().GetName(), "r1");
@@ -89,7 +89,7 @@ TEST_F(Morse, DevicesAreFoundByNameOrType) {
   EXPECT_EQ(error_code_of([&] { MorsePen pen(robot, "laser"); }), MorseError::kNoSuchDevice);
 }
 
-TEST_F(Morse, SensorsSubscribeWhileTheyLive) {
+TEST_F(Morse, Sensors_SubscribedWhileAlive) {
   {
     MorseLaser laser(robot);
     EXPECT_EQ(world->subscriptions.at(kLaser.device), 1);
@@ -97,7 +97,7 @@ TEST_F(Morse, SensorsSubscribeWhileTheyLive) {
   EXPECT_EQ(world->subscriptions.at(kLaser.device), 0);
 }
 
-TEST_F(Morse, PoseAndOdometryShowTheirReadings) {
+TEST_F(Morse, PoseAndOdometry_ShowReadings) {
   MorsePose pose(robot);
   MorseOdometry odometry(robot);
   EXPECT_FALSE(pose.IsValid());
@@ -122,7 +122,7 @@ TEST_F(Morse, PoseAndOdometryShowTheirReadings) {
   EXPECT_DOUBLE_EQ(odometry.GetX(), 3.0);
 }
 
-TEST_F(Morse, OdometryIsSetAndReset) {
+TEST_F(Morse, Odometry_SetAndReset) {
   MorseOdometry odometry(robot);
   odometry.SetPose(1.0, 2.0, 0.5);
   EXPECT_EQ(world->sent.back().first, kOdometry);
@@ -134,7 +134,7 @@ TEST_F(Morse, OdometryIsSetAndReset) {
             MorseError::kBadArgument);
 }
 
-TEST_F(Morse, LaserShowsItsScanAndTheLeastRange) {
+TEST_F(Morse, Laser_ShowsScanAndLeastRange) {
   MorseLaser laser(robot);
   EXPECT_EQ(laser.GetCount(), 0U);
   EXPECT_DOUBLE_EQ(laser.GetLeastRange(), 5.0);
@@ -161,7 +161,7 @@ TEST_F(Morse, LaserShowsItsScanAndTheLeastRange) {
   }
 }
 
-TEST_F(Morse, MotionDrives) {
+TEST_F(Morse, Motion_Drives) {
   MorseMotionVW motion(robot);
   motion.SetSpeed(0.2, -0.5);
   EXPECT_EQ(world->sent.back().first, kMotion);
@@ -176,7 +176,7 @@ TEST_F(Morse, MotionDrives) {
   EXPECT_DOUBLE_EQ(motion.GetMaxTurnRate(), 2.0);
 }
 
-TEST_F(Morse, PenDrawsInTheRobotsColourOrAnother) {
+TEST_F(Morse, Pen_DrawsInRobotColourOrOther) {
   MorsePen pen(robot);
   EXPECT_EQ(pen.GetColour(), ImageColour_t(0xff, 0x88, 0x00));
   pen.SetPixel(1, 1);
@@ -194,7 +194,7 @@ TEST_F(Morse, PenDrawsInTheRobotsColourOrAnother) {
   EXPECT_EQ(pen.GetPixel(1, 1).a, 0);
 }
 
-TEST_F(Morse, PenConcernsTheWholeGridMapToo) {
+TEST_F(Morse, Pen_WorksOnWholeGridMap) {
   MorsePen pen(robot);
   pen.SetColour("#0000ff");
   pen.SetPixelMetres(0.05, 0.05);
@@ -220,7 +220,7 @@ TEST_F(Morse, PenConcernsTheWholeGridMapToo) {
   EXPECT_EQ(pen.GetComposedImage(3).size(), 50U * 60 * 3);
 }
 
-TEST_F(Morse, PropertiesAreTheWorldFiles) {
+TEST_F(Morse, Properties_FromWorldFile) {
   const MorseProperties properties(robot);
   EXPECT_EQ(properties.GetModel(), "s1r");
   EXPECT_EQ(properties.GetPort(), 6665U);
@@ -238,7 +238,7 @@ TEST_F(Morse, PropertiesAreTheWorldFiles) {
   EXPECT_EQ(error_code_of([&] { properties.GetDriverSettings("vfh"); }), MorseError::kNoSuchDevice);
 }
 
-TEST_F(Morse, TimeTellsHowFarTheRunIs) {
+TEST_F(Morse, Time_ReportsProgressOfRun) {
   world->time.sim_time_ns = sim::from_seconds(12.5);
   world->time.steps = 1250;
   world->time.step_s = 0.01;
@@ -258,7 +258,7 @@ TEST_F(Morse, TimeTellsHowFarTheRunIs) {
   EXPECT_EQ(error_code_of([&] { time.Sleep(0.25); }), MorseError::kRunIsOver);
 }
 
-TEST_F(Morse, ReadAtTheEndOfTheRunSaysSo) {
+TEST_F(Morse, EndOfRun_ReadThrows) {
   EXPECT_TRUE(client.Peek());
   try {
     client.ReadIfWaiting();
@@ -269,7 +269,7 @@ TEST_F(Morse, ReadAtTheEndOfTheRunSaysSo) {
   }
 }
 
-TEST(MorseLifetimes, DevicesSurviveTheirClient) {
+TEST(MorseLifetimes, Devices_SurviveTheirClient) {
   auto world = make_fake_world();
   auto client = std::make_unique<MorseClient>(fake_session(world));
   const MorseRobot robot = client->GetRobot();
@@ -285,7 +285,7 @@ TEST(MorseLifetimes, DevicesSurviveTheirClient) {
   EXPECT_EQ(robot.GetName(), "r1");
 }
 
-TEST(MorsePorts, OnARobotsOwnPortOnlyThatOneIsSeen) {
+TEST(MorsePorts, RobotPort_ShowsThatRobotOnly) {
   auto world = make_fake_world();
   playerlike::RobotInfo other = world->robots.front();
   other.name = "r2";
@@ -297,7 +297,7 @@ TEST(MorsePorts, OnARobotsOwnPortOnlyThatOneIsSeen) {
   EXPECT_EQ(error_code_of([&] { client.GetRobot("r1"); }), MorseError::kNoSuchDevice);
 }
 
-TEST_F(Morse, ClientPrintsRobotsAndDevices) {
+TEST_F(Morse, Client_PrintsRobotsAndDevices) {
   std::ostringstream out;
   out << client;
   EXPECT_THAT(out.str(), HasSubstr("r1\tlaser\tlaser"));
@@ -329,7 +329,7 @@ class MorseAddedSensors : public testing::Test {
   MorseRobot robot = client.GetRobot("r1");
 };
 
-TEST_F(MorseAddedSensors, CollisionNamesWhatWasTouched) {
+TEST_F(MorseAddedSensors, Collision_NamesTouchedObjects) {
   MorseCollision bumpers(robot);
   MorseMotionVW motion(robot);
   EXPECT_FALSE(bumpers.IsValid());
@@ -348,7 +348,7 @@ TEST_F(MorseAddedSensors, CollisionNamesWhatWasTouched) {
   EXPECT_FALSE(bumpers.Touches("r2"));
 }
 
-TEST_F(MorseAddedSensors, BatteryTellsChargeAndStatus) {
+TEST_F(MorseAddedSensors, Battery_ReportsChargeAndStatus) {
   MorseBattery battery(robot);
   EXPECT_EQ(battery.GetStatus(), "");
   EXPECT_DOUBLE_EQ(battery.GetCapacity(), 0.1);
@@ -368,7 +368,7 @@ TEST_F(MorseAddedSensors, BatteryTellsChargeAndStatus) {
   EXPECT_FALSE(battery.IsDocked());
 }
 
-TEST_F(MorseAddedSensors, ProximityTellsWhoIsNear) {
+TEST_F(MorseAddedSensors, Proximity_ReportsNearRobots) {
   MorseProximity radio(robot);
   EXPECT_THAT(radio.GetNearObjects(), testing::IsEmpty());
   client.Read();
@@ -387,7 +387,7 @@ TEST_F(MorseAddedSensors, ProximityTellsWhoIsNear) {
   }
 }
 
-TEST_F(MorseAddedSensors, InfraredShowsItsTransducersAndRanges) {
+TEST_F(MorseAddedSensors, Infrared_ShowsTransducersAndRanges) {
   MorseInfrared ring(robot, "infrared");
   EXPECT_EQ(ring.GetCount(), 8U);
   EXPECT_THAT(ring.GetRanges(), testing::Each(0.8));
@@ -412,7 +412,7 @@ TEST_F(MorseAddedSensors, InfraredShowsItsTransducersAndRanges) {
   }
 }
 
-TEST_F(MorseAddedSensors, OneOfSeveralIsFoundByName) {
+TEST_F(MorseAddedSensors, OneOfSeveral_FoundByName) {
   MorseInfrared back(robot, "back");
   client.Read();
   ASSERT_EQ(back.GetCount(), 1U);
@@ -421,7 +421,7 @@ TEST_F(MorseAddedSensors, OneOfSeveralIsFoundByName) {
   EXPECT_EQ(error_code_of([&] { MorseSonar sonar(robot, "back"); }), MorseError::kNoSuchDevice);
 }
 
-TEST_F(MorseAddedSensors, SonarShowsItsTransducersAndRanges) {
+TEST_F(MorseAddedSensors, Sonar_ShowsTransducersAndRanges) {
   MorseSonar sonar(robot);
   EXPECT_DOUBLE_EQ(sonar.GetMountPose(0).px, 0.05);
   EXPECT_DOUBLE_EQ(sonar.GetMountPose(0).pa, -90.0 * PI / 180.0);
@@ -434,7 +434,7 @@ TEST_F(MorseAddedSensors, SonarShowsItsTransducersAndRanges) {
   EXPECT_EQ(sonar.GetLeastIndex(), 1U);
 }
 
-TEST_F(MorseAddedSensors, AreToldOfAndHavePlayersInterfacesWherePlayerKnowsSuch) {
+TEST_F(MorseAddedSensors, ListedWithPlayerInterfaces) {
   EXPECT_THAT(robot.GetDeviceNames(),
               ElementsAre("back", "battery", "collision", "infrared", "laser", "motion", "odometry",
                           "pen", "pose", "proximity", "sonar"));
@@ -469,7 +469,7 @@ class MorseInARoom : public testing::Test {
   MorseRobot robot = client.GetRobot("r1");
 };
 
-TEST_F(MorseInARoom, WaypointDrivesToItsGoal) {
+TEST_F(MorseInARoom, Waypoint_DrivesToGoal) {
   MorseWaypoint waypoint(robot);
   EXPECT_EQ(waypoint.GetStatus(), "Arrived");
   EXPECT_DOUBLE_EQ(waypoint.GetGoal().px, 1.0);
@@ -483,14 +483,14 @@ TEST_F(MorseInARoom, WaypointDrivesToItsGoal) {
     client.Read();
     ++rounds;
   }
-  // 3.60 s, see Waypoint.ReachesAGoalAheadInTheExpectedTime; a round is 0.1 s.
+  // 3.60 s, see Waypoint.GoalAhead_ReachedInExpectedTime; a round is 0.1 s.
   EXPECT_NEAR(rounds, 36, 1);
   EXPECT_LE(waypoint.GetDistance(), 0.1);
   EXPECT_EQ(waypoint.GetGoalNumber(), 1U);
   EXPECT_DOUBLE_EQ(waypoint.GetGoal().px, 2.5);
 }
 
-TEST_F(MorseInARoom, RobotDrivesToItsPositionGoal) {
+TEST_F(MorseInARoom, Robot_DrivesToPositionGoal) {
   EXPECT_DOUBLE_EQ(robot.GetWeight(), 2.0);
   MorsePose pose(robot);
   client.Read();
@@ -521,7 +521,7 @@ TEST_F(MorseInARoom, RobotDrivesToItsPositionGoal) {
   EXPECT_EQ(pose.GetY(), y_there);
 }
 
-TEST(MorseGoals, ARobotWithoutMotorsTakesNoPositionGoal) {
+TEST(MorseGoals, RobotWithoutMotors_RefusesPositionGoal) {
   auto world = make_fake_world();
   std::erase_if(world->robots[0].devices,
                 [](const playerlike::DeviceInfo& device) { return device.type == "motion"; });
@@ -532,7 +532,7 @@ TEST(MorseGoals, ARobotWithoutMotorsTakesNoPositionGoal) {
   EXPECT_EQ(robot.GetWeight(), 0.0);  // the server does not send the weight
 }
 
-TEST_F(MorseInARoom, WaypointStopsAndResumes) {
+TEST_F(MorseInARoom, Waypoint_StopsAndResumes) {
   MorseWaypoint waypoint(robot);
   MorsePose pose(robot);
   waypoint.Goto(3.0, 2.0, 0.1, 0.2);
@@ -553,7 +553,7 @@ TEST_F(MorseInARoom, WaypointStopsAndResumes) {
   EXPECT_EQ(waypoint.GetStatus(), "Stop");
 }
 
-TEST_F(MorseInARoom, WaypointTellsOnlyOfItsNewestOrder) {
+TEST_F(MorseInARoom, Waypoint_ReportsNewestGoalOnly) {
   MorseWaypoint waypoint(robot);
   MorsePose pose(robot);
   client.Read();
@@ -577,14 +577,14 @@ TEST_F(MorseInARoom, WaypointTellsOnlyOfItsNewestOrder) {
   EXPECT_EQ(waypoint.GetStatus(), "Arrived");
 }
 
-TEST_F(MorseInARoom, RefusedResumeIsNotTakenForTransit) {
+TEST_F(MorseInARoom, RefusedResume_NotInTransit) {
   MorseWaypoint waypoint(robot);
   waypoint.Resume();  // no goal was given: a warning
   client.Read();
   EXPECT_EQ(waypoint.GetStatus(), "Arrived");
 }
 
-TEST_F(MorseInARoom, TeleportMovesTheRobotAndOdometryDoesNotNotice) {
+TEST_F(MorseInARoom, Teleport_MovesRobotButNotOdometry) {
   MorseTeleport teleport(robot);
   MorsePose pose(robot);
   MorseOdometry odometry(robot);
@@ -611,7 +611,7 @@ TEST_F(MorseInARoom, TeleportMovesTheRobotAndOdometryDoesNotNotice) {
   EXPECT_EQ(error_code_of([&] { teleport.Rotate(INFINITY); }), MorseError::kBadArgument);
 }
 
-TEST_F(MorseInARoom, OdometryShowsThePoseAtAnyLevel) {
+TEST_F(MorseInARoom, Odometry_ShowsPoseAtEveryLevel) {
   MorseOdometry odometry(robot);
   EXPECT_EQ(odometry.GetProperties().at("level"), 2.0);
   MorseMotionVW(robot).SetSpeed(0.2, 0.0);
@@ -619,7 +619,7 @@ TEST_F(MorseInARoom, OdometryShowsThePoseAtAnyLevel) {
   EXPECT_NEAR(odometry.GetX(), 0.2, 1e-9);
 }
 
-TEST(MorseGoals, AreNotThereUnlessTheWorldGivesThem) {
+TEST(MorseGoals, MissingDevices_Refused) {
   auto world = make_fake_world();
   MorseClient client(fake_session(world));
   const MorseRobot robot = client.GetRobot();
@@ -627,7 +627,7 @@ TEST(MorseGoals, AreNotThereUnlessTheWorldGivesThem) {
   EXPECT_EQ(error_code_of([&] { MorseTeleport teleport(robot); }), MorseError::kNoSuchDevice);
 }
 
-TEST(Commands, WithNumbersThatAreNotFiniteAreRefusedBeforeTheyAreSent) {
+TEST(Commands, NonFiniteNumbers_RefusedBeforeSending) {
   const auto host = host_of_room();
   const auto session = host->connect(6665);
   const double nan = std::nan("");
@@ -653,7 +653,7 @@ TEST(Commands, WithNumbersThatAreNotFiniteAreRefusedBeforeTheyAreSent) {
 }
 
 // Devices without an interface of Player are listed and do not change the indexes of others.
-TEST(Interfaces, OfOtherDevicesAreUntouchedByWaypointAndTeleport) {
+TEST(Interfaces, OtherDevices_UnaffectedByWaypointAndTeleport) {
   const auto host = host_of_room();
   const auto session = host->connect(6665);
   const auto& robots = session->robots();

@@ -148,7 +148,7 @@ class MorseProtocol : public testing::Test {
 
 // --- Requests
 
-TEST_F(MorseProtocol, LinesAreTakenAsMorseDoes) {
+TEST_F(MorseProtocol, Lines_ParsedAsInMorse) {
   MorseClient client = start();
   client.send("  a1   simulation \t list_robots  \r");
   Answer answer = client.receive();
@@ -161,7 +161,7 @@ TEST_F(MorseProtocol, LinesAreTakenAsMorseDoes) {
   EXPECT_EQ(client.get("time now"), 0.0);
 }
 
-TEST_F(MorseProtocol, BadRequestsAreToldWhatIsWrongAndTheConnectionStays) {
+TEST_F(MorseProtocol, InvalidRequest_AnsweredAndConnectionStays) {
   MorseClient client = start();
   for (const auto& [line, id, part] :
        std::vector<std::tuple<std::string, std::string, std::string>>{
@@ -198,13 +198,13 @@ TEST_F(MorseProtocol, BadRequestsAreToldWhatIsWrongAndTheConnectionStays) {
   EXPECT_EQ(client.get("time now"), 0.0);
 }
 
-TEST_F(MorseProtocol, IdsMayBeUtf8AsInMorse) {
+TEST_F(MorseProtocol, Ids_MayBeUtf8) {
   MorseClient client = start();
   client.send("\u00e41 time now");
   EXPECT_EQ(client.receive().id, "\u00e41");
 }
 
-TEST_F(MorseProtocol, TextsThatAreNoUtf8AreRefusedOrShownReplaced) {
+TEST_F(MorseProtocol, InvalidUtf8_RefusedOrReplaced) {
   MorseClient client = start();
   client.send("1 simulation get_stream_port [\"\xff\xfe\"]");
   EXPECT_EQ(client.receive().status, "FAILED");
@@ -212,7 +212,7 @@ TEST_F(MorseProtocol, TextsThatAreNoUtf8AreRefusedOrShownReplaced) {
   EXPECT_THAT(client.receive().result.get<std::string>(), HasSubstr("\xef\xbf\xbd"));
 }
 
-TEST_F(MorseProtocol, LongLinesAreToldAndClosed) {
+TEST_F(MorseProtocol, LongLine_AnsweredAndClosed) {
   settings.limits.message_bytes = 1000;
   start();
   RawClient client("127.0.0.1", server->port());
@@ -222,7 +222,7 @@ TEST_F(MorseProtocol, LongLinesAreToldAndClosed) {
 
 // --- simulation
 
-TEST_F(MorseProtocol, DetailsTellComponentsServicesAndStreams) {
+TEST_F(MorseProtocol, Details_ListComponentsServicesAndStreams) {
   MorseClient client = start();
   const json details = client.get("simulation details");
   EXPECT_EQ(details["environment"], "remote");
@@ -247,7 +247,7 @@ TEST_F(MorseProtocol, DetailsTellComponentsServicesAndStreams) {
   EXPECT_FALSE(details["robots"][1]["components"].contains("r2.sonar"));
 }
 
-TEST_F(MorseProtocol, StreamsHavePortsThatStayTheSame) {
+TEST_F(MorseProtocol, StreamPorts_Stable) {
   MorseClient client = start();
   const auto names = client.get("simulation list_streams").get<std::vector<std::string>>();
   EXPECT_THAT(names, AllOf(Contains("r1.pose"), Contains("r2.motion"), Not(Contains("r1.pen"))));
@@ -260,7 +260,7 @@ TEST_F(MorseProtocol, StreamsHavePortsThatStayTheSame) {
   EXPECT_THAT(client.refusal("simulation get_stream_port [3]"), HasSubstr("expected a text"));
 }
 
-TEST_F(MorseProtocol, StreamPortsGoUpFromTheFirst) {
+TEST_F(MorseProtocol, StreamPorts_CountUpFromFirst) {
   settings.stream_port = 42'000;  // whether or not it is free: the server uses the next free ones
   MorseClient client = start();
   const int first = client.get("simulation get_stream_port [\"r2.pose\"]");
@@ -269,7 +269,7 @@ TEST_F(MorseProtocol, StreamPortsGoUpFromTheFirst) {
   EXPECT_GT(second, first);
 }
 
-TEST_F(MorseProtocol, ResetBringsRobotsBackAndEndsGotos) {
+TEST_F(MorseProtocol, Reset_RestoresRobotsAndEndsGotos) {
   MorseClient client = start();
   client.get("r1.motion set_speed [0.3, 0]");
   client.get("r1.pen set_pixel [3, 4, 1, 2, 3]");
@@ -288,7 +288,7 @@ TEST_F(MorseProtocol, ResetBringsRobotsBackAndEndsGotos) {
   EXPECT_EQ(client.get("r1.pen get_pixel [3, 4]"), json::parse("[0, 0, 0, 0]"));
 }
 
-TEST_F(MorseProtocol, QuitAndTerminateAnswerAndEndTheServer) {
+TEST_F(MorseProtocol, QuitAndTerminate_AnswerAndEndServer) {
   for (const std::string service : {"quit", "terminate"}) {
     MorseClient client = start();
     EXPECT_FALSE(server->done());
@@ -300,7 +300,7 @@ TEST_F(MorseProtocol, QuitAndTerminateAnswerAndEndTheServer) {
   }
 }
 
-TEST_F(MorseProtocol, DeactivatedComponentsDoNothingUntilTheyAreActivated) {
+TEST_F(MorseProtocol, DeactivatedComponent_IdleUntilActivated) {
   MorseClient client = start();
   client.get("simulation deactivate [\"r1.pose\"]");
   client.get("simulation deactivate [\"r1.motion\"]");
@@ -315,7 +315,7 @@ TEST_F(MorseProtocol, DeactivatedComponentsDoNothingUntilTheyAreActivated) {
               HasSubstr("is no device"));
 }
 
-TEST_F(MorseProtocol, SuspendedDynamicsHoldRobotsStill) {
+TEST_F(MorseProtocol, SuspendedDynamics_HoldRobots) {
   MorseClient client = start();
   client.get("r1.motion set_speed [0.3, 0]");
   EXPECT_EQ(client.get("simulation suspend_dynamics"), "Physics is suspended");
@@ -333,7 +333,7 @@ TEST_F(MorseProtocol, SuspendedDynamicsHoldRobotsStill) {
               HasSubstr("expected true or false"));
 }
 
-TEST_F(MorseProtocol, SceneObjectsAndTheirVisibility) {
+TEST_F(MorseProtocol, SceneObjects_ListedWithVisibility) {
   MorseClient client = start();
   json objects = client.get("simulation get_scene_objects");
   EXPECT_EQ(objects["r1"], json::parse("[{}, [0.8, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]"));
@@ -344,13 +344,9 @@ TEST_F(MorseProtocol, SceneObjectsAndTheirVisibility) {
                       ", false]");
   };
   const auto gate_is_up = [&] {
-    bool up = false;
-    host->with_simulation([&](const sim::Simulation& simulation) {
-      for (const auto& object : simulation.scene_objects()) {
-        if (object.name == "gate") up = object.extended;
-      }
+    return host->with_simulation([](const sim::Simulation& simulation) {
+      return simulation.find_object("gate").value().extended;
     });
-    return up;
   };
   EXPECT_FALSE(gate_is_up());
   EXPECT_EQ(visibility("gate", "true"), true);
@@ -368,7 +364,7 @@ TEST_F(MorseProtocol, SceneObjectsAndTheirVisibility) {
               HasSubstr("a robot stands on it"));
 }
 
-TEST_F(MorseProtocol, LogLevelDebugTellsOfAComponentsRequests) {
+TEST_F(MorseProtocol, DebugLogLevel_LogsRequestsOfComponent) {
   MorseClient client = start();
   client.get("r1.motion stop");
   EXPECT_THAT(logged(), Not(HasSubstr("r1.motion stop")));
@@ -386,7 +382,7 @@ TEST_F(MorseProtocol, LogLevelDebugTellsOfAComponentsRequests) {
 
 // --- time
 
-TEST_F(MorseProtocol, TimeTellsAndSleepLetsItPass) {
+TEST_F(MorseProtocol, TimeAndSleep_ReportAndAdvance) {
   MorseClient client = start();
   EXPECT_EQ(client.get("time now"), 0.0);
   EXPECT_EQ(client.get("time mode"), "Fixed Simulation Step");
@@ -400,7 +396,7 @@ TEST_F(MorseProtocol, TimeTellsAndSleepLetsItPass) {
   EXPECT_THAT(client.refusal("time set_time_scale [0]"), HasSubstr("expected a number"));
 }
 
-TEST_F(MorseProtocol, TimeScaleChangesAPacedSimulation) {
+TEST_F(MorseProtocol, TimeScale_ChangesPacedSpeed) {
   RunSettings run;
   run.time_mode = sim::TimeMode::kPaced;
   run.time_factor = 1e-3;
@@ -412,7 +408,7 @@ TEST_F(MorseProtocol, TimeScaleChangesAPacedSimulation) {
   EXPECT_EQ(client.get("time statistics")["mode"], "paced");
 }
 
-TEST_F(MorseProtocol, SleepsStandSideBySide) {
+TEST_F(MorseProtocol, Sleeps_RunInParallel) {
   settings.sync_port = 0;  // time stands until all of them wait
   MorseClient client = start();
   MorseClient other = connect();
@@ -434,7 +430,7 @@ TEST_F(MorseProtocol, SleepsStandSideBySide) {
   EXPECT_EQ(answer.result, nullptr);
 }
 
-TEST_F(MorseProtocol, CancelledSleepIsPreemptedAndUnknownIdsAreIgnored) {
+TEST_F(MorseProtocol, CancelledSleep_PreemptedAndUnknownIdsIgnored) {
   RunSettings run;  // in lockstep, the sleep would end before the cancel arrives
   run.time_mode = sim::TimeMode::kPaced;
   MorseClient client = start(run);
@@ -450,7 +446,7 @@ TEST_F(MorseProtocol, CancelledSleepIsPreemptedAndUnknownIdsAreIgnored) {
   client.get("time mode");
 }
 
-TEST_F(MorseProtocol, WhatWaitsAtTheEndOfTheRunFails) {
+TEST_F(MorseProtocol, EndOfRun_FailsPendingRequests) {
   RunSettings run;
   run.duration_s = 1.0;
   MorseClient client = start(run);
@@ -463,7 +459,7 @@ TEST_F(MorseProtocol, WhatWaitsAtTheEndOfTheRunFails) {
 
 // --- arena
 
-TEST_F(MorseProtocol, ArenaChangesOnCommand) {
+TEST_F(MorseProtocol, Arena_ChangesOnCommand) {
   world_name = "living_arena";
   MorseClient client = start();
   EXPECT_EQ(client.get("arena list_configurations"), json::parse(R"(["closed", "open"])"));
@@ -493,7 +489,7 @@ TEST_F(MorseProtocol, ArenaChangesOnCommand) {
   EXPECT_NEAR(state["timers"]["closing"]["time_left"].get<double>(), 5.0, 1e-9);
 }
 
-TEST_F(MorseProtocol, ArenaTellsItsEventsAndTheVerdict) {
+TEST_F(MorseProtocol, Arena_ReportsEventsAndVerdict) {
   world_name = "living_arena";
   MorseClient client = start();
   EXPECT_EQ(client.get("arena events"), json::parse(R"({"events": [], "newest": 0, "lost": 0})"));
@@ -514,7 +510,7 @@ TEST_F(MorseProtocol, ArenaTellsItsEventsAndTheVerdict) {
   EXPECT_EQ(client.get("arena get_state")["scores"]["runner"], 10.0);
 }
 
-TEST_F(MorseProtocol, ArenaRefusesWhatIsUnknownOrWrong) {
+TEST_F(MorseProtocol, Arena_RefusesInvalidRequests) {
   world_name = "living_arena";
   MorseClient client = start();
   for (const auto& [request, part] : std::vector<std::pair<std::string, std::string>>{
@@ -537,7 +533,7 @@ TEST_F(MorseProtocol, ArenaRefusesWhatIsUnknownOrWrong) {
   EXPECT_THAT(logged(), HasSubstr("arena get_configuration"));
 }
 
-TEST_F(MorseProtocol, ArenaWithoutAControllerHasBlocks) {
+TEST_F(MorseProtocol, ArenaWithoutController_HasBlocks) {
   MorseClient client = start();
   EXPECT_EQ(client.get("arena list_configurations"), json::array());
   EXPECT_EQ(client.get("arena extend [\"gate\"]"), "extended");
@@ -546,7 +542,7 @@ TEST_F(MorseProtocol, ArenaWithoutAControllerHasBlocks) {
   EXPECT_THAT(client.refusal("arena enable [\"t\"]"), HasSubstr("this world has none"));
 }
 
-TEST_F(MorseProtocol, ArenaIsOnlyReadWhereObjectsAreLocked) {
+TEST_F(MorseProtocol, LockedArena_ReadOnly) {
   world_name = "living_arena";
   objects_locked = true;
   MorseClient client = start();
@@ -560,7 +556,7 @@ TEST_F(MorseProtocol, ArenaIsOnlyReadWhereObjectsAreLocked) {
   EXPECT_EQ(client.get("arena get_state")["blocks"]["gate"]["state"], "extended");
 }
 
-TEST_F(MorseProtocol, ArenaTakesTheTokensOfAllRobots) {
+TEST_F(MorseProtocol, Arena_AcceptsTokensOfAllRobots) {
   world_name = "living_arena";
   own_sensors_only = true;
   settings.access.robot_tokens = {{"runner", "first"}, {"chaser", "second"}};
@@ -578,7 +574,7 @@ TEST_F(MorseProtocol, ArenaTakesTheTokensOfAllRobots) {
 
 // --- Actuators
 
-TEST_F(MorseProtocol, MotionDrivesAndStops) {
+TEST_F(MorseProtocol, Motion_DrivesAndStops) {
   MorseClient client = start();
   EXPECT_EQ(client.get("r1.motion set_speed [0.2, 0]"), nullptr);
   client.sleep(1.0);
@@ -588,7 +584,7 @@ TEST_F(MorseProtocol, MotionDrivesAndStops) {
   EXPECT_NEAR(client.get("r1.pose get_local_data")["x"], 1.0, 1e-9);
 }
 
-TEST_F(MorseProtocol, GotoAnswersOnArrival) {
+TEST_F(MorseProtocol, Goto_AnsweredOnArrival) {
   MorseClient client = start();
   EXPECT_EQ(client.get("r1.waypoint get_status"), "Arrived");
   const Answer answer = client.ask("r1.waypoint goto [2, 1.5, 0, 0.1, 0.5]");
@@ -600,7 +596,7 @@ TEST_F(MorseProtocol, GotoAnswersOnArrival) {
   EXPECT_LT(std::hypot(pose["x"].get<double>() - 2.0, pose["y"].get<double>() - 1.5), 0.1);
 }
 
-TEST_F(MorseProtocol, GotoIsPreemptedByAnotherOfAnyConnection) {
+TEST_F(MorseProtocol, Goto_PreemptedByOtherConnection) {
   RunSettings run;
   run.time_mode = sim::TimeMode::kPaced;
   MorseClient client = start(run);
@@ -620,7 +616,7 @@ TEST_F(MorseProtocol, GotoIsPreemptedByAnotherOfAnyConnection) {
   EXPECT_EQ(client.get("r1.waypoint get_status"), "Transit");
 }
 
-TEST_F(MorseProtocol, CancelledGotoStopsTheRobot) {
+TEST_F(MorseProtocol, CancelledGoto_StopsRobot) {
   RunSettings run;
   run.time_mode = sim::TimeMode::kPaced;
   MorseClient client = start(run);
@@ -632,7 +628,7 @@ TEST_F(MorseProtocol, CancelledGotoStopsTheRobot) {
   EXPECT_EQ(client.get("r1.waypoint get_status"), "Stop");
 }
 
-TEST_F(MorseProtocol, StoppedGotoWaitsUntilItIsResumed) {
+TEST_F(MorseProtocol, StoppedGoto_WaitsForResume) {
   MorseClient client = start();
   MorseClient other = connect();
   client.get("simulation set_object_dynamics [\"r1\", false]");  // or it would be there at once
@@ -648,7 +644,7 @@ TEST_F(MorseProtocol, StoppedGotoWaitsUntilItIsResumed) {
   EXPECT_EQ(answer.result, "Arrived");
 }
 
-TEST_F(MorseProtocol, GotoOfAClientThatLeavesGoesOn) {
+TEST_F(MorseProtocol, Goto_ContinuesAfterClientLeaves) {
   MorseClient client = start();
   {
     MorseClient leaving = connect();
@@ -662,7 +658,7 @@ TEST_F(MorseProtocol, GotoOfAClientThatLeavesGoesOn) {
   EXPECT_GT(client.get("r1.pose get_local_data")["x"], 1.3);
 }
 
-TEST_F(MorseProtocol, WaypointChecksItsArguments) {
+TEST_F(MorseProtocol, Waypoint_ChecksArguments) {
   MorseClient client = start();
   EXPECT_THAT(client.refusal("r1.waypoint goto [1, 1, \"z\"]"), HasSubstr("argument 3 of goto"));
   EXPECT_THAT(client.refusal("r1.waypoint goto [1, 1, 0, 0]"), HasSubstr("argument 4 of goto"));
@@ -671,7 +667,7 @@ TEST_F(MorseProtocol, WaypointChecksItsArguments) {
   EXPECT_THAT(client.refusal("r1.waypoint resume"), Not(IsEmpty()));  // nothing to go on to
 }
 
-TEST_F(MorseProtocol, TeleportMovesAndTurnsOrSaysWhyNot) {
+TEST_F(MorseProtocol, Teleport_MovesTurnsOrExplains) {
   MorseClient client = start();
   client.get("r1.teleport translate [0.5]");
   client.get("r1.teleport translate [0, -0.25, 0]");
@@ -688,7 +684,7 @@ TEST_F(MorseProtocol, TeleportMovesAndTurnsOrSaysWhyNot) {
 
 // --- The pen
 
-TEST_F(MorseProtocol, PenDrawsAndReadsBack) {
+TEST_F(MorseProtocol, Pen_DrawsAndReads) {
   MorseClient client = start();
   client.get("r1.pen set_pixel [1, 2, 10, 20, 30]");
   EXPECT_EQ(client.get("r1.pen get_pixel [1, 2]"), json::parse("[10, 20, 30, 255]"));
@@ -709,7 +705,7 @@ TEST_F(MorseProtocol, PenDrawsAndReadsBack) {
   }
 }
 
-TEST_F(MorseProtocol, PenHandsOutAndTakesWholeImages) {
+TEST_F(MorseProtocol, Pen_TransfersWholeImages) {
   MorseClient client = start();
   EXPECT_EQ(client.get("r1.pen resize_canvas [3, 2]"), json::parse("[3, 2]"));
   EXPECT_EQ(client.get("r1.pen get_canvas_size"), json::parse("[3, 2]"));
@@ -729,7 +725,7 @@ TEST_F(MorseProtocol, PenHandsOutAndTakesWholeImages) {
   EXPECT_EQ(client.get("r1.pen get_cell_size"), 0.02);
 }
 
-TEST_F(MorseProtocol, PenSavesPicturesIntoTheOutputFolderOnly) {
+TEST_F(MorseProtocol, Pen_SavesIntoOutputFolderOnly) {
   const test_support::TemporaryFolder folder;
   RunSettings run;
   run.output_folder = folder.path();
@@ -746,7 +742,7 @@ TEST_F(MorseProtocol, PenSavesPicturesIntoTheOutputFolderOnly) {
 
 // --- Sensors
 
-TEST_F(MorseProtocol, SensorsTellTheirData) {
+TEST_F(MorseProtocol, Sensors_ReportData) {
   MorseClient client = start();
   EXPECT_THAT(client.refusal("r1.pose get_local_data"), HasSubstr("no reading yet"));
   client.get("r1.motion set_speed [0.2, 0]");
@@ -790,7 +786,7 @@ TEST_F(MorseProtocol, SensorsTellTheirData) {
   EXPECT_EQ(properties["devices"]["laser"]["properties"]["beams"], 682.0);
 }
 
-TEST_F(MorseProtocol, CollisionNamesWhatIsTouched) {
+TEST_F(MorseProtocol, Collision_NamesTouchedObjects) {
   MorseClient client = start();
   client.get("r1.teleport rotate [0, 0, 3.14159]");
   client.get("r1.motion set_speed [0.5, 0]");
@@ -800,7 +796,7 @@ TEST_F(MorseProtocol, CollisionNamesWhatIsTouched) {
   EXPECT_EQ(collision["objects"], "border");
 }
 
-TEST_F(MorseProtocol, RangesWithoutAnEchoHaveThePointZero) {
+TEST_F(MorseProtocol, RangesWithoutEcho_HavePointZero) {
   MorseClient client = start();
   client.sleep(0.1);
   const json infrared = client.get("r1.infrared get_local_data");
@@ -810,7 +806,7 @@ TEST_F(MorseProtocol, RangesWithoutAnEchoHaveThePointZero) {
   EXPECT_EQ(infrared["point_list"][0], json::parse("[0.0, 0.0, 0.0]"));
 }
 
-TEST_F(MorseProtocol, PropertiesAreThoseOfTheWorldAndStaySo) {
+TEST_F(MorseProtocol, Properties_ConstantFromWorld) {
   MorseClient client = start();
   const json properties = client.get("r1.laser get_properties")["properties"];
   EXPECT_EQ(properties["range_max"][0], 5.0);
@@ -819,14 +815,15 @@ TEST_F(MorseProtocol, PropertiesAreThoseOfTheWorldAndStaySo) {
   EXPECT_EQ(configurations["beams"], 682.0);
   EXPECT_EQ(configurations["object_to_robot"]["translation"], json::parse("[0.035, 0.0, 0.125]"));
   EXPECT_EQ(client.get("r1.laser set_property [\"range_max\", 5]"), nullptr);
-  EXPECT_THAT(client.refusal("r1.laser set_property [\"range_max\", 6]"), HasSubstr("stays so"));
+  EXPECT_THAT(client.refusal("r1.laser set_property [\"range_max\", 6]"),
+              HasSubstr("does not change during a run"));
   EXPECT_THAT(client.refusal("r1.laser set_property [\"colour\", 6]"), HasSubstr("does not exist"));
   EXPECT_THAT(client.get("r1.robot_properties get_properties")["properties"], IsEmpty());
 }
 
 // --- Streams
 
-TEST_F(MorseProtocol, SensorStreamsCarryEachReading) {
+TEST_F(MorseProtocol, SensorStreams_HaveEachReading) {
   MorseClient client = start();
   RawClient pose = stream(client, "r1.pose");
   RawClient second = stream(client, "r1.pose");
@@ -848,7 +845,7 @@ TEST_F(MorseProtocol, SensorStreamsCarryEachReading) {
   EXPECT_NEAR(json::parse(late.line())["timestamp"], 0.6, 1e-9);
 }
 
-TEST_F(MorseProtocol, SensorsThatAreOffWriteNothing) {
+TEST_F(MorseProtocol, DisabledSensors_WriteNothing) {
   MorseClient client = start();
   RawClient pose = stream(client, "r1.pose");
   client.get("simulation deactivate [\"r1.pose\"]");
@@ -859,7 +856,7 @@ TEST_F(MorseProtocol, SensorsThatAreOffWriteNothing) {
   EXPECT_GT(json::parse(pose.line())["timestamp"], 1.0);
 }
 
-TEST_F(MorseProtocol, PropertiesComeEachSecond) {
+TEST_F(MorseProtocol, Properties_StreamedEachSecond) {
   MorseClient client = start();
   RawClient properties = stream(client, "r1.robot_properties");
   properties.send("ignored\n");
@@ -869,7 +866,7 @@ TEST_F(MorseProtocol, PropertiesComeEachSecond) {
   EXPECT_GE(record["timestamp"], 1.0);
 }
 
-TEST_F(MorseProtocol, StreamsEndWithTheRun) {
+TEST_F(MorseProtocol, EndOfRun_ClosesStreams) {
   RunSettings run;
   run.duration_s = 2.0;
   MorseClient client = start(run);
@@ -890,7 +887,7 @@ template <typename Condition>
   return ::testing::AssertionFailure();
 }
 
-TEST_F(MorseProtocol, MotionStreamTakesTheNewestLine) {
+TEST_F(MorseProtocol, MotionStream_TakesNewestLine) {
   MorseClient client = start();
   RawClient motion = stream(client, "r1.motion");
   motion.send("{\"v\": 0.4, \"w\": 0.0}\n{\"v\": 0, \"w\": 0.5, \"timestamp\": 3}\n\n");
@@ -899,7 +896,7 @@ TEST_F(MorseProtocol, MotionStreamTakesTheNewestLine) {
   EXPECT_NEAR(client.get("r1.pose get_local_data")["x"], 0.8, 1e-6);
 }
 
-TEST_F(MorseProtocol, WaypointAndTeleportStreamsSteer) {
+TEST_F(MorseProtocol, WaypointAndTeleportStreams_Command) {
   MorseClient client = start();
   client.sleep(0.1);
   RawClient teleport = stream(client, "r1.teleport");
@@ -911,7 +908,7 @@ TEST_F(MorseProtocol, WaypointAndTeleportStreamsSteer) {
   EXPECT_TRUE(comes_true(client, [&] { return client.get("r1.pose get_local_data")["x"] > 1.85; }));
 }
 
-TEST_F(MorseProtocol, BadLinesOfAStreamAreToldToTheLogOnce) {
+TEST_F(MorseProtocol, InvalidStreamLines_LoggedOnce) {
   MorseClient client = start();
   RawClient motion = stream(client, "r1.motion");
   motion.send("[1, 2]\n{\"v\": 1}\nrubbish\n{\"v\": \"x\", \"w\": 0}\n");
@@ -924,7 +921,7 @@ TEST_F(MorseProtocol, BadLinesOfAStreamAreToldToTheLogOnce) {
 
 // --- Tokens
 
-TEST_F(MorseProtocol, ServerTokenIsWantedForEverything) {
+TEST_F(MorseProtocol, ServerToken_RequiredForAllRequests) {
   settings.access.server_token = "open sesame";
   MorseClient client = start();
   EXPECT_THAT(client.refusal("time now"), HasSubstr("access/denied"));
@@ -944,7 +941,7 @@ TEST_F(MorseProtocol, ServerTokenIsWantedForEverything) {
 }
 
 // Without the delay, 24 000 guesses per second went through one connection.
-TEST_F(MorseProtocol, WhoGuessesTokensIsToldLateLoggedAndClosed) {
+TEST_F(MorseProtocol, WrongTokens_DelayedLoggedAndClosed) {
   settings.access.server_token = "open sesame";
   MorseClient guesser = start();
   std::string guesses;
@@ -970,7 +967,7 @@ TEST_F(MorseProtocol, WhoGuessesTokensIsToldLateLoggedAndClosed) {
 
 // A regression: right tokens from the guesser's address were once refused for a minute, so that one
 // guesser kept all new clients of that machine out.
-TEST_F(MorseProtocol, BesideAGuesserRightTokensAreTakenLaterButTaken) {
+TEST_F(MorseProtocol, RightTokens_AcceptedLateBesideWrongOnes) {
   settings.access.server_token = "open sesame";
   MorseClient client = start();
   client.get("playpen token [\"open sesame\"]");
@@ -998,7 +995,7 @@ TEST_F(MorseProtocol, BesideAGuesserRightTokensAreTakenLaterButTaken) {
   EXPECT_THAT(record.get(), HasSubstr("timestamp"));
 }
 
-TEST_F(MorseProtocol, RobotTokenIsWantedForItsCommands) {
+TEST_F(MorseProtocol, RobotToken_RequiredForItsCommands) {
   settings.access.robot_tokens = {{"r1", "mine"}};
   MorseClient client = start();
   EXPECT_THAT(client.refusal("r1.motion set_speed [1, 0]"),
@@ -1024,7 +1021,7 @@ TEST_F(MorseProtocol, RobotTokenIsWantedForItsCommands) {
   client.get("simulation reset_objects");
 }
 
-TEST_F(MorseProtocol, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
+TEST_F(MorseProtocol, PrivateWorld_SensorsNeedRobotToken) {
   own_sensors_only = true;
   settings.access.robot_tokens = {{"r1", "first"}, {"r2", "second"}};
   MorseClient client = start();
@@ -1051,7 +1048,7 @@ TEST_F(MorseProtocol, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
 
 // A regression: one message of 400 kB once blocked everybody for minutes, and the server's end,
 // too.
-TEST_F(MorseProtocol, ManyFillsOfALargeCanvasHoldUpNobody) {
+TEST_F(MorseProtocol, LargeFills_DoNotDelayOthers) {
   MorseClient other = start();
   RawClient painter("127.0.0.1", server->port());
   painter.send("1 playpen hello [{\"version\": 1, \"port\": 6665}]\n");
@@ -1078,7 +1075,7 @@ TEST_F(MorseProtocol, ManyFillsOfALargeCanvasHoldUpNobody) {
   writer.join();
 }
 
-TEST_F(MorseProtocol, SynchronisedClockMakesAStepAMessage) {
+TEST_F(MorseProtocol, SynchronisedClock_StepsPerMessage) {
   settings.sync_port = 0;
   MorseClient client = start();
   RawClient clock = accepted(server->sync_port());
@@ -1106,7 +1103,7 @@ std::string text_of(const std::string& file) {
   return text.str();
 }
 
-TEST(MorsePage, HasARowForEachService) {
+TEST(MorsePage, HasRowForEachService) {
   const std::string page = text_of(PLAYPEN_SOURCE_DIR "/docs/morse.md");
   int services = 0;
   for (const char* kind :
@@ -1123,7 +1120,7 @@ TEST(MorsePage, HasARowForEachService) {
 }
 
 // The telnet session of docs/remote.md: sends the lines with "> " and expects the others.
-TEST_F(MorseProtocol, DialogueOfTheGuideIsAsTold) {
+TEST_F(MorseProtocol, DialogueOfGuide_Works) {
   const std::string page = text_of(PLAYPEN_SOURCE_DIR "/docs/remote.md");
   static const std::regex kBlock("<!-- dialogue: \\S+ -->\n```text\n([^`]*)```");
   std::smatch block;

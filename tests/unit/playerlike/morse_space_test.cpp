@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "playerlike/host/host.h"
 #include "server/morse_components.h"
 #include "server/python_json.h"
 #include "sim/core/base64.h"
@@ -21,7 +20,7 @@ namespace {
 using nlohmann::json;
 using testing::Contains;
 
-TEST(PythonJson, IsWrittenAsPythonDoes) {
+TEST(PythonJson, MatchesPython) {
   // Each text is what json.dumps() of Python 3.11 gives.
   EXPECT_EQ(python_json(json{{"a", {1, 2.0, true, nullptr}}, {"b", "x"}}),
             R"({"a": [1, 2.0, true, null], "b": "x"})");
@@ -42,7 +41,7 @@ TEST(PythonJson, IsWrittenAsPythonDoes) {
 class MorseSpace : public testing::Test {
  protected:
   explicit MorseSpace()
-      : host_(Host::create(sim::load_world_text(R"({
+      : simulation_(sim::load_world_text(R"({
           "arena": {"size": [20, 20], "origin": [-10, -10]},
           "robots": [{"name": "r1", "model": "omni", "pose": {"x": 0, "y": 0}, "devices": {
             "laser": null,
@@ -56,13 +55,10 @@ class MorseSpace : public testing::Test {
                       "height": 1},
             "go": {"type": "destination", "speed": 2}, "arm": {"type": "actarray"},
             "hand": {"on": "arm"}
-          }}]})"))) {}
+          }}]})")) {}
 
   std::vector<MorseComponent> components() {
-    std::vector<MorseComponent> all;
-    host_->with_simulation(
-        [&](sim::Simulation& simulation) { all = morse_components(host_->robots(), simulation); });
-    return all;
+    return morse_components(describe_robots(simulation_), simulation_);
   }
   MorseComponent component(const std::string& name) {
     for (const MorseComponent& one : components()) {
@@ -72,27 +68,19 @@ class MorseSpace : public testing::Test {
     return {};
   }
   sim::Command command(const std::string& name, const json& object) {
-    std::optional<sim::Command> made;
-    const MorseComponent target = component(name);
-    host_->with_simulation(
-        [&](sim::Simulation& simulation) { made = morse_command(target, object, simulation); });
-    return *made;
+    return morse_command(component(name), object, simulation_);
   }
   json record(const std::string& name, int steps) {
-    json made;
     const DeviceId id = component(name).device.value();
-    host_->with_simulation([&](sim::Simulation& simulation) {
-      for (int i = 0; i < steps; ++i) simulation.step();
-      made = morse_record(simulation.device(id.robot, id.device).sensor()->reading(),
-                          stream_format(simulation, id));
-    });
-    return made;
+    for (int i = 0; i < steps; ++i) simulation_.step();
+    return morse_record(simulation_.device(id.robot, id.device).sensor()->reading(),
+                        stream_format(simulation_, id));
   }
 
-  std::shared_ptr<Host> host_;
+  sim::Simulation simulation_;
 };
 
-TEST_F(MorseSpace, CarriedSensorsHaveTheirCarrierInTheirName) {
+TEST_F(MorseSpace, MountedSensors_NamedWithCarrier) {
   std::vector<std::string> names;
   for (const MorseComponent& one : components()) names.push_back(one.name);
   EXPECT_THAT(names, Contains("r1.ptu.gyro"));
@@ -102,7 +90,7 @@ TEST_F(MorseSpace, CarriedSensorsHaveTheirCarrierInTheirName) {
   EXPECT_EQ(component("r1.ptu").stream, StreamDirection::kIn);
 }
 
-TEST_F(MorseSpace, CommandsHaveMorsesSigns) {
+TEST_F(MorseSpace, Commands_HaveSignsOfMorse) {
   const auto point = std::get<sim::PointCommand>(command("r1.ptu", {{"pan", 0.5}, {"tilt", 0.2}}));
   EXPECT_EQ(point.pan_rad, 0.5);
   EXPECT_EQ(point.tilt_rad, -0.2);  // MORSE's tilt is positive downwards
@@ -123,7 +111,7 @@ TEST_F(MorseSpace, CommandsHaveMorsesSigns) {
   EXPECT_ANY_THROW(static_cast<void>(command("r1.orientation", {{"pitch", 1.0}})));
 }
 
-TEST_F(MorseSpace, RecordsHaveMorsesKeys) {
+TEST_F(MorseSpace, Records_HaveKeysOfMorse) {
   const json simple = record("r1.gps", 20);
   EXPECT_NEAR(simple["x"], 100.0, 1e-9);
   EXPECT_FALSE(simple.contains("latitude"));
@@ -139,7 +127,7 @@ TEST_F(MorseSpace, RecordsHaveMorsesKeys) {
   EXPECT_EQ(record("r1.altimeter", 1)["z"], 0.0);
 }
 
-TEST_F(MorseSpace, PicturesAreThoseOfMorse) {
+TEST_F(MorseSpace, Pictures_MatchMorse) {
   EXPECT_EQ(component("r1.camera").class_name, "VideoCamera");
   EXPECT_EQ(component("r1.depth").class_name, "DepthCamera");
   const json picture = record("r1.camera", 20);
@@ -170,7 +158,7 @@ TEST_F(MorseSpace, PicturesAreThoseOfMorse) {
   }
 }
 
-TEST_F(MorseSpace, DestinationsAndHandsAreThoseOfMorse) {
+TEST_F(MorseSpace, DestinationsAndHands_MatchMorse) {
   EXPECT_EQ(component("r1.go").stream, StreamDirection::kIn);
   const auto goal =
       std::get<sim::GotoCommand>(command("r1.go", {{"x", 1.0}, {"y", 2.0}, {"z", 3.0}}));

@@ -296,7 +296,7 @@ INSTANTIATE_TEST_SUITE_P(Encodings, NativeProtocol,
 
 // --- hello
 
-TEST(NativeHello, AnswersWhatAClientNeeds) {
+TEST(NativeHello, Answer_DescribesServer) {
   FakeHub hub(test::patient_host(two_robots()));
   Client client(hub);
   const json answer =
@@ -322,7 +322,7 @@ TEST(NativeHello, AnswersWhatAClientNeeds) {
   EXPECT_THAT(other.welcome["key"].get<std::string>(), SizeIs(32));
 }
 
-TEST(NativeHello, RefusesWhatItDoesNotUnderstandAndStaysInMorsesForm) {
+TEST(NativeHello, UnknownHello_RefusedInMorseForm) {
   FakeHub hub(test::patient_host(two_robots()));
   const std::vector<std::pair<json, std::string>> bad = {
       {json::object(), "protocol/bad-value"},
@@ -360,7 +360,7 @@ AccessSettings guarded() {
   return access;
 }
 
-TEST(NativeAccess, WantsTheServersTokenAndThatOfARobotForItsCommands) {
+TEST(NativeAccess, ServerAndRobotTokens_Required) {
   FakeHub hub(test::patient_host(two_robots()), guarded());
   Client stranger(hub);
   EXPECT_EQ(stranger.say_hello({{"version", 1}})["error"], "access/denied");
@@ -384,8 +384,8 @@ TEST(NativeAccess, WantsTheServersTokenAndThatOfARobotForItsCommands) {
   EXPECT_EQ(holder.error("command", r2), "");
 }
 
-// The rule holds in both protocols, see also MorseProtocol.RobotTokenIsWantedForItsCommands.
-TEST(NativeAccess, WhoMayCommandNoRobotMayNotChangeTheCanvasOfAll) {
+// The rule holds in both protocols, see also MorseProtocol.RobotToken_RequiredForItsCommands.
+TEST(NativeAccess, ClientWithoutRobots_MayNotChangeSharedCanvas) {
   AccessSettings access;
   access.server_token = "server-token";
   access.robot_tokens = {{"r1", "r1-token"}, {"r2", "r2-token"}};
@@ -410,7 +410,7 @@ TEST(NativeAccess, WhoMayCommandNoRobotMayNotChangeTheCanvasOfAll) {
   EXPECT_EQ(driver.error("resize_canvas", {{"width", 10}, {"height", 10}}), "");
 }
 
-TEST(NativeAccess, WhoMayNotCommandEachRobotMayNotChangeWhatConcernsAll) {
+TEST(NativeAccess, ClientWithoutAllRobots_MayNotChangeSharedState) {
   AccessSettings access;
   access.robot_tokens = {{"r1", "r1-token"}, {"r2", "r2-token"}};
   FakeHub hub(test::patient_host(two_robots()), access);
@@ -430,7 +430,7 @@ TEST(NativeAccess, WhoMayNotCommandEachRobotMayNotChangeWhatConcernsAll) {
   EXPECT_EQ(referee.error("restore_state", {{"name", "s"}}), "");
 }
 
-TEST(NativeAccess, WhoMayCommandNoRobotMayNotSetEntriesOfTheBlackboard) {
+TEST(NativeAccess, ClientWithoutRobots_MayNotSetBlackboard) {
   AccessSettings access;
   access.server_token = "server-token";
   access.robot_tokens = {{"r1", "r1-token"}, {"r2", "r2-token"}};
@@ -453,7 +453,7 @@ TEST(NativeAccess, WhoMayCommandNoRobotMayNotSetEntriesOfTheBlackboard) {
   EXPECT_EQ(driver.error("set_blackboard", wrong), "session/bad-argument");
 }
 
-TEST(NativeAccess, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
+TEST(NativeAccess, PrivateWorld_SensorsNeedRobotToken) {
   AccessSettings access;
   access.server_token = "server-token";
   access.robot_tokens = {{"r1", "r1-token"}, {"r2", "r2-token"}};
@@ -497,7 +497,7 @@ TEST(NativeAccess, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
   }
 }
 
-TEST(NativeAccess, InAPrivateWorldWithoutTokensARobotIsThatOfItsPort) {
+TEST(NativeAccess, PrivateWorldWithoutTokens_RobotOfPortOnly) {
   FakeHub hub(test::patient_host(two_robots(R"("time": "lockstep", "privacy": "own")")));
   Client client(hub, Encoding::kJson, {{"port", 6666}});
   EXPECT_EQ(client.error("subscribe", {{"device", client.device("r2", "pose")}}), "");
@@ -505,7 +505,7 @@ TEST(NativeAccess, InAPrivateWorldWithoutTokensARobotIsThatOfItsPort) {
   EXPECT_EQ(client.error("object_pose", {{"name", "r2"}}), "access/denied");
 }
 
-TEST(PrivateWorlds, LetAProgramOfThisProcessReadItsOwnRobotOnly) {
+TEST(PrivateWorlds, InProcessProgram_ReadsItsRobotOnly) {
   const auto host = test::patient_host(two_robots(R"("time": "lockstep", "privacy": "own")"));
   EXPECT_TRUE(host->own_sensors_only());
   const auto error_of = [](const auto& action) -> std::string {
@@ -544,7 +544,7 @@ TEST(PrivateWorlds, LetAProgramOfThisProcessReadItsOwnRobotOnly) {
   EXPECT_FALSE(test::patient_host(two_robots())->own_sensors_only());
 }
 
-TEST(NativeAccess, WatchersMayNeedNoTokenAndMayNothingElse) {
+TEST(NativeAccess, Watchers_OnlyWatch) {
   AccessSettings access = guarded();
   access.open_watching = true;
   FakeHub hub(test::patient_host(two_robots()), access);
@@ -560,7 +560,7 @@ TEST(NativeAccess, WatchersMayNeedNoTokenAndMayNothingElse) {
   EXPECT_TRUE(watcher.peer.closed);
 }
 
-TEST(NativeAccess, FollowersNeedTheKeyAndTheTokensOfTheirLeader) {
+TEST(NativeAccess, Followers_NeedKeyAndTokensOfLeader) {
   FakeHub hub(test::patient_host(two_robots()), guarded());
   const json both = {"server-token", "robot-token"};
   Client leader(hub, Encoding::kJson, {{"tokens", both}, {"port", 6666}});
@@ -584,7 +584,7 @@ TEST(NativeAccess, FollowersNeedTheKeyAndTheTokensOfTheirLeader) {
 
 // --- reading
 
-TEST_P(NativeProtocol, ReadWaitsForTheReadingsOfSubscribedDevices) {
+TEST_P(NativeProtocol, Read_WaitsForSubscribedReadings) {
   const json pose = client->device("r1", "pose");
   const json laser = client->device("r1", "laser");
   EXPECT_EQ(client->error("subscribe", {{"device", pose}}), "");
@@ -610,14 +610,14 @@ TEST_P(NativeProtocol, ReadWaitsForTheReadingsOfSubscribedDevices) {
   EXPECT_EQ(second["readings"][0]["seq"], 2);
 }
 
-TEST_P(NativeProtocol, ReadWithoutSubscriptionsTakesATenthOfASecond) {
+TEST_P(NativeProtocol, ReadWithoutSubscriptions_TakesTenthOfSecond) {
   const json answer = client->read("data");
   EXPECT_EQ(answer["t"], kSecond_ns / 10);
   EXPECT_EQ(answer["data"], true);
   EXPECT_THAT(answer["readings"], IsEmpty());
 }
 
-TEST_P(NativeProtocol, ReadCarriesOutCommandsAndDrawingsBeforeItWaits) {
+TEST_P(NativeProtocol, Read_ExecutesCommandsAndDrawingsFirst) {
   client->ask("subscribe", {{"device", client->device("r1", "pose")}});
   const json command = {{"device", client->device("r1", "motion")}, {"command", twist(0.2)}};
   const json answer =
@@ -629,7 +629,7 @@ TEST_P(NativeProtocol, ReadCarriesOutCommandsAndDrawingsBeforeItWaits) {
   EXPECT_EQ(client->colour_at(3, 4), kRed);
 }
 
-TEST_P(NativeProtocol, ReadThatFailsHasDoneNothing) {
+TEST_P(NativeProtocol, FailedRead_HasNoEffect) {
   const json good = {{"device", client->device("r1", "motion")}, {"command", twist(0.2)}};
   const json unknown = {{"device", {0, 99}}, {"command", twist(0.2)}};
   const json drawings = client->drawing(3, 4, kRed);
@@ -647,7 +647,7 @@ TEST_P(NativeProtocol, ReadThatFailsHasDoneNothing) {
   EXPECT_EQ(answer["readings"][0]["v"], 0.0);
 }
 
-TEST_P(NativeProtocol, SleepAndJoinLeaveReadingsForLater) {
+TEST_P(NativeProtocol, SleepAndJoin_KeepReadings) {
   client->ask("subscribe", {{"device", client->device("r1", "pose")}});
   const json slept = client->read("sleep", {{"timeout", 0.25}});
   EXPECT_EQ(slept["t"], kSecond_ns / 4);
@@ -664,7 +664,7 @@ TEST_P(NativeProtocol, SleepAndJoinLeaveReadingsForLater) {
   EXPECT_EQ(client->error("read", {{"wait", "sleep"}, {"timeout", -1.0}}), "protocol/bad-value");
 }
 
-TEST_P(NativeProtocol, ReplaceKeepsTheNewestOrAllReadings) {
+TEST_P(NativeProtocol, ReplaceRule_KeepsNewestOrAllReadings) {
   const json pose = client->device("r1", "pose");
   client->ask("subscribe", {{"device", pose}});
   EXPECT_EQ(client->error("replace", {{"device", pose}, {"replace", false}}), "");
@@ -681,7 +681,7 @@ TEST_P(NativeProtocol, ReplaceKeepsTheNewestOrAllReadings) {
   EXPECT_EQ(answer["overflow"], 5);
 }
 
-TEST_P(NativeProtocol, PeekOnlyLooksFirstAndThenLetsAStepPass) {
+TEST_P(NativeProtocol, FirstPeek_TakesNoTimeAndFurtherOnesOneStep) {
   client->ask("subscribe", {{"device", client->device("r1", "pose")}});
   EXPECT_EQ(client->read("peek")["t"], 0);
   const json second = client->read("peek", {{"timeout", 0}});
@@ -697,7 +697,7 @@ TEST_P(NativeProtocol, PeekOnlyLooksFirstAndThenLetsAStepPass) {
   EXPECT_EQ(client->read("peek")["t"], kSecond_ns / 10);
 }
 
-TEST_P(NativeProtocol, OtherRequestsAreAnsweredWhileAReadWaits) {
+TEST_P(NativeProtocol, OtherRequests_AnsweredDuringRead) {
   Client other(hub, Encoding::kJson);
   EXPECT_EQ(other.read("join")["t"], 0);
   client->say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
@@ -717,7 +717,7 @@ TEST_P(NativeProtocol, OtherRequestsAreAnsweredWhileAReadWaits) {
   EXPECT_EQ(client->peer.in_flight, 0U);
 }
 
-TEST_P(NativeProtocol, ReadThatIsOverIsAnsweredBeforeWhatComesLater) {
+TEST_P(NativeProtocol, CompletedRead_AnsweredInOrder) {
   Client other(hub, Encoding::kJson);
   other.read("join");
   client->say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
@@ -730,7 +730,7 @@ TEST_P(NativeProtocol, ReadThatIsOverIsAnsweredBeforeWhatComesLater) {
   EXPECT_EQ(client->hear(), json()) << "answered twice";
 }
 
-TEST_P(NativeProtocol, ThreadThatWaitsHoldsUpNoneOfItsSessions) {
+TEST_P(NativeProtocol, WaitingThread_BlocksNoneOfItsSessions) {
   Client first(hub, GetParam(), {{"process", "p"}});
   Client second(hub, GetParam(), {{"process", "p"}});
   EXPECT_EQ(first.read("data", {{"thread", 5}})["t"], kSecond_ns / 10);
@@ -746,7 +746,7 @@ TEST_P(NativeProtocol, ThreadThatWaitsHoldsUpNoneOfItsSessions) {
   EXPECT_EQ(second.hear()["id"], 100);
 }
 
-TEST_P(NativeProtocol, FollowerHoldsTimeWhileItThinks) {
+TEST_P(NativeProtocol, Follower_HoldsTimeUntilItAnswers) {
   Client follower(hub, GetParam(), {{"follow", client->welcome["key"]}});
   EXPECT_EQ(follower.read("join")["t"], 0);
   client->say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
@@ -761,7 +761,7 @@ TEST_P(NativeProtocol, FollowerHoldsTimeWhileItThinks) {
   EXPECT_EQ(follower.hear(), json());
 }
 
-TEST_P(NativeProtocol, ClientThatGoesInTheMiddleOfAWaitHoldsUpNobody) {
+TEST_P(NativeProtocol, ClientThatLeavesDuringWait_NotAwaited) {
   Client other(hub, Encoding::kCbor);
   other.read("join");
   client->say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
@@ -784,7 +784,7 @@ class NativeEnd : public NativeProtocol {
 INSTANTIATE_TEST_SUITE_P(Encodings, NativeEnd, testing::Values(Encoding::kJson, Encoding::kCbor),
                          encoding_name);
 
-TEST_P(NativeEnd, LastReadingsAreTakenBeforeTheEndIsTold) {
+TEST_P(NativeEnd, LastReadings_ReceivedBeforeEnd) {
   client->ask("subscribe", {{"device", client->device("r1", "pose")}});
   EXPECT_EQ(client->read("data")["finished"], false);
   const json last = client->read("data");
@@ -800,7 +800,7 @@ TEST_P(NativeEnd, LastReadingsAreTakenBeforeTheEndIsTold) {
   EXPECT_THAT(looked["readings"], IsEmpty());
 }
 
-TEST_P(NativeEnd, WaitThatTheEndBreaksOffIsAnswered) {
+TEST_P(NativeEnd, InterruptedWait_Answered) {
   Client other(hub, Encoding::kJson);
   other.read("join");
   client->say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
@@ -820,7 +820,7 @@ class NativePaced : public NativeProtocol {
 INSTANTIATE_TEST_SUITE_P(Encodings, NativePaced, testing::Values(Encoding::kJson, Encoding::kCbor),
                          encoding_name);
 
-TEST_P(NativePaced, PeekEndsByTheWallClock) {
+TEST_P(NativePaced, Peek_EndsByWallClock) {
   EXPECT_EQ(client->read("peek")["data"], false);
   EXPECT_THAT(hub.timers, IsEmpty());
   client->say({{"id", 100}, {"do", "read"}, {"wait", "peek"}, {"timeout", 0.5}});
@@ -839,7 +839,7 @@ TEST_P(NativePaced, PeekEndsByTheWallClock) {
   EXPECT_THAT(hub.timers, IsEmpty());
 }
 
-TEST_P(NativeProtocol, PreferRealTimeIsForSimulationsWhoseModeNobodyChose) {
+TEST_P(NativeProtocol, PreferRealTime_AppliesWithoutChosenModeOnly) {
   EXPECT_EQ(client->error("prefer_real_time", {{"reason", "a thread reads"}}), "");
   EXPECT_EQ(client->ask("time")["time"]["mode"], "lockstep");
   EXPECT_EQ(client->error("prefer_real_time", {{"reason", "a\nb"}}), "protocol/bad-value");
@@ -851,7 +851,7 @@ TEST_P(NativeProtocol, PreferRealTimeIsForSimulationsWhoseModeNobodyChose) {
 
 // --- commands and the canvas
 
-TEST_P(NativeProtocol, CommandMovesTheRobot) {
+TEST_P(NativeProtocol, Command_MovesRobot) {
   client->ask("subscribe", {{"device", client->device("r2", "pose")}});
   const json motion = client->device("r2", "motion");
   EXPECT_EQ(client->error("command", {{"device", motion}, {"command", twist(0.1)}}), "");
@@ -865,7 +865,7 @@ TEST_P(NativeProtocol, CommandMovesTheRobot) {
   EXPECT_EQ(client->error("subscribe", {{"device", motion}}), "session/bad-argument");
 }
 
-TEST_P(NativeProtocol, CellsAreDrawnAndRead) {
+TEST_P(NativeProtocol, Cells_DrawnAndRead) {
   EXPECT_EQ(client->error("draw", {{"drawings", client->drawing(2, 1, kRed)}}), "");
   EXPECT_EQ(client->colour_at(2, 1), kRed);
   EXPECT_EQ(client->ask("cell", {{"layer", 0}, {"column", -1}, {"row", 0}})["cell"], json());
@@ -889,7 +889,7 @@ TEST_P(NativeProtocol, CellsAreDrawnAndRead) {
   EXPECT_EQ(picture["canvas"]["width"], 100);
 }
 
-TEST_P(NativeProtocol, LayersBelongToTheirSession) {
+TEST_P(NativeProtocol, Layers_BelongToSession) {
   const int layer =
       client->ask("create_layer", {{"kind", "binary"}, {"style", {{"name", "seen"}}}})["layer"];
   json layers = client->ask("layers")["layers"];
@@ -909,7 +909,7 @@ TEST_P(NativeProtocol, LayersBelongToTheirSession) {
             "protocol/bad-value");
 }
 
-TEST_P(NativeProtocol, EveryClientIsToldOfAnotherSizeOfTheCanvasOnce) {
+TEST_P(NativeProtocol, CanvasResize_ReportedOnceToEveryClient) {
   Client other(hub, Encoding::kJson);
   EXPECT_FALSE(other.ask("time").contains("canvas"));
   const json resized = client->ask("resize_canvas", {{"width", 120}, {"height", 60}});
@@ -923,14 +923,14 @@ TEST_P(NativeProtocol, EveryClientIsToldOfAnotherSizeOfTheCanvasOnce) {
   EXPECT_EQ(late.welcome["canvas"]["width"], 120);
 }
 
-TEST_P(NativeProtocol, ViewModeIsReadAndSet) {
+TEST_P(NativeProtocol, ViewMode_ReadAndSet) {
   EXPECT_EQ(client->ask("view_mode")["mode"], "ground");
   EXPECT_EQ(client->error("set_view_mode", {{"mode", "mini-map"}}), "");
   EXPECT_EQ(client->ask("view_mode")["mode"], "mini-map");
   EXPECT_EQ(client->error("set_view_mode", {{"mode", "3d"}}), "protocol/bad-value");
 }
 
-TEST_P(NativeProtocol, WorldMapShowsTheFloor) {
+TEST_P(NativeProtocol, WorldMap_ShowsFloor) {
   const json map = client->ask("world_map", {{"cell_size", 0.1}})["map"];
   const sim::OccupancyMap decoded = protocol::decode_map(map, GetParam());
   EXPECT_EQ(decoded.width, 20);
@@ -941,7 +941,7 @@ TEST_P(NativeProtocol, WorldMapShowsTheFloor) {
   EXPECT_EQ(client->error("world_map", {{"cell_size", 0.0005}}), "session/bad-argument");
 }
 
-TEST(NativeFiles, PicturesStayInTheOutputFolder) {
+TEST(NativeFiles, Pictures_StayInsideOutputFolder) {
   const test_support::TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = folder.path().string();
@@ -967,7 +967,7 @@ TEST(NativeFiles, PicturesStayInTheOutputFolder) {
 
 // --- what is wrong
 
-TEST_P(NativeProtocol, RequestsThatMakeNoSenseAreRefused) {
+TEST_P(NativeProtocol, InvalidRequests_Refused) {
   EXPECT_EQ(client->error("dance"), "protocol/unknown-request");
   EXPECT_EQ(client->error("time", {{"now", true}}), "protocol/bad-value");
   EXPECT_EQ(client->error("read"), "protocol/bad-value");
@@ -989,7 +989,7 @@ TEST_P(NativeProtocol, RequestsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(client->error("time"), "") << "the connection goes on";
 }
 
-TEST_P(NativeProtocol, WithoutAnIdOnlyFailureIsTold) {
+TEST_P(NativeProtocol, RequestWithoutId_FailureReportedOnly) {
   client->say({{"do", "draw"}, {"drawings", client->drawing(1, 1, kRed)}});
   EXPECT_EQ(client->hear(), json());
   client->say({{"do", "dance"}});
@@ -1003,7 +1003,7 @@ TEST_P(NativeProtocol, WithoutAnIdOnlyFailureIsTold) {
   EXPECT_EQ(client->hear()["error"], "protocol/bad-value");
 }
 
-TEST_P(NativeProtocol, GarbageIsToldAndForgotten) {
+TEST_P(NativeProtocol, InvalidMessage_ReportedAndSkipped) {
   for (const std::string& garbage :
        {std::string("]["), std::string("\xff\x00\x01", 3), std::string(5000, '['), std::string()}) {
     client->say_bytes(garbage);
@@ -1015,7 +1015,7 @@ TEST_P(NativeProtocol, GarbageIsToldAndForgotten) {
   EXPECT_FALSE(client->peer.closed);
 }
 
-TEST_P(NativeProtocol, ByeIsAnsweredAndEndsTheConnection) {
+TEST_P(NativeProtocol, Bye_AnsweredAndClosed) {
   client->say({{"id", 100}, {"do", "read"}, {"wait", "sleep"}, {"timeout", 0}});
   EXPECT_EQ(client->hear()["id"], 100);
   EXPECT_EQ(client->error("bye"), "");
@@ -1024,7 +1024,7 @@ TEST_P(NativeProtocol, ByeIsAnsweredAndEndsTheConnection) {
   EXPECT_EQ(client->hear(), json());
 }
 
-TEST_P(NativeProtocol, FarewellTellsWhy) {
+TEST_P(NativeProtocol, Farewell_NamesReason) {
   Handler& handler = *hub.handlers.at(&client->peer);
   client->peer.close(handler.farewell(protocol::ProtocolError("protocol/too-long", "too long")));
   const json event = client->hear();
@@ -1051,7 +1051,7 @@ std::vector<std::vector<int>> rects(const CanvasCopy& copy, std::uint64_t since)
 }
 using Rect = std::vector<int>;
 
-TEST(CanvasCopy, TellsWhatHasChangedSinceEachPicture) {
+TEST(CanvasCopy, ReportsChangesSinceEachPicture) {
   // 40 x 35 cells: three tiles across (16, 16 and 8) and three down (16, 16 and 3).
   CanvasCopy copy;
   EXPECT_EQ(copy.count(), 0U);
@@ -1116,7 +1116,7 @@ class NativeWatch : public NativeProtocol {
 INSTANTIATE_TEST_SUITE_P(Encodings, NativeWatch, testing::Values(Encoding::kJson, Encoding::kCbor),
                          encoding_name);
 
-TEST_P(NativeWatch, TellsPosesAndChangesOfTheCanvas) {
+TEST_P(NativeWatch, ReportsPosesAndCanvasChanges) {
   Client viewer(hub, GetParam(), {{"watch", true}});
   EXPECT_EQ(viewer.error("watch", {{"rate", 20}, {"canvas", true}}), "");
   EXPECT_EQ(viewer.hear(), json()) << "the answer comes first";
@@ -1161,7 +1161,7 @@ TEST_P(NativeWatch, TellsPosesAndChangesOfTheCanvas) {
   EXPECT_THAT(hub.timers, IsEmpty());
 }
 
-TEST_P(NativeWatch, WhoHasLostARecordGetsTheWholeCanvasNext) {
+TEST_P(NativeWatch, LostRecord_WholeCanvasNext) {
   client->ask("watch", {{"rate", 20}, {"canvas", true}});
   hub.fire();
   EXPECT_THAT(client->hear()["canvas"], SizeIs(1));
@@ -1175,7 +1175,7 @@ TEST_P(NativeWatch, WhoHasLostARecordGetsTheWholeCanvasNext) {
   EXPECT_EQ(client->hear()["canvas"][0]["rect"], (json{0, 0, 100, 50}));
 }
 
-TEST_P(NativeWatch, WhoIsToldTheSameGetsTheSameBytes) {
+TEST_P(NativeWatch, EqualRecords_ShareBytes) {
   std::deque<Client> viewers;
   for (int i = 0; i < 3; ++i) viewers.emplace_back(hub, GetParam(), json{{"watch", true}});
   const Encoding other = GetParam() == Encoding::kJson ? Encoding::kCbor : Encoding::kJson;
@@ -1191,7 +1191,7 @@ TEST_P(NativeWatch, WhoIsToldTheSameGetsTheSameBytes) {
   }
 }
 
-TEST_P(NativeWatch, OnlyThoseAreToldWhoAreDue) {
+TEST_P(NativeWatch, Records_SentToDueWatchersOnly) {
   Client rare(hub, GetParam(), {{"watch", true}});
   client->ask("watch", {{"rate", 50}});
   rare.ask("watch", {{"rate", 0.01}});
@@ -1204,7 +1204,7 @@ TEST_P(NativeWatch, OnlyThoseAreToldWhoAreDue) {
   EXPECT_EQ(rare.hear(), json());
 }
 
-TEST_P(NativeWatch, TooLargeACanvasIsOnlyMeasured) {
+TEST_P(NativeWatch, LargeCanvas_SizeOnly) {
   client->ask("watch", {{"rate", 20}, {"canvas", true}});
   hub.fire();
   client->hear();
@@ -1220,7 +1220,7 @@ TEST_P(NativeWatch, TooLargeACanvasIsOnlyMeasured) {
   EXPECT_EQ(client->hear()["canvas"][0]["rect"], (json{0, 0, 100, 50}));
 }
 
-TEST_P(NativeWatch, WatchersTakeNoPartInTheSimulation) {
+TEST_P(NativeWatch, Watchers_NeitherAwaitedNorAdvanceTime) {
   Client viewer(hub, GetParam(), {{"watch", true}});
   viewer.ask("watch", {{"rate", 20}});
   hub.fire();
@@ -1272,7 +1272,7 @@ INSTANTIATE_TEST_SUITE_P(Encodings, NativeWork, testing::Values(Encoding::kJson,
                          encoding_name);
 
 // A piece of work is 2^20 cells: 512 of these lines, and the rest of the last one.
-TEST_P(NativeWork, OthersAreAnsweredBetweenThePiecesOfMuchDrawing) {
+TEST_P(NativeWork, LongDrawing_OthersAnsweredBetweenPieces) {
   Client other(hub, GetParam());
   client->say({{"id", 99}, {"do", "draw"}, {"drawings", long_lines(1500, kRed, GetParam())}});
   EXPECT_TRUE(client->peer.busy) << "nothing more is read from it";
@@ -1289,7 +1289,7 @@ TEST_P(NativeWork, OthersAreAnsweredBetweenThePiecesOfMuchDrawing) {
   EXPECT_FALSE(hub.do_piece());
 }
 
-TEST_P(NativeWork, SessionsThatDrawMuchTakeTurns) {
+TEST_P(NativeWork, LongDrawings_SessionsTakeTurns) {
   Client other(hub, GetParam());
   client->say({{"id", 1}, {"do", "draw"}, {"drawings", long_lines(1000, kRed, GetParam())}});
   other.say({{"id", 2}, {"do", "draw"}, {"drawings", long_lines(1000, kBlue, GetParam())}});
@@ -1303,7 +1303,7 @@ TEST_P(NativeWork, SessionsThatDrawMuchTakeTurns) {
   EXPECT_EQ(other.hear()["id"], 2);
 }
 
-TEST_P(NativeWork, FillsThatCoverEachOtherArePaintedOnce) {
+TEST_P(NativeWork, OverlappingFills_PaintedOnce) {
   client->say({{"id", 1}, {"do", "draw"}, {"drawings", fills(5000, GetParam())}});
   // One fill of 2^21 cells. Each of 5000 takes two pieces.
   EXPECT_EQ(do_all(), 2);
@@ -1312,7 +1312,7 @@ TEST_P(NativeWork, FillsThatCoverEachOtherArePaintedOnce) {
   EXPECT_EQ(client->colour_at(0, 0), (sim::Colour{4999 % 256, 0, 0, 255}));
 }
 
-TEST_P(NativeWork, AReadBeginsWhenItsDrawingsAreThere) {
+TEST_P(NativeWork, Read_StartsAfterItsDrawings) {
   client->say({{"id", 1},
                {"do", "read"},
                {"wait", "sleep"},
@@ -1327,7 +1327,7 @@ TEST_P(NativeWork, AReadBeginsWhenItsDrawingsAreThere) {
   EXPECT_EQ(answer["t"], kSecond_ns / 10);
 }
 
-TEST_P(NativeWork, LargeAnswersAreMadeElsewhereAndClaimTheirRoom) {
+TEST_P(NativeWork, LargeAnswers_MadeByHubInClaimedRoom) {
   client->say({{"id", 1}, {"do", "canvas_image"}});
   EXPECT_EQ(client->hear(), json());
   EXPECT_GE(hub.claimed, std::size_t{4} << 21U);
@@ -1342,7 +1342,7 @@ TEST_P(NativeWork, LargeAnswersAreMadeElsewhereAndClaimTheirRoom) {
   EXPECT_FALSE(client->peer.busy);
 }
 
-TEST_P(NativeWork, WhoLeavesEndsItsWork) {
+TEST_P(NativeWork, LeavingClient_CancelsWork) {
   client->say({{"do", "draw"}, {"drawings", long_lines(1500, kRed, GetParam())}});
   ASSERT_TRUE(hub.do_piece());
   Client other(hub, GetParam());

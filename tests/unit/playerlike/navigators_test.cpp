@@ -57,14 +57,14 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EachNavigator, testing::Values("snd", "vfh", "nd
 INSTANTIATE_TEST_SUITE_P(Kinds, EachAvoidingNavigator, testing::Values("snd", "vfh", "nd"),
                          kNameOf);
 
-TEST_P(EachNavigator, WithoutAGoalStandsStill) {
+TEST_P(EachNavigator, NoGoal_StandsStill) {
   EXPECT_EQ(navigator->state(), GoalState::kIdle);
   const sim::Twist twist = navigator->step(0.1, {}, scan_at({}, {}));
   EXPECT_EQ(twist.v_mps, 0.0);
   EXPECT_EQ(twist.omega_radps, 0.0);
 }
 
-TEST_P(EachNavigator, ReachesAGoalInTheOpenAndTurnsToItsHeading) {
+TEST_P(EachNavigator, GoalInOpen_ReachedWithHeading) {
   navigator->start({{1.5, 0.7}, -2.0});
   drive.run(*navigator, {}, 60.0);
   EXPECT_EQ(navigator->state(), GoalState::kReached);
@@ -72,21 +72,21 @@ TEST_P(EachNavigator, ReachesAGoalInTheOpenAndTurnsToItsHeading) {
   EXPECT_NEAR(sim::normalize_angle(drive.X_WB.yaw_rad + 2.0), 0.0, 10.0 * kPi / 180.0);
 }
 
-TEST_P(EachNavigator, TurnsOnTheSpotToAGoalBehind) {
+TEST_P(EachNavigator, GoalBehind_TurnsOnSpot) {
   navigator->start({{-1.0, 0.1}, {}});
   const sim::Twist twist = navigator->step(0.1, {}, scan_at({}, {}));
   EXPECT_EQ(twist.v_mps, 0.0);
   EXPECT_GT(twist.omega_radps, 0.5);  // the shorter turn, to the left
 }
 
-TEST_P(EachNavigator, CancelledIsIdle) {
+TEST_P(EachNavigator, Cancel_Idles) {
   navigator->start({{2.0, 0.0}, {}});
   navigator->cancel();
   EXPECT_EQ(navigator->state(), GoalState::kIdle);
   EXPECT_EQ(navigator->step(0.1, {}, scan_at({}, {})).v_mps, 0.0);
 }
 
-TEST_P(EachNavigator, KeepsTheLimitsOfSlowDown) {
+TEST_P(EachNavigator, SlowDown_KeepsLimits) {
   GoalDriverSettings settings = settings_of(GetParam());
   std::visit([](auto& own) { own.slow_down(0.12, 0.4); }, settings);
   navigator->set_settings(settings);
@@ -104,7 +104,7 @@ TEST_P(EachNavigator, KeepsTheLimitsOfSlowDown) {
   EXPECT_LE(sharpest_radps, 0.4 + 1e-6);
 }
 
-TEST_P(EachAvoidingNavigator, GoesRoundABlockWithoutTouchingIt) {
+TEST_P(EachAvoidingNavigator, Block_PassedWithoutContact) {
   const std::vector<Segment> block = box(0.9, -0.3, 1.1, 0.2);
   navigator->start({{2.0, 0.0}, {}});
   drive.run(*navigator, block, 60.0);
@@ -112,7 +112,7 @@ TEST_P(EachAvoidingNavigator, GoesRoundABlockWithoutTouchingIt) {
   EXPECT_GT(drive.least_m, 0.1);
 }
 
-TEST_P(EachAvoidingNavigator, PassesADoor) {
+TEST_P(EachAvoidingNavigator, Door_Passed) {
   // The gap is 0.6 m wide, the disc 0.2 m.
   const std::vector<Segment> walls{{{1.0, -3.0}, {1.0, 0.1}}, {{1.0, 0.7}, {1.0, 3.0}}};
   navigator->start({{2.0, 0.0}, {}});
@@ -121,7 +121,7 @@ TEST_P(EachAvoidingNavigator, PassesADoor) {
   EXPECT_GT(drive.least_m, 0.1);
 }
 
-TEST_P(EachAvoidingNavigator, AClosedRoomEndsAsBlockedWithoutACollision) {
+TEST_P(EachAvoidingNavigator, ClosedRoom_BlockedWithoutCollision) {
   const std::vector<Segment> room = box(-0.6, -0.6, 0.6, 0.6);
   navigator->start({{2.0, 0.0}, {}});
   drive.run(*navigator, room, 120.0);
@@ -132,7 +132,7 @@ TEST_P(EachAvoidingNavigator, AClosedRoomEndsAsBlockedWithoutACollision) {
   EXPECT_EQ(twist.omega_radps, 0.0);
 }
 
-TEST_P(EachAvoidingNavigator, ADeadEndEndsWithoutACollision) {
+TEST_P(EachAvoidingNavigator, DeadEnd_EndsWithoutCollision) {
   // A U that is open towards the robot, with the goal behind it.
   const std::vector<Segment> u{
       {{0.5, -0.5}, {1.5, -0.5}}, {{1.5, -0.5}, {1.5, 0.5}}, {{1.5, 0.5}, {0.5, 0.5}}};
@@ -144,7 +144,7 @@ TEST_P(EachAvoidingNavigator, ADeadEndEndsWithoutACollision) {
 
 // --- VFH+
 
-TEST(VectorFieldHistogram, AnObstacleBlocksTheSectorsInWhichTheDiscWouldMeetIt) {
+TEST(VectorFieldHistogram, Obstacle_BlocksSectorsThatDiscWouldMeet) {
   VfhSettings settings;
   settings.free_space_cutoff_0ms = 1.0;  // every occupied cell counts
   settings.safety_dist_0ms_m = 0.1;
@@ -162,7 +162,7 @@ TEST(VectorFieldHistogram, AnObstacleBlocksTheSectorsInWhichTheDiscWouldMeetIt) 
   }
 }
 
-TEST(VectorFieldHistogram, SectorsBetweenTheCutoffsKeepTheirState) {
+TEST(VectorFieldHistogram, SectorsBetweenThresholds_KeepState) {
   VfhSettings settings;
   settings.free_space_cutoff_0ms = 1.0;
   VectorFieldHistogram navigation(settings);
@@ -181,7 +181,7 @@ TEST(VectorFieldHistogram, SectorsBetweenTheCutoffsKeepTheirState) {
   EXPECT_FALSE(ahead(0.4, post));
 }
 
-TEST(VectorFieldHistogram, SpeedsUpWithItsAcceleration) {
+TEST(VectorFieldHistogram, Acceleration_LimitsSpeed) {
   VectorFieldHistogram navigation(VfhSettings{});
   navigation.start({{2.5, 0.0}, {}});
   // 0.2 m/s^2 in steps of 0.1 s.
@@ -191,7 +191,7 @@ TEST(VectorFieldHistogram, SpeedsUpWithItsAcceleration) {
 
 // --- ND
 
-TEST(NearnessDiagram, TellsItsSituation) {
+TEST(NearnessDiagram, Situation_Classified) {
   NdSettings settings;
   settings.avoid_dist_m = 0.3;
   NearnessDiagram navigation(settings);
@@ -211,7 +211,7 @@ TEST(NearnessDiagram, TellsItsSituation) {
             Case::kHighSafetyNarrowRegion);
 }
 
-TEST(NearnessDiagram, ARobotThatDoesNotMoveIsBlockedAfterItsTime) {
+TEST(NearnessDiagram, StuckRobot_BlockedAfterTimeout) {
   NearnessDiagram navigation(NdSettings{});
   navigation.start({{2.5, 0.0}, {}});
   double time_s = 0.0;
@@ -225,7 +225,7 @@ TEST(NearnessDiagram, ARobotThatDoesNotMoveIsBlockedAfterItsTime) {
 
 // --- goto
 
-TEST(StraightDrive, TurnsFirstAndThenDrives) {
+TEST(StraightDrive, TurnsThenDrives) {
   StraightDrive navigation(GotoSettings{});
   navigation.start({{0.0, 1.0}, {}});
   const sim::Twist first = navigation.step(0.1, {}, {});

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "host/outputs.h"
+#include "host/results/outputs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@
 #include <vector>
 
 #include "comma_locale.h"
-#include "host/recorder.h"
+#include "host/results/make_report.h"
+#include "host/results/recorder.h"
 #include "playerlike/host/program.h"
 #include "playerlike/host/report_summary.h"
 #include "playerlike/host/results.h"
@@ -42,7 +43,8 @@ class Outputs : public testing::Test {
     return simulation_.layers().add(kind, style, owner);
   }
   void write() const {
-    write_report(folder_.path(), report_text(simulation_, Recorder({}, simulation_), {}, {}));
+    write_report(folder_.path(),
+                 text_of_report(make_report(simulation_, Recorder({}, simulation_), {}, {})));
     write_pictures(folder_.path(), simulation_.layers(), simulation_.snapshot());
   }
   [[nodiscard]] std::vector<std::string> layer_files() const {
@@ -63,7 +65,7 @@ class Outputs : public testing::Test {
       "robots": [{"name": "r1", "pose": {"x": 0.5, "y": 0.5, "yaw_deg": 0}}]})")};
 };
 
-TEST_F(Outputs, EachLayerHasAFileOfItsOwnAndGreyOnesAMap) {
+TEST_F(Outputs, EachLayer_HasFileAndGreyLayersMap) {
   const sim::LayerId grey = add(sim::LayerKind::kGrey, "occupancy", 6665);
   const sim::LayerId path = add(sim::LayerKind::kBinary, "path", 6665);
   const std::vector<sim::CellValue> wall = {sim::CellValue::of(1.0F)};
@@ -84,7 +86,7 @@ TEST_F(Outputs, EachLayerHasAFileOfItsOwnAndGreyOnesAMap) {
   EXPECT_NEAR(map.at(4, 0), 0.5, 0.01);  // unknown, in shades of a byte
 }
 
-TEST_F(Outputs, NamesOfLayersAreMadeSafeAndToldApart) {
+TEST_F(Outputs, LayerNames_MadeSafeAndDistinct) {
   add(sim::LayerKind::kBinary, "../../etc/x", 6665);
   add(sim::LayerKind::kBinary, "path", 6665);
   add(sim::LayerKind::kBinary, "Path", 6666);    // equal if case is ignored
@@ -97,7 +99,7 @@ TEST_F(Outputs, NamesOfLayersAreMadeSafeAndToldApart) {
                           "canvas.png", "canvas_6666.png", "path_6665.png"));
 }
 
-TEST_F(Outputs, EqualRunsGiveEqualBytesAndLayersThatAreGoneLeaveNoFile) {
+TEST_F(Outputs, EqualRuns_SameBytesAndRemovedLayersNoFile) {
   const sim::LayerId grey = add(sim::LayerKind::kGrey, "occupancy", 6665);
   write();
   std::vector<std::string> first;
@@ -112,7 +114,7 @@ TEST_F(Outputs, EqualRunsGiveEqualBytesAndLayersThatAreGoneLeaveNoFile) {
   EXPECT_THAT(layer_files(), ElementsAre("canvas.png"));
 }
 
-TEST_F(Outputs, ScenePictureShowsTheGroundUnlessTheModeIsMiniMap) {
+TEST_F(Outputs, ScenePicture_ShowsGroundExceptInMiniMap) {
   simulation_.canvas().draw_line(0, 0, 19, 29, {255, 0, 0, 255});
   write();
   const std::string ground = bytes("scene.png");
@@ -124,7 +126,7 @@ TEST_F(Outputs, ScenePictureShowsTheGroundUnlessTheModeIsMiniMap) {
   EXPECT_FALSE(bytes("scene.png") == ground);
 }
 
-TEST_F(Outputs, RemovingResultsLeavesOtherFiles) {
+TEST_F(Outputs, RemovedResults_OtherFilesStay) {
   add(sim::LayerKind::kGrey, "occupancy", 6665);
   write();
   folder_.write("snapshots/scene_000001.000s.png", "old");
@@ -180,7 +182,7 @@ std::map<std::string, std::string> all_texts_of_a_run() {
     time.wall_time_s = 12.345;
     time.real_time_factor = 1234.5;
     write_report(settings.output_folder,
-                 report_text(simulation, Recorder({}, simulation), time, {}));
+                 text_of_report(make_report(simulation, Recorder({}, simulation), time, {})));
     write_pictures(settings.output_folder, simulation.layers(), recorder.scene(simulation));
   }
   for (const auto& entry : fs::recursive_directory_iterator(settings.output_folder)) {
@@ -212,13 +214,14 @@ std::map<std::string, std::string> all_texts_of_a_run() {
   return texts;
 }
 
-TEST(OutputsOfAnArenaController, AreEventsScoresAndVerdict) {
+TEST(OutputsOfAnArenaController, EventsScoresAndVerdict_Written) {
   const auto report_of = [](const std::string& more) {
     sim::Simulation simulation(sim::load_world_text(
         R"({"arena": {"size": [4, 4]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}}])" +
         more + "}"));
     simulation.step();
-    return nlohmann::json::parse(report_text(simulation, Recorder({}, simulation), {}, {}));
+    return nlohmann::json::parse(
+        text_of_report(make_report(simulation, Recorder({}, simulation), {}, {})));
   };
   const nlohmann::json report = report_of(R"(, "controller": {"traps": [
       {"name": "p", "region": {"circle": {"center": [1, 1]}},
@@ -236,7 +239,7 @@ TEST(OutputsOfAnArenaController, AreEventsScoresAndVerdict) {
   }
 }
 
-TEST(OutputsOfAnArenaController, HaveTheStateOfEachDynamicBlock) {
+TEST(OutputsOfAnArenaController, DynamicBlocks_StateWritten) {
   sim::Simulation simulation(sim::load_world_text(R"({"arena": {"size": [4, 4], "obstacles": [
       {"name": "wall", "center": [3, 1]}, {"name": "a", "center": [3, 2], "type": "dynamic"},
       {"name": "b", "center": [3, 3], "type": "dynamic", "rise_speed": 0.1},
@@ -245,13 +248,13 @@ TEST(OutputsOfAnArenaController, HaveTheStateOfEachDynamicBlock) {
     "robots": [{"pose": {"x": 1, "y": 1}}],
     "controller": {"timers": [{"at": 0, "do": [{"extend": ["c"]}, {"retract": ["b"]}]}]}})"));
   simulation.step();
-  const auto report =
-      nlohmann::json::parse(report_text(simulation, Recorder({}, simulation), {}, {}));
+  const auto report = nlohmann::json::parse(
+      text_of_report(make_report(simulation, Recorder({}, simulation), {}, {})));
   EXPECT_EQ(report.at("blocks"),
             nlohmann::json::parse(R"({"a": "extended", "b": "sinking", "c": "waiting"})"));
 }
 
-TEST(OutputsInALocale, WithADecimalCommaAreTheSameBytesAsWithout) {
+TEST(OutputsInALocale, DecimalComma_SameBytes) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   std::setlocale(LC_ALL, "C");
   const std::map<std::string, std::string> expected = all_texts_of_a_run();

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, PastTheEnd,
                          testing::Values(Transport::kInProcess, Transport::kCbor),
                          [](const auto& instance) { return transport_name(instance.param); });
 
-TEST_P(PastTheEnd, RangefindersReadZero) {
+TEST_P(PastTheEnd, Rangefinders_ReadZero) {
   LaserProxy laser(&client);
   RangerProxy ranger(&client, 0);
   RangerProxy sonars(&client, 1);
@@ -94,7 +94,7 @@ TEST_P(PastTheEnd, RangefindersReadZero) {
   EXPECT_EQ(ir.GetPose(8).px, 0.0);
 }
 
-TEST_P(PastTheEnd, WhatSensorsSeeIsZero) {
+TEST_P(PastTheEnd, SeenObjects_Zero) {
   BumperProxy bumper(&client);
   FiducialProxy fiducials(&client);
   BlobfinderProxy blobs(&client);
@@ -123,13 +123,13 @@ TEST_P(PastTheEnd, WhatSensorsSeeIsZero) {
   EXPECT_EQ(localize.GetParticlePose(1).px, 0.0);
 }
 
-TEST_P(PastTheEnd, TheMapsOutsideIsUnknown) {
+TEST_P(PastTheEnd, MapOutside_Unknown) {
   MapProxy map(&client);
   map.RequestMap();
   expect_one_warning([&] { EXPECT_EQ(map.GetCell(-1, 0), 0); }, "there is no cell (-1, 0)");
 }
 
-TEST_P(PastTheEnd, InputsReadZeroAndOutputsThatExistAreSet) {
+TEST_P(PastTheEnd, Inputs_ReadZeroAndExistingOutputsAreSet) {
   DioProxy dio(&client);
   AioProxy aio(&client);
   client.Read();
@@ -145,7 +145,7 @@ TEST_P(PastTheEnd, InputsReadZeroAndOutputsThatExistAreSet) {
   client.Read();  // a command that the device refuses would end the run
 }
 
-TEST_P(PastTheEnd, CopiesOfAProxyWarnOnceTogether) {
+TEST_P(PastTheEnd, CopiesOfProxy_WarnOnce) {
   IrProxy ir(&client);
   client.Read();
   const auto look = [](IrProxy copy) { return copy[8]; };  // programs pass proxies by value

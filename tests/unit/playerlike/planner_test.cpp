@@ -52,7 +52,7 @@ void read_until_done(PlayerClient& client, const PlannerProxy& planner, int roun
   for (int i = 0; i < rounds && planner.GetPathDone() == 0; ++i) client.Read();
 }
 
-TEST_P(PlannerTest, DrivesThroughTheDoorToAGoalInTheOtherRoom) {
+TEST_P(PlannerTest, GoalInOtherRoom_ReachedThroughDoor) {
   start(rooms(kDrivers));
   PlayerClient client(host->connect(6665));
   PlannerProxy planner(&client, 0);
@@ -85,7 +85,7 @@ TEST_P(PlannerTest, DrivesThroughTheDoorToAGoalInTheOtherRoom) {
   EXPECT_EQ(position.GetXSpeed(), 0.0);
 }
 
-TEST_P(PlannerTest, ConvertsWaypointsIntoTheFrameOfTheDriver) {
+TEST_P(PlannerTest, Waypoints_ConvertedToFrameOfDriver) {
   start(rooms(R"([{"type": "snd", "position": 1}, )" + kWavefront + "]"));
   PlayerClient client(host->connect(6665));
   PlannerProxy planner(&client, 0);
@@ -100,7 +100,7 @@ TEST_P(PlannerTest, ConvertsWaypointsIntoTheFrameOfTheDriver) {
   EXPECT_EQ(host->statistics(0).collisions, 0);
 }
 
-TEST_P(PlannerTest, UsesLocalizeAndAnotherDriver) {
+TEST_P(PlannerTest, LocalizeAndOtherDriver_Used) {
   start(rooms(R"([{"type": "snd"}, {"type": "nd", "avoid_dist": 0.15, "goal_tol": 0.1,
                    "max_turnrate_deg": 90},
                   {"type": "wavefront", "safety_dist": 0.05, "cell_size": 0.02, "localize": 0,
@@ -114,7 +114,7 @@ TEST_P(PlannerTest, UsesLocalizeAndAnotherDriver) {
   EXPECT_EQ(host->statistics(0).collisions, 0);
 }
 
-TEST_P(PlannerTest, AGoalInAWallHasNoPathAndTheRobotStands) {
+TEST_P(PlannerTest, GoalInWall_NoPathAndRobotStands) {
   start(rooms(kDrivers));
   PlayerClient client(host->connect(6665));
   PlannerProxy planner(&client, 0);
@@ -130,7 +130,7 @@ TEST_P(PlannerTest, AGoalInAWallHasNoPathAndTheRobotStands) {
   EXPECT_EQ(position.GetXSpeed(), 0.0);
 }
 
-TEST_P(PlannerTest, DisabledTheRobotStands) {
+TEST_P(PlannerTest, Disabled_RobotStands) {
   start(rooms(kDrivers));
   PlayerClient client(host->connect(6665));
   PlannerProxy planner(&client, 0);
@@ -148,7 +148,7 @@ TEST_P(PlannerTest, DisabledTheRobotStands) {
   EXPECT_EQ(planner.GetPathDone(), 1U);
 }
 
-TEST_P(PlannerTest, WithAStartItOnlyPlans) {
+TEST_P(PlannerTest, StartGiven_OnlyPlans) {
   start(rooms(kDrivers));
   PlayerClient client(host->connect(6665));
   PlannerProxy planner(&client, 0);
@@ -168,7 +168,7 @@ TEST_P(PlannerTest, WithAStartItOnlyPlans) {
   EXPECT_GT(planner.GetPathLength(), 3.0);
 }
 
-TEST_P(PlannerTest, WrongNumbersAndMissingPlannersAreRefused) {
+TEST_P(PlannerTest, InvalidNumbersAndMissingPlanners_Refused) {
   start(rooms(kDrivers));
   PlayerClient client(host->connect(6665));
   PlannerProxy planner(&client, 0);
@@ -186,7 +186,7 @@ TEST_P(PlannerTest, WrongNumbersAndMissingPlannersAreRefused) {
   }
 }
 
-TEST(Planner, IsNotOfferedWithoutADriver) {
+TEST(Planner, WithoutDriver_NotOffered) {
   const auto host = test::patient_host(sim::load_world_text(rooms("[]")));
   PlayerClient client(host->connect(6665));
   try {
@@ -213,7 +213,7 @@ std::string planned_run(Transport transport) {
   return trace.str();
 }
 
-TEST_P(PlannerTest, RunsAreRepeatable) {
+TEST_P(PlannerTest, Repeatable) {
   const std::string first = planned_run(Transport::kInProcess);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(planned_run(GetParam()), first) << "run " << i + 2;
 }

@@ -63,7 +63,7 @@ PlayerError refusal(PlayerClient& client, uint32_t index = 0) {
   return {};
 }
 
-TEST_F(PlayerApi, ProxyWithoutDeviceSaysWhatThereIsAndWhereElse) {
+TEST_F(PlayerApi, MissingDevice_ErrorListsExistingAndOtherWorlds) {
   const PlayerError error = refusal<StereoProxy>(client);
   EXPECT_EQ(error.GetErrorCode(), PlayerError::kNoSuchDevice);
   EXPECT_EQ(error.GetErrorFun(), "StereoProxy::StereoProxy");
@@ -75,7 +75,7 @@ TEST_F(PlayerApi, ProxyWithoutDeviceSaysWhatThereIsAndWhereElse) {
       "world), simulation:0 (the world); no world that comes with Playpen has a device for stereo");
 }
 
-TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
+TEST_F(PlayerApi, UnavailableProxy_RefusedInItsOwnName) {
   const std::vector<PlayerError> errors = {
       refusal<AudioProxy>(client),        refusal<BlobfinderProxy>(client),
       refusal<CameraProxy>(client),       refusal<CoopObjectProxy>(client),
@@ -97,7 +97,7 @@ TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
   }
 }
 
-TEST(MissingDevice, IsToBeFoundInTheWorldThatTheErrorNames) {
+TEST(MissingDevice, Error_NamesWorldWithDevice) {
   const auto host = playerlike::Host::create(sim::load_world_text(
       R"({"arena": {"size": [2, 2]},
           "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}, "devices": {"laser": false}}]})"));
@@ -107,14 +107,14 @@ TEST(MissingDevice, IsToBeFoundInTheWorldThatTheErrorNames) {
                               "has one"));
 }
 
-TEST(MissingDevice, OfAnInterfaceThatThePortHasNeedsNoOtherWorld) {
+TEST(MissingDevice, InterfaceOfPort_ErrorNamesNoOtherWorld) {
   const auto world = make_fake_world();
   PlayerClient client(fake_session(world));
   EXPECT_THAT(refusal<LaserProxy>(client, 7).GetErrorStr(), Not(HasSubstr("come with Playpen")));
   EXPECT_THAT(refusal<MapProxy>(client, 7).GetErrorStr(), Not(HasSubstr("come with Playpen")));
 }
 
-TEST_F(PlayerApi, EveryExampleWorldHasItsInterface) {
+TEST_F(PlayerApi, ExampleWorlds_HaveTheirInterfaces) {
   int count = 0;
   for (int code = 1; code <= PLAYER_COOPOBJECT_CODE; ++code) {
     const std::string interface = client.LookupName(code);
@@ -141,7 +141,7 @@ std::string content(const std::string& file) {
   return test_support::read_bytes(std::filesystem::path(PLAYPEN_SOURCE_DIR) / file);
 }
 
-TEST(PageOfProxies, HasEveryClassOfTheTables) {
+TEST(PageOfProxies, HasEveryClassOfTables) {
   const std::string page = content("docs/player_api.md");
   const std::string tables = content("tests/compat/player-api/proxies.md");
   static const std::regex kClass("\n## (\\w+Proxy) ");
@@ -153,7 +153,7 @@ TEST(PageOfProxies, HasEveryClassOfTheTables) {
   EXPECT_GE(count, 40);
 }
 
-TEST(PageOfProxies, SaysWhatWorksAndInWhichWorld) {
+TEST(PageOfProxies, States_WhatWorksInWhichWorld) {
   std::istringstream lines(content("docs/player_api.md"));
   // | proxy | interface | device | `devices/NAME.json`... |, and rows of proxies that only compile
   static const std::regex kWorks(R"(\| `\w+` \| `(\w+)` \| .* \| `(devices/\w+\.json)`.*)");
@@ -184,7 +184,7 @@ TEST(PageOfProxies, SaysWhatWorksAndInWhichWorld) {
   EXPECT_EQ(refused, 14);
 }
 
-TEST(PageOfProxies, SaysWhatPioneersHave) {
+TEST(PageOfProxies, States_DevicesOfPioneers) {
   std::vector<std::string> interfaces;
   std::vector<std::string> only_of_the_first;
   std::istringstream lines(content("docs/player_api.md"));
@@ -227,7 +227,7 @@ player_pose2d_t read_position(LocalizeProxy& lp) {
   return pose;
 }
 
-TEST_F(PlayerApi, LocalizationHasOneHypothesisOnceThereIsAReading) {
+TEST_F(PlayerApi, Localization_OneHypothesisAfterFirstReading) {
   LocalizeProxy localize(&client, 0);
   EXPECT_EQ(localize.GetHypothCount(), 0U);
   EXPECT_EQ(localize.GetParticles(), -1);
@@ -248,7 +248,7 @@ TEST_F(PlayerApi, LocalizationHasOneHypothesisOnceThereIsAReading) {
   EXPECT_EQ(localize.HasCapability(PLAYER_MSGTYPE_CMD, 1), 0);
 }
 
-TEST_F(PlayerApi, LocalizationsParticleIsItsHypothesis) {
+TEST_F(PlayerApi, Localization_ParticleIsHypothesis) {
   LocalizeProxy localize(&client, 0);
   world->add_round({{kPose, pose_reading(0.1, {1.0, 2.0, 0.5})}});
   client.Read();
@@ -259,7 +259,7 @@ TEST_F(PlayerApi, LocalizationsParticleIsItsHypothesis) {
   EXPECT_DOUBLE_EQ(localize.GetParticlePose(0).py, 2.0);
 }
 
-TEST_F(PlayerApi, LocalizationIsNotLedAstrayByAFirstGuess) {
+TEST_F(PlayerApi, Localization_SetPoseDoesNotReplaceReading) {
   LocalizeProxy localize(&client, 0);
   double pose[3] = {7.0, 8.0, 0.0};
   double covariance[3] = {0.2, 0.2, 0.1};  // as Player 2.1 has it: nothing behind may be looked at
@@ -274,7 +274,7 @@ TEST_F(PlayerApi, LocalizationIsNotLedAstrayByAFirstGuess) {
             PlayerError::kBadArgument);
 }
 
-TEST(Localization, TellsTheCovarianceOfItsNoise) {
+TEST(Localization, ReportsCovarianceOfNoise) {
   const auto host = playerlike::Host::create(sim::load_world_text(
       R"({"arena": {"size": [2, 2]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1},
           "devices": {"pose": {"noise": 0.02, "noise_yaw_deg": 3}}}]})"));
@@ -323,7 +323,7 @@ class CountingProxy : public ClientProxy {
   int mSubscribed = -1;
 };
 
-TEST_F(PlayerApi, SubclassesOfClientProxyUseItsProtectedMembers) {
+TEST_F(PlayerApi, ClientProxySubclass_UsesProtectedMembers) {
   CountingProxy proxy(&client, 3);
   EXPECT_FALSE(proxy.IsFresh());
   proxy.Count();
@@ -346,7 +346,7 @@ struct Watcher {
   double x_m = 0.0;
 };
 
-TEST_F(PlayerApi, ReadSignalCallsWhateverCanBeCalledUntilItIsDisconnected) {
+TEST_F(PlayerApi, ReadSignal_CallsFunctorsUntilDisconnected) {
   Position2dProxy position(&client, 0);
   Watcher watcher;
   int calls_of_lambda = 0;
@@ -369,7 +369,7 @@ TEST_F(PlayerApi, ReadSignalCallsWhateverCanBeCalledUntilItIsDisconnected) {
   EXPECT_DOUBLE_EQ(watcher.x_m, 3.0);
 }
 
-TEST_F(PlayerApi, MutexOfTheClientIsLockedUnderAllItsNames) {
+TEST_F(PlayerApi, ClientMutex_LockedUnderAllNames) {
   {
     PlayerClient::mutex_t::scoped_lock lock(client.mMutex);
     EXPECT_FALSE(client.mMutex.try_lock());
@@ -382,7 +382,7 @@ TEST_F(PlayerApi, MutexOfTheClientIsLockedUnderAllItsNames) {
   EXPECT_FALSE(client.mMutex.try_lock());
 }
 
-TEST(BoostNames, ThreadGoesOnWhenItIsForgotten) {
+TEST(BoostNames, DetachedThread_Continues) {
   std::atomic<int> done{0};
   {
     boost::thread forgotten([&done] { done = 1; });
@@ -403,7 +403,7 @@ struct Overloaded {
   [[nodiscard]] int of(int a, int b) const { return a + b; }
 };
 
-TEST(BoostNames, BindChoosesAmongOverloadsByTheNumberOfArguments) {
+TEST(BoostNames, Bind_SelectsOverloadByArity) {
   Overloaded it;
   EXPECT_EQ(boost::bind(&Overloaded::of, &it)(), 0);
   EXPECT_EQ(boost::bind(&Overloaded::of, &it, 3)(), 3);
@@ -412,7 +412,7 @@ TEST(BoostNames, BindChoosesAmongOverloadsByTheNumberOfArguments) {
 
 // --- Old names
 
-TEST_F(PlayerApi, DataModesOfPlayer16To21AreAccepted) {
+TEST_F(PlayerApi, DataModesOfPlayer16To21_Accepted) {
   for (const int mode :
        {PLAYER_DATAMODE_PUSH_ALL, PLAYER_DATAMODE_PUSH_NEW, PLAYER_DATAMODE_PUSH_ASYNC,
         PLAYER_DATAMODE_PULL_ALL, PLAYER_DATAMODE_PULL_NEW, PLAYERC_DATAMODE_PULL}) {
@@ -421,7 +421,7 @@ TEST_F(PlayerApi, DataModesOfPlayer16To21AreAccepted) {
   EXPECT_NO_THROW(client.SetFrequency(10));
 }
 
-TEST_F(PlayerApi, LaserIsConfiguredWithoutFrequencyAsInPlayer20) {
+TEST_F(PlayerApi, LaserConfigureWithoutFrequency_AsInPlayer20) {
   LaserProxy laser(&client, 0);
   const double frequency_hz = laser.GetScanningFrequency();
   laser.Configure(-0.5, 0.5, 100, 1, false);
@@ -429,7 +429,7 @@ TEST_F(PlayerApi, LaserIsConfiguredWithoutFrequencyAsInPlayer20) {
   EXPECT_NEAR(laser.GetConfMinAngle(), -0.5, laser.GetScanRes());
 }
 
-TEST(OldTypes, PoseAndBoxOfPlayer20AreThoseOfTheirSuccessors) {
+TEST(OldTypes, PoseAndBoxOfPlayer20_MatchSuccessors) {
   static_assert(std::is_same<player_pose_t, player_pose2d_t>::value, "");
   static_assert(std::is_same<player_bbox_t, player_bbox2d_t>::value, "");
   const player_pose_t pose = {1.0, 2.0, 3.0};
@@ -438,7 +438,7 @@ TEST(OldTypes, PoseAndBoxOfPlayer20AreThoseOfTheirSuccessors) {
 
 // --- Printing
 
-TEST_F(PlayerApi, DataTypesPrintTheirFields) {
+TEST_F(PlayerApi, DataTypes_PrintFields) {
   EXPECT_EQ(printed(player_point_2d_t{1.0, 2.5}), "1, 2.5");
   EXPECT_EQ(printed(player_point_3d_t{1.0, 2.0, 3.0}), "1, 2, 3");
   EXPECT_EQ(printed(player_orientation_3d_t{1.0, 2.0, 3.0}), "1, 2, 3");
@@ -455,7 +455,7 @@ TEST_F(PlayerApi, DataTypesPrintTheirFields) {
   EXPECT_EQ(printed(info), "unknown:0 ()");
 }
 
-TEST(Messages, PrintOnTheirStreams) {
+TEST(Messages, Print) {
   testing::internal::CaptureStderr();
   PLAYER_ERROR("it failed");
   PLAYER_WARN2("%d of %s", 3, "them");

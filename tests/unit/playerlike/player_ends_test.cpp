@@ -52,7 +52,7 @@ template <typename Done>
   return false;
 }
 
-TEST(PlayerEnds, PlannerDrivesToAGoal) {
+TEST(PlayerEnds, Planner_DrivesToGoal) {
   const Ends ends("examples/wavefront.json");
   PlayerClient client(ends.name(), 6665);
   PlayerCc::PlannerProxy planner(&client, 0);
@@ -96,7 +96,7 @@ TEST(PlayerEnds, PlannerDrivesToAGoal) {
   ASSERT_TRUE(read_until(client, [&] { return std::abs(fetched_length() - 1.5) < 0.1; }));
 }
 
-TEST(PlayerEnds, PlannerServesTheCLibrary) {
+TEST(PlayerEnds, Planner_ServesCLibrary) {
   const Ends ends("examples/wavefront.json");
   playerc_client_t* const client = playerc_client_create(nullptr, ends.name().c_str(), 6665);
   ASSERT_EQ(playerc_client_connect(client), 0) << playerc_error_str();
@@ -117,7 +117,7 @@ TEST(PlayerEnds, PlannerServesTheCLibrary) {
   playerc_client_destroy(client);
 }
 
-TEST(PlayerEnds, PropertiesAreReadByName) {
+TEST(PlayerEnds, Properties_ReadByName) {
   const Ends ends("cave.json");
   PlayerClient client(ends.name(), 6665);
   PlayerCc::LaserProxy laser(&client, 0);
@@ -144,7 +144,7 @@ TEST(PlayerEnds, PropertiesAreReadByName) {
   EXPECT_EQ(laser.GetCount(), 181U);
 }
 
-TEST(PlayerEnds, ArmMoves) {
+TEST(PlayerEnds, Arm_Moves) {
   const Ends ends("devices/actarray.json");
   PlayerClient client(ends.name(), 6665);
   PlayerCc::ActArrayProxy arm(&client, 0);
@@ -158,7 +158,7 @@ TEST(PlayerEnds, ArmMoves) {
   ASSERT_TRUE(read_until(client, [&] { return !arm.IsPowered(); }));
 }
 
-TEST(PlayerEnds, LightBlinks) {
+TEST(PlayerEnds, Light_Blinks) {
   const Ends ends("devices/blinkenlight.json");
   PlayerClient client(ends.name(), 6665);
   PlayerCc::BlinkenLightProxy light(&client, 0);
@@ -172,7 +172,7 @@ TEST(PlayerEnds, LightBlinks) {
   ASSERT_TRUE(read_until(client, [&] { return !light.GetEnable(); }));
 }
 
-TEST(PlayerEnds, MessagesArrive) {
+TEST(PlayerEnds, Messages_Arrive) {
   const Ends ends("devices/opaque.json");
   PlayerClient client(ends.name(6665), 6665);
   PlayerClient other(ends.name(6666), 6666);
@@ -188,7 +188,7 @@ TEST(PlayerEnds, MessagesArrive) {
   EXPECT_EQ(received, bytes);
 }
 
-TEST(PlayerEnds, LinesArriveAndSwitch) {
+TEST(PlayerEnds, Lines_ArriveAndSwitch) {
   const Ends ends("devices/dio.json");
   PlayerClient bell_client(ends.name(6665), 6665);
   PlayerClient keeper_client(ends.name(6666), 6666);
@@ -207,7 +207,7 @@ TEST(PlayerEnds, LinesArriveAndSwitch) {
   EXPECT_NEAR(meter.GetVoltage(4), 5.0, 0.1);
 }
 
-TEST(PlayerEnds, HeadTurns) {
+TEST(PlayerEnds, Head_Turns) {
   const Ends ends("devices/ptz.json");
   PlayerClient client(ends.name(), 6665);
   PlayerCc::PtzProxy head(&client, 0);
@@ -224,7 +224,7 @@ TEST(PlayerEnds, HeadTurns) {
   EXPECT_EQ(camera.GetImageSize(), camera.GetWidth() * camera.GetHeight() * 3);
 }
 
-TEST(PlayerEnds, GripperGrips) {
+TEST(PlayerEnds, Gripper_Grips) {
   const Ends ends("devices/gripper.json");
   PlayerClient client(ends.name(), 6665);
   PlayerCc::GripperProxy gripper(&client, 0);
@@ -236,7 +236,7 @@ TEST(PlayerEnds, GripperGrips) {
   ASSERT_TRUE(read_until(client, [&] { return gripper.GetPaddlesOpen() != 0; }));
 }
 
-TEST(PlayerEnds, CardHearsOthers) {
+TEST(PlayerEnds, Wifi_HearsOthers) {
   const Ends ends("devices/wifi.json");
   PlayerClient client(ends.name(), 6665);
   PlayerCc::WiFiProxy wifi(&client, 0);
@@ -246,7 +246,7 @@ TEST(PlayerEnds, CardHearsOthers) {
   EXPECT_LT(wifi.GetLinkLevel(0), -40);
 }
 
-TEST(PlayerEnds, RobotSpeaksAndDraws) {
+TEST(PlayerEnds, Robot_SpeaksAndDraws) {
   const Ends ends("devices/speech.json");
   PlayerClient client(ends.name(), 6665);
   PlayerCc::SpeechProxy speech(&client, 0);
@@ -261,7 +261,7 @@ TEST(PlayerEnds, RobotSpeaksAndDraws) {
   artist.Read();
 }
 
-TEST(PlayerEnds, LocalisationTellsItsParticles) {
+TEST(PlayerEnds, Localisation_ReportsParticles) {
   const Ends ends("devices/amcl.json");
   PlayerClient client(ends.name(6666), 6666);
   PlayerCc::LocalizeProxy localize(&client, 0);

@@ -11,21 +11,21 @@ namespace {
 
 using PlayerCc::PlayerError;
 
-TEST(PlayerError, KeepsFunctionTextAndCode) {
+TEST(PlayerError, FunctionTextAndCode_Kept) {
   const PlayerError error("f", "went wrong", 7);
   EXPECT_EQ(error.GetErrorFun(), "f");
   EXPECT_EQ(error.GetErrorStr(), "went wrong");
   EXPECT_EQ(error.GetErrorCode(), 7);
 }
 
-TEST(PlayerError, IsEmptyByDefault) {
+TEST(PlayerError, Default_Empty) {
   const PlayerError error;
   EXPECT_EQ(error.GetErrorFun(), "");
   EXPECT_EQ(error.GetErrorStr(), "");
   EXPECT_EQ(error.GetErrorCode(), -1);
 }
 
-TEST(PlayerError, IsCaughtByValueAndByTheNameMorseError) {
+TEST(PlayerError, CaughtByValueAndAsMorseError) {
   try {
     throw PlayerError("f", "went wrong");
   } catch (CCMorse::MorseError error) {
@@ -35,7 +35,7 @@ TEST(PlayerError, IsCaughtByValueAndByTheNameMorseError) {
   EXPECT_FALSE(std::is_polymorphic<PlayerError>::value);
 }
 
-TEST(PlayerError, PrintsFunctionTextAndCode) {
+TEST(PlayerError, Prints) {
   std::ostringstream out;
   out << PlayerError("LaserProxy::GetRange", "there is no beam 9", PlayerError::kBadArgument);
   EXPECT_EQ(out.str(), "LaserProxy::GetRange: there is no beam 9 (error -6)");

@@ -199,7 +199,7 @@ void wait_until(const Server& server, std::size_t connections) {
 
 // In lockstep, simulated time advances for the driver only. So the time of each scan is known,
 // however long the bad clients keep the server busy.
-TEST(PlayerLoad, ThousandsOfBadClientsDisturbNobody) {
+TEST(PlayerLoad, ThousandsOfInvalidClients_DisturbNobody) {
   const Pipe to_clients;
   const Pipe from_clients;
   const pid_t clients = fork();  // before there are threads

@@ -120,19 +120,19 @@ std::string velocity(double v_mps, double omega_radps = 0.0) {
 
 // --- Ports
 
-TEST_F(PlayerServer, IsOffByDefault) {
+TEST_F(PlayerServer, OffByDefault) {
   settings.player_port.reset();
   EXPECT_THAT(start().player_ports(), IsEmpty());
 }
 
-TEST_F(PlayerServer, EachRobotPortHasATcpPort) {
+TEST_F(PlayerServer, RobotPorts_HaveTcpPorts) {
   start();
   EXPECT_THAT(server->player_ports(),
               ElementsAre(Pair(6665, testing::Gt(0)), Pair(6666, testing::Gt(0))));
   EXPECT_NE(port(6665), port(6666));
 }
 
-TEST_F(PlayerServer, PortsKeepTheDistancesOfTheWorld) {
+TEST_F(PlayerServer, Ports_KeepDistancesOfWorld) {
   // Two ports in a row that were free a moment ago; another program may take one meanwhile.
   for (int attempt = 0; attempt < 20; ++attempt) {
     settings.player_port = 0;
@@ -151,7 +151,7 @@ TEST_F(PlayerServer, PortsKeepTheDistancesOfTheWorld) {
   FAIL() << "no free ports in a row";
 }
 
-TEST_F(PlayerServer, RefusesPortsThatDoNotExist) {
+TEST_F(PlayerServer, InvalidPorts_Refused) {
   settings.player_port = 65535;
   try {
     Server::check(settings, {"r1", "r2"}, {6665, 6666});
@@ -162,7 +162,7 @@ TEST_F(PlayerServer, RefusesPortsThatDoNotExist) {
   }
 }
 
-TEST_F(PlayerServer, RefusesAPortThatIsTaken) {
+TEST_F(PlayerServer, PortInUse_Refused) {
   start();
   ServerSettings second = settings;
   second.player_port = port();
@@ -177,14 +177,14 @@ TEST_F(PlayerServer, RefusesAPortThatIsTaken) {
 
 // --- The interface player
 
-TEST_F(PlayerServer, GreetsWithABanner) {
+TEST_F(PlayerServer, Connection_GetsBanner) {
   start();
   PlayerWireClient client(port());
   EXPECT_EQ(client.banner, player::banner());
   EXPECT_THAT(client.banner, testing::StartsWith("Player v.3"));
 }
 
-TEST_F(PlayerServer, ListsTheDevicesOfARobot) {
+TEST_F(PlayerServer, Devices_Listed) {
   start();
   PlayerWireClient client(port());
   const PlayerMessage answer = client.request(PLAYER_PLAYER_REQ_DEVLIST);
@@ -205,7 +205,7 @@ TEST_F(PlayerServer, ListsTheDevicesOfARobot) {
   }
 }
 
-TEST_F(PlayerServer, EachDeviceOfTheListOpensAndCloses) {
+TEST_F(PlayerServer, ListedDevices_OpenAndClose) {
   start(test::patient_host(sim::load_world(PLAYPEN_SOURCE_DIR "/worlds/cave.json")));
   PlayerWireClient client(server->player_ports().begin()->second);
   client.set_mode(PLAYER_DATAMODE_PULL);
@@ -221,7 +221,7 @@ TEST_F(PlayerServer, EachDeviceOfTheListOpensAndCloses) {
   }
 }
 
-TEST_F(PlayerServer, NamesDrivers) {
+TEST_F(PlayerServer, Drivers_Named) {
   start();
   PlayerWireClient client(port());
   player::DeviceDriverinfo asked;
@@ -235,7 +235,7 @@ TEST_F(PlayerServer, NamesDrivers) {
   EXPECT_EQ(none.header.size, 0U);
 }
 
-TEST_F(PlayerServer, OpensAndClosesDevices) {
+TEST_F(PlayerServer, Devices_OpenAndClose) {
   start();
   PlayerWireClient client(port());
   PlayerMessage answer = client.open(PLAYER_LASER_CODE);
@@ -257,7 +257,7 @@ TEST_F(PlayerServer, OpensAndClosesDevices) {
   EXPECT_EQ(answer.as<player::DeviceReq>().access, PLAYER_ERROR_MODE);
 }
 
-TEST_F(PlayerServer, RefusesDevicesThatDoNotExist) {
+TEST_F(PlayerServer, UnknownDevices_Refused) {
   start();
   PlayerWireClient client(port());
   for (const auto& [interface, index] :
@@ -270,7 +270,7 @@ TEST_F(PlayerServer, RefusesDevicesThatDoNotExist) {
   }
 }
 
-TEST_F(PlayerServer, FindsRobotsByName) {
+TEST_F(PlayerServer, Robots_FoundByName) {
   start();
   PlayerWireClient client(port());
   const std::string name = player::text_bytes("r2");
@@ -284,7 +284,7 @@ TEST_F(PlayerServer, FindsRobotsByName) {
             PLAYER_MSGTYPE_RESP_NACK);
 }
 
-TEST_F(PlayerServer, RefusesUnknownRequestsAndModes) {
+TEST_F(PlayerServer, UnknownRequestsAndModes_Refused) {
   start();
   PlayerWireClient client(port());
   EXPECT_EQ(client.request(77).header.type, PLAYER_MSGTYPE_RESP_NACK);
@@ -293,7 +293,7 @@ TEST_F(PlayerServer, RefusesUnknownRequestsAndModes) {
   EXPECT_EQ(client.set_mode(PLAYER_DATAMODE_PULL).header.type, PLAYER_MSGTYPE_RESP_ACK);
 }
 
-TEST_F(PlayerServer, TellsCapabilitiesAndProperties) {
+TEST_F(PlayerServer, CapabilitiesAndProperties_Reported) {
   start();
   PlayerWireClient client(port());
   client.open(PLAYER_LASER_CODE);
@@ -320,7 +320,7 @@ TEST_F(PlayerServer, TellsCapabilitiesAndProperties) {
 
 // --- Rounds
 
-TEST_F(PlayerServer, PullsRoundsInLockstep) {
+TEST_F(PlayerServer, Pull_RoundsInLockstep) {
   start();
   PlayerWireClient client = reader({PLAYER_POSITION2D_CODE, PLAYER_LASER_CODE});
   for (int i = 1; i <= 5; ++i) {
@@ -339,7 +339,7 @@ TEST_F(PlayerServer, PullsRoundsInLockstep) {
   EXPECT_NEAR(sim::to_seconds(host->now_ns()), 0.5, 1e-9);
 }
 
-TEST_F(PlayerServer, CommandsMoveTheRobot) {
+TEST_F(PlayerServer, Commands_MoveRobot) {
   start();
   PlayerWireClient client = reader({PLAYER_POSITION2D_CODE});
   client.command(PLAYER_POSITION2D_CODE, 0, PLAYER_POSITION2D_CMD_VEL, velocity(0.2));
@@ -353,14 +353,14 @@ TEST_F(PlayerServer, CommandsMoveTheRobot) {
   EXPECT_LT(x_m, 1.45);
 }
 
-TEST_F(PlayerServer, ARoundWithoutDevicesTakesSimulatedTime) {
+TEST_F(PlayerServer, RoundWithoutDevices_AdvancesTime) {
   start();
   PlayerWireClient client = reader({});
   EXPECT_THAT(client.round(), IsEmpty());
   EXPECT_NEAR(sim::to_seconds(host->now_ns()), 0.1, 1e-9);
 }
 
-TEST_F(PlayerServer, RequestsAreAnsweredWhileADataRequestWaits) {
+TEST_F(PlayerServer, Requests_AnsweredDuringDataRequest) {
   settings.limits.requests_in_flight = 256;
   start();
   PlayerWireClient one = reader({PLAYER_POSITION2D_CODE});
@@ -378,7 +378,7 @@ TEST_F(PlayerServer, RequestsAreAnsweredWhileADataRequestWaits) {
   EXPECT_THAT(one.end_round(), SizeIs(1));
 }
 
-TEST_F(PlayerServer, PushesDataWhenTheyCome) {
+TEST_F(PlayerServer, Push_SendsNewData) {
   start();
   PlayerWireClient client(port());
   client.open(PLAYER_POSITION2D_CODE);
@@ -395,7 +395,7 @@ TEST_F(PlayerServer, PushesDataWhenTheyCome) {
   EXPECT_THAT(client.round(), Not(IsEmpty()));
 }
 
-TEST_F(PlayerServer, QueuesDataUnlessARuleReplacesThem) {
+TEST_F(PlayerServer, Data_QueuedUnlessReplaced) {
   start();
   PlayerWireClient fast = reader({PLAYER_POSITION2D_CODE});
   PlayerWireClient slow = reader({PLAYER_POSITION2D_CODE});
@@ -426,7 +426,7 @@ TEST_F(PlayerServer, QueuesDataUnlessARuleReplacesThem) {
   EXPECT_EQ(accepted, 255);
 }
 
-TEST_F(PlayerServer, ConnectionsOfAProcessCountAsOneThread) {
+TEST_F(PlayerServer, ConnectionsOfProcess_CountAsOneThread) {
   start();
   // This thread reads them in turn; if they were two threads, the first round would never end.
   PlayerWireClient one = reader({PLAYER_POSITION2D_CODE});
@@ -437,7 +437,7 @@ TEST_F(PlayerServer, ConnectionsOfAProcessCountAsOneThread) {
   }
 }
 
-TEST_F(PlayerServer, CommandsPrecedeTheTimeOfAnotherConnectionsRound) {
+TEST_F(PlayerServer, Commands_AppliedBeforeRoundOfOtherConnection) {
   start();
   PlayerWireClient one = reader({PLAYER_POSITION2D_CODE});
   PlayerWireClient two = reader({PLAYER_POSITION2D_CODE}, 6666);
@@ -509,7 +509,7 @@ TEST_F(PlayerServer, TimeWaitsForOtherProcesses) {
   for (const int file : {to_parent[0], to_parent[1], to_child[0], to_child[1]}) close(file);
 }
 
-TEST_F(PlayerServer, PacedTimeFollowsTheClock) {
+TEST_F(PlayerServer, PacedTime_FollowsClock) {
   start(make_host(R"({"time": 50})"));
   PlayerWireClient client = reader({PLAYER_POSITION2D_CODE, PLAYER_LASER_CODE});
   double last_s = 0.0;
@@ -521,7 +521,7 @@ TEST_F(PlayerServer, PacedTimeFollowsTheClock) {
   }
 }
 
-TEST_F(PlayerServer, TheEndOfTheRunClosesConnections) {
+TEST_F(PlayerServer, EndOfRun_ClosesConnections) {
   start(make_host(R"({"duration": 0.25})"));
   PlayerWireClient client = reader({PLAYER_POSITION2D_CODE});
   EXPECT_THAT(client.round(), SizeIs(1));
@@ -535,7 +535,7 @@ TEST_F(PlayerServer, TheEndOfTheRunClosesConnections) {
 
 // --- Rights
 
-TEST_F(PlayerServer, AuthenticatesWithATokenOfTheServer) {
+TEST_F(PlayerServer, ServerToken_Authenticates) {
   settings.access.server_token = kToken;
   start();
   PlayerWireClient client(port());
@@ -558,7 +558,7 @@ TEST_F(PlayerServer, AuthenticatesWithATokenOfTheServer) {
   EXPECT_THAT(client.round(), SizeIs(1));
 }
 
-TEST_F(PlayerServer, OnlyItsTokenCommandsARobot) {
+TEST_F(PlayerServer, RobotToken_RequiredForCommands) {
   settings.access.robot_tokens = {{"r1", kToken}};
   start();
   PlayerWireClient client = reader({PLAYER_POSITION2D_CODE});
@@ -596,7 +596,7 @@ TEST_F(PlayerServer, OnlyItsTokenCommandsARobot) {
 
 // --- Hostile clients
 
-TEST_F(PlayerServer, ClosesConnectionsThatSendNonsense) {
+TEST_F(PlayerServer, InvalidMessages_CloseConnection) {
   start();
   const std::string header = PlayerWireClient::message(PLAYER_MSGTYPE_REQ, 1, 0, 1);
   std::string huge = header;
@@ -614,7 +614,7 @@ TEST_F(PlayerServer, ClosesConnectionsThatSendNonsense) {
   expect_log("player/type");
 }
 
-TEST_F(PlayerServer, ClosesHalfMessagesAndSilentConnections) {
+TEST_F(PlayerServer, PartialMessagesAndSilentConnections_Closed) {
   settings.limits.partial_request_s = 0.1;
   settings.limits.first_request_s = 0.1;
   start();
@@ -626,7 +626,7 @@ TEST_F(PlayerServer, ClosesHalfMessagesAndSilentConnections) {
   wait_until_empty();
 }
 
-TEST_F(PlayerServer, AnswersBadPayloadsAndGoesOn) {
+TEST_F(PlayerServer, InvalidPayloads_AnsweredAndConnectionStays) {
   start();
   PlayerWireClient client = reader({PLAYER_POSITION2D_CODE, PLAYER_LASER_CODE});
   const std::string lies("\0\0\0\x40\x7f\xff\xff\xff", 8);  // counts of arrays
@@ -656,7 +656,7 @@ TEST_F(PlayerServer, AnswersBadPayloadsAndGoesOn) {
   EXPECT_THAT(client.round(), Not(IsEmpty()));
 }
 
-TEST_F(PlayerServer, ClientsThatConnectAndDropLoseNothing) {
+TEST_F(PlayerServer, ManyShortConnections_LeakNothing) {
   start();
   PlayerWireClient driver = reader({PLAYER_POSITION2D_CODE, PLAYER_LASER_CODE});
   constexpr int kClients = 1000;
@@ -683,7 +683,7 @@ TEST_F(PlayerServer, ClientsThatConnectAndDropLoseNothing) {
   expect_alive();
 }
 
-TEST_F(PlayerServer, TheDeathOfAClientFreesTheOthers) {
+TEST_F(PlayerServer, DeadClient_NotAwaited) {
   start();
   PlayerWireClient client = reader({PLAYER_POSITION2D_CODE});
   const auto holder = host->connect(6666);
@@ -701,7 +701,7 @@ TEST_F(PlayerServer, TheDeathOfAClientFreesTheOthers) {
   EXPECT_THAT(client.end_round(), SizeIs(1));
 }
 
-TEST_F(PlayerServer, SlowReadersOfPushLoseDataOnly) {
+TEST_F(PlayerServer, SlowPushReader_LosesDataOnly) {
   settings.limits.queued_bytes = 20'000;
   start();
   PlayerWireClient slow(port());
@@ -721,7 +721,7 @@ TEST_F(PlayerServer, SlowReadersOfPushLoseDataOnly) {
 }
 
 // The queue of a device holds 1000 readings. The next SYNCH message tells how many more there were.
-TEST_F(PlayerServer, SlowReadersOfPullAreToldWhatTheyLost) {
+TEST_F(PlayerServer, SlowPullReader_LossReported) {
   start();
   PlayerWireClient slow = reader({PLAYER_LASER_CODE});
   {
@@ -751,7 +751,7 @@ std::string file_bytes(const std::string& name) {
 }
 
 // Sends the bytes of a real client at once: every request gets one answer of its kind, in order.
-TEST_F(PlayerServer, AnswersTheRequestsOfRecordedClients) {
+TEST_F(PlayerServer, RecordedRequests_Answered) {
   start();
   for (const char* name : {"connect", "modes", "position2d_fixture", "position2d_stage",
                            "laser_fixture", "laser_stage", "blackboard", "map_tiny", "gps",
@@ -811,7 +811,7 @@ TEST(PeerProcess, FindsThisProcessForIpv4AndIpv6) {
   }
 }
 
-TEST(PeerProcess, KnowsNothingOfOtherSockets) {
+TEST(PeerProcess, OtherSockets_Unknown) {
   const RawClient unconnected{RawClient::Unconnected{}};
   EXPECT_EQ(peer_process(unconnected.descriptor()), std::nullopt);
   EXPECT_EQ(peer_process(-1), std::nullopt);

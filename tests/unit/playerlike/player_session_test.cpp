@@ -132,7 +132,7 @@ std::string error_of(Action action) {
 
 // --- The beginning of a connection
 
-TEST(PlayerSession, GreetsAsPlayersClientDoes) {
+TEST(PlayerSession, Greets) {
   Recorded recorded("position2d_fixture");
   {
     const PlayerCc::Position2dProxy position(&recorded.client, kIndex);
@@ -152,7 +152,7 @@ TEST(PlayerSession, GreetsAsPlayersClientDoes) {
 
 // --- Readings
 
-TEST(PlayerSession, ReadsPositions) {
+TEST(PlayerSession, Positions_Read) {
   Recorded recorded("position2d_fixture");
   PlayerCc::Position2dProxy position(&recorded.client, kIndex);
   recorded.client.Read();
@@ -174,7 +174,7 @@ TEST(PlayerSession, ReadsPositions) {
   EXPECT_DOUBLE_EQ(position.GetOffset().px, 1.1);
 }
 
-TEST(PlayerSession, ReadsScans) {
+TEST(PlayerSession, Scans_Read) {
   Recorded recorded("laser_fixture");
   PlayerCc::LaserProxy laser(&recorded.client, kIndex);
   recorded.client.Read();
@@ -190,7 +190,7 @@ TEST(PlayerSession, ReadsScans) {
   EXPECT_DOUBLE_EQ(laser.GetSize().sl, 0.16);
 }
 
-TEST(PlayerSession, ReadsIntensitiesOfScans) {
+TEST(PlayerSession, Intensities_Read) {
   Recorded recorded("laser_fixture");
   PlayerCc::LaserProxy laser(&recorded.client, kIndex);
   EXPECT_FALSE(laser.IntensityOn());
@@ -204,7 +204,7 @@ TEST(PlayerSession, ReadsIntensitiesOfScans) {
   for (uint32_t i = 0; i < 3; ++i) EXPECT_EQ(laser.GetIntensity(i), 2 * static_cast<int>(i) + 1);
 }
 
-TEST(PlayerSession, CountsZerosAsNoIntensities) {
+TEST(PlayerSession, ZeroIntensities_Ignored) {
   Script script = with_laser();
   player::LaserData data = scan();
   data.intensity = {0, 0, 0};
@@ -218,7 +218,7 @@ TEST(PlayerSession, CountsZerosAsNoIntensities) {
   EXPECT_EQ(laser.GetIntensity(1), 0);
 }
 
-TEST(PlayerSession, ReadsRangersAsRings) {
+TEST(PlayerSession, Rangers_ReadAsRings) {
   Recorded recorded("ranger_fixture");  // two elements
   PlayerCc::RangerProxy ranger(&recorded.client, kIndex);
   do {
@@ -236,7 +236,7 @@ TEST(PlayerSession, ReadsRangersAsRings) {
   for (uint32_t i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(ranger.GetIntensity(i), 0.25 * i);
 }
 
-TEST(PlayerSession, ReadsRangersAsScans) {
+TEST(PlayerSession, Rangers_ReadAsScans) {
   Recorded recorded("ranger_stage_laser");
   const auto devices = recorded.server.script.devices;
   PlayerCc::RangerProxy ranger(&recorded.client, devices.front().index);
@@ -251,7 +251,7 @@ TEST(PlayerSession, ReadsRangersAsScans) {
   EXPECT_EQ(ranger.GetRangeCount(), 37U);
 }
 
-TEST(PlayerSession, ReadsSonarsAndInfraredRangers) {
+TEST(PlayerSession, SonarsAndInfrared_Read) {
   Recorded sonars("sonar_fixture");
   PlayerCc::SonarProxy sonar(&sonars.client, kIndex);
   sonars.client.Read();
@@ -269,7 +269,7 @@ TEST(PlayerSession, ReadsSonarsAndInfraredRangers) {
   EXPECT_DOUBLE_EQ(ir.GetPose(1).px, 1.1);
 }
 
-TEST(PlayerSession, ReadsGpsAndPower) {
+TEST(PlayerSession, GpsAndPower_Read) {
   Recorded receiver("gps");
   PlayerCc::GpsProxy gps(&receiver.client, kIndex);
   receiver.client.Read();
@@ -297,7 +297,7 @@ TEST(PlayerSession, ReadsGpsAndPower) {
   EXPECT_DOUBLE_EQ(power.GetWatts(), -24.0);
 }
 
-TEST(PlayerSession, ReadsImus) {
+TEST(PlayerSession, Imus_Read) {
   Recorded recorded("imu");
   PlayerCc::ImuProxy imu(&recorded.client, kIndex);
   recorded.client.Read();
@@ -307,7 +307,7 @@ TEST(PlayerSession, ReadsImus) {
   EXPECT_FLOAT_EQ(imu.GetXMagn(), 0.4F);
 }
 
-TEST(PlayerSession, ReadsWhatCamerasSee) {
+TEST(PlayerSession, Cameras_Read) {
   Recorded marks("fiducial_fixture");
   PlayerCc::FiducialProxy fiducial(&marks.client, kIndex);
   marks.client.Read();
@@ -336,7 +336,7 @@ TEST(PlayerSession, ReadsWhatCamerasSee) {
   EXPECT_EQ(image, images.report("camera").at("image").get<std::vector<uint8_t>>());
 }
 
-TEST(PlayerSession, ReadsBodies) {
+TEST(PlayerSession, Bodies_Read) {
   Recorded bumpers("bumper_fixture");
   PlayerCc::BumperProxy bumper(&bumpers.client, kIndex);
   bumpers.client.Read();
@@ -373,7 +373,7 @@ TEST(PlayerSession, ReadsBodies) {
   EXPECT_TRUE(arm.IsPowered());
 }
 
-TEST(PlayerSession, ReadsSignals) {
+TEST(PlayerSession, Signals_Read) {
   Recorded analog("aio");
   PlayerCc::AioProxy aio(&analog.client, kIndex);
   analog.client.Read();
@@ -409,7 +409,7 @@ TEST(PlayerSession, ReadsSignals) {
   EXPECT_THAT(data, ElementsAre(0, 1, 2, 254, 104));
 }
 
-TEST(PlayerSession, ReadsAllHypothesesTheMostLikelyFirst) {
+TEST(PlayerSession, Hypotheses_SortedByLikelihood) {
   Recorded recorded("localize_fixture");
   PlayerCc::LocalizeProxy localize(&recorded.client, kIndex);
   recorded.client.Read();
@@ -421,7 +421,7 @@ TEST(PlayerSession, ReadsAllHypothesesTheMostLikelyFirst) {
 
 // --- The world
 
-TEST(PlayerSession, FetchesMaps) {
+TEST(PlayerSession, Maps_Fetched) {
   Recorded recorded("map_tiny");
   PlayerCc::MapProxy map(&recorded.client, recorded.server.script.devices.front().index);
   map.RequestMap();
@@ -435,7 +435,7 @@ TEST(PlayerSession, FetchesMaps) {
   expect_same(recorded, PLAYER_MAP_CODE, PLAYER_MSGTYPE_REQ, PLAYER_MAP_REQ_GET_DATA);
 }
 
-TEST(PlayerSession, FetchesMapsInSeveralTiles) {
+TEST(PlayerSession, Maps_FetchedInTiles) {
   Recorded recorded("map_mapfile");
   PlayerCc::MapProxy map(&recorded.client, recorded.server.script.devices.front().index);
   map.RequestMap();
@@ -443,7 +443,7 @@ TEST(PlayerSession, FetchesMapsInSeveralTiles) {
   EXPECT_EQ(map.GetHeight(), 60U);
 }
 
-TEST(PlayerSession, MovesObjectsOfASimulation) {
+TEST(PlayerSession, SimulationObjects_Moved) {
   Recorded recorded("simulation_stage");
   PlayerCc::SimulationProxy simulation(&recorded.client, 0);
   double x = 0.0;
@@ -460,7 +460,7 @@ TEST(PlayerSession, MovesObjectsOfASimulation) {
   EXPECT_DOUBLE_EQ(yaw, 0.25);
 }
 
-TEST(PlayerSession, WritesLogs) {
+TEST(PlayerSession, Logs_Written) {
   Recorded recorded("log");
   PlayerCc::LogProxy log(&recorded.client, 0);
   log.QueryState();
@@ -470,7 +470,7 @@ TEST(PlayerSession, WritesLogs) {
   EXPECT_EQ(log.GetState(), 1);
 }
 
-TEST(PlayerSession, ReadsAndSetsTheBlackboard) {
+TEST(PlayerSession, Blackboard_ReadAndSet) {
   Script script;
   script.devices = {{0, 6665, PLAYER_BLACKBOARD_CODE, 0}};
   player::BlackboardEntry entry;
@@ -505,7 +505,7 @@ TEST(PlayerSession, ReadsAndSetsTheBlackboard) {
 
 // --- Commands
 
-TEST(PlayerSession, SendsPlayersDrivingCommands) {
+TEST(PlayerSession, DrivingCommands_Sent) {
   Recorded recorded("position2d_fixture");
   PlayerCc::Position2dProxy position(&recorded.client, kIndex);
   position.SetMotorEnable(true);
@@ -527,7 +527,7 @@ TEST(PlayerSession, SendsPlayersDrivingCommands) {
   expect_same(recorded, code, PLAYER_MSGTYPE_REQ, PLAYER_POSITION2D_REQ_GET_GEOM);
 }
 
-TEST(PlayerSession, SendsCommandsOfArms) {
+TEST(PlayerSession, ArmCommands_Sent) {
   Recorded recorded("actarray");
   PlayerCc::ActArrayProxy arm(&recorded.client, kIndex);
   arm.SetPowerConfig(true);
@@ -551,7 +551,7 @@ TEST(PlayerSession, SendsCommandsOfArms) {
   }
 }
 
-TEST(PlayerSession, SendsCommandsOfOtherDevices) {
+TEST(PlayerSession, OtherCommands_Sent) {
   Recorded heads("ptz");
   PlayerCc::PtzProxy ptz(&heads.client, kIndex);
   ptz.SetCam(0.5, -0.25, 0.75);
@@ -594,7 +594,7 @@ TEST(PlayerSession, SendsCommandsOfOtherDevices) {
   EXPECT_DOUBLE_EQ(player::decode<player::LocalizeSetPose>(poses.front()).mean.px, -1.0);
 }
 
-TEST(PlayerSession, SendsSignals) {
+TEST(PlayerSession, Signals_Sent) {
   Recorded analog("aio");
   PlayerCc::AioProxy aio(&analog.client, kIndex);
   aio.SetVoltage(2, -7.5);
@@ -607,7 +607,7 @@ TEST(PlayerSession, SendsSignals) {
   expect_same(digital, PLAYER_DIO_CODE, PLAYER_MSGTYPE_CMD, PLAYER_DIO_CMD_VALUES);
 }
 
-TEST(PlayerSession, SendsDrawings) {
+TEST(PlayerSession, Drawings_Sent) {
   Recorded recorded("graphics2d_stage");
   PlayerCc::Graphics2dProxy sheet(&recorded.client, recorded.server.script.devices.front().index);
   player_point_2d_t points[] = {{0.0, 0.0}, {1.0, 0.5}, {2.0, -0.25}, {-1.0, 1.0}};
@@ -630,7 +630,7 @@ TEST(PlayerSession, SendsDrawings) {
 
 // --- Errors
 
-TEST(PlayerSession, SetsPropertiesOfDrivers) {
+TEST(PlayerSession, DriverProperties_Set) {
   Script script = with_laser();
   script.replies[{PLAYER_LASER_CODE, 0, PLAYER_SET_STRPROP_REQ}] = {std::string()};
   player::StrpropReq mode;
@@ -656,7 +656,7 @@ TEST(PlayerSession, SetsPropertiesOfDrivers) {
   EXPECT_EQ(request.value, player::text_bytes("fast"));
 }
 
-TEST(PlayerErrors, NameTheDevicesThatExist) {
+TEST(PlayerErrors, UnknownDevice_ListsExisting) {
   ScriptedPlayerServer server(with_laser());
   PlayerClient client(server.host(), 6665);
   EXPECT_THAT(error_of([&] { PlayerCc::SonarProxy(&client, 0); }),
@@ -666,7 +666,7 @@ TEST(PlayerErrors, NameTheDevicesThatExist) {
   EXPECT_THAT(error_of([&] { PlayerCc::LaserProxy(&client, 1); }), HasSubstr("no device laser:1"));
 }
 
-TEST(PlayerErrors, SayThatADeviceIsNotOpened) {
+TEST(PlayerErrors, UnopenedDevice_Named) {
   Script script = with_laser();
   player::DeviceReq refusal;
   refusal.access = PLAYER_ERROR_MODE;
@@ -677,7 +677,7 @@ TEST(PlayerErrors, SayThatADeviceIsNotOpened) {
               HasSubstr("does not open laser:0: its driver failed to start"));
 }
 
-TEST(PlayerErrors, SayThatARequestIsRefused) {
+TEST(PlayerErrors, RefusedRequest_Named) {
   ScriptedPlayerServer server(with_laser());
   PlayerClient client(server.host(), 6665);
   PlayerCc::Position2dProxy position(&client, 0);
@@ -686,7 +686,7 @@ TEST(PlayerErrors, SayThatARequestIsRefused) {
   EXPECT_TRUE(client.Connected());
 }
 
-TEST(PlayerErrors, SayThatARequestIsNotAnswered) {
+TEST(PlayerErrors, UnansweredRequest_Named) {
   Script script = with_laser();
   script.silent = {{PLAYER_POSITION2D_CODE, 0, PLAYER_POSITION2D_REQ_MOTOR_POWER}};
   ScriptedPlayerServer server(std::move(script));
@@ -698,7 +698,7 @@ TEST(PlayerErrors, SayThatARequestIsNotAnswered) {
   EXPECT_TRUE(client.Connected());
 }
 
-TEST(PlayerErrors, SayThatNoServerIsThere) {
+TEST(PlayerErrors, MissingServer_Named) {
   int port = 0;
   {
     const test::ListeningSocket closed;
@@ -708,7 +708,7 @@ TEST(PlayerErrors, SayThatNoServerIsThere) {
               HasSubstr("connection refused: is a Player server running there?"));
 }
 
-TEST(PlayerErrors, SayThatTheServerIsAnother) {
+TEST(PlayerErrors, OtherServer_Named) {
   Script script;
   script.banner = "SSH-2.0-OpenSSH_9.2p1 Debian-2+deb12u3";
   ScriptedPlayerServer other(std::move(script));
@@ -724,7 +724,7 @@ TEST(PlayerErrors, SayThatTheServerIsAnother) {
               HasSubstr("is Player 2.1.3, whose messages differ"));
 }
 
-TEST(PlayerErrors, SayThatNobodyGreets) {
+TEST(PlayerErrors, MissingGreeting_Named) {
   const test::ListeningSocket silent;
   PlayerSettings settings;
   settings.server = {"127.0.0.1", silent.port()};
@@ -732,7 +732,7 @@ TEST(PlayerErrors, SayThatNobodyGreets) {
   EXPECT_THAT(error_of([&] { PlayerSession session(settings); }), HasSubstr("it does not greet"));
 }
 
-TEST(PlayerErrors, SayThatTheConnectionIsLost) {
+TEST(PlayerErrors, LostConnection_Named) {
   Script script = with_laser();
   script.rounds = {test::data_message(PLAYER_LASER_CODE, 0, PLAYER_LASER_DATA_SCAN, 1.0, scan())};
   ScriptedPlayerServer server(std::move(script));
@@ -746,7 +746,7 @@ TEST(PlayerErrors, SayThatTheConnectionIsLost) {
               HasSubstr("127.0.0.1"));
 }
 
-TEST(PlayerErrors, SayThatTheServerIsDead) {
+TEST(PlayerErrors, DeadServer_Named) {
   Script script = with_laser();
   std::atomic<bool> dead{false};
   script.custom = [&](const WireMessage&, const auto&) { return dead.load(); };
@@ -758,7 +758,7 @@ TEST(PlayerErrors, SayThatTheServerIsDead) {
   EXPECT_THAT(error_of([&] { client.Read(); }), HasSubstr("has not answered for 1 s"));
 }
 
-TEST(PlayerErrors, SayThatThereIsNoCanvas) {
+TEST(PlayerErrors, MissingCanvas_Named) {
   ScriptedPlayerServer server(with_laser());
   const auto session = open_session(server.host(), 6665);
   EXPECT_THAT(error_of([&] { session->request(LayersRequest{}); }),
@@ -781,7 +781,7 @@ void expect_refused(const std::string& bytes, const std::string& why) {
   EXPECT_FALSE(client.Connected());
 }
 
-TEST(HostilePlayerServers, AreRefused) {
+TEST(HostilePlayerServers, Refused) {
   const std::string good =
       test::data_message(PLAYER_LASER_CODE, 0, PLAYER_LASER_DATA_SCAN, 1.0, scan());
   // A message of more than 8 MiB, by its header.
@@ -798,7 +798,7 @@ TEST(HostilePlayerServers, AreRefused) {
   expect_refused(cut, "data of laser:0");
 }
 
-TEST(HostilePlayerServers, CannotSendDataWithoutEnd) {
+TEST(HostilePlayerServers, EndlessData_Refused) {
   Script script = with_laser();
   script.ends_rounds = false;
   script.custom = [](const WireMessage& message, const auto& send) {
@@ -821,7 +821,7 @@ TEST(HostilePlayerServers, CannotSendDataWithoutEnd) {
   EXPECT_THAT(error_of([&] { session.wait(); }), HasSubstr("sends data without end"));
 }
 
-TEST(HostilePlayerServers, MaySendWhatNobodyAskedFor) {
+TEST(HostilePlayerServers, UnrequestedData_Ignored) {
   Script script = with_laser();
   script.rounds = {
       test::data_message(PLAYER_SONAR_CODE, 7, PLAYER_SONAR_DATA_RANGES, 1.0, player::SonarData{}) +
@@ -838,7 +838,7 @@ TEST(HostilePlayerServers, MaySendWhatNobodyAskedFor) {
   EXPECT_EQ(laser.GetDataTime(), 0.0);
 }
 
-TEST(HostilePlayerServers, AreAskedForDriversUntilTheyDoNotAnswer) {
+TEST(HostilePlayerServers, DriverRequests_StopAtFirstTimeout) {
   Script script;
   constexpr std::uint16_t kDevices = 100;
   for (std::uint16_t index = 0; index < kDevices; ++index) {
@@ -858,7 +858,7 @@ TEST(HostilePlayerServers, AreAskedForDriversUntilTheyDoNotAnswer) {
             1U);
 }
 
-TEST(HostilePlayerServers, CannotFillTheMemoryWithABlackboard) {
+TEST(HostilePlayerServers, HugeBlackboard_Limited) {
   Script script;
   script.devices = {{0, 6665, PLAYER_BLACKBOARD_CODE, 0}};
   script.replies[{PLAYER_BLACKBOARD_CODE, 0, PLAYER_BLACKBOARD_REQ_SUBSCRIBE_TO_GROUP}] = {""};
@@ -888,7 +888,7 @@ TEST(HostilePlayerServers, CannotFillTheMemoryWithABlackboard) {
   EXPECT_EQ(session.request(all).size(), 15U);  // of 4 MiB and some bytes of names
 }
 
-TEST(PlayerSession, ForgetsTheBytesOfReadingsOfClosedDevices) {
+TEST(PlayerSession, ClosedDevice_ReleasesBytes) {
   Script script;
   script.devices = {{0, 6665, PLAYER_CAMERA_CODE, 0}};
   player::CameraData image;
@@ -915,7 +915,7 @@ TEST(PlayerSession, ForgetsTheBytesOfReadingsOfClosedDevices) {
   EXPECT_EQ(camera.GetWidth(), 2000U);
 }
 
-TEST(HostilePlayerServers, CannotAnnounceWaypointsThatAreNotThere) {
+TEST(HostilePlayerServers, AnnouncedWaypoints_Checked) {
   Script script;
   script.devices = {{0, 6665, PLAYER_PLANNER_CODE, 0}};
   player::PlannerData data;
@@ -938,7 +938,7 @@ TEST(HostilePlayerServers, CannotAnnounceWaypointsThatAreNotThere) {
   EXPECT_FALSE(client.Connected());
 }
 
-TEST(HostilePlayerServers, CannotSendMapsOfAnySize) {
+TEST(HostilePlayerServers, HugeMap_Refused) {
   const auto error_for = [](const player::MapInfo& info, const std::optional<std::string>& tile) {
     Script script;
     script.devices = {{0, 6665, PLAYER_MAP_CODE, 0}};
@@ -966,7 +966,7 @@ TEST(HostilePlayerServers, CannotSendMapsOfAnySize) {
 
 // --- Connections
 
-TEST(PlayerSession, ReconnectsAndReadsOn) {
+TEST(PlayerSession, Reconnect_ReadsOn) {
   Script script = with_laser();
   script.rounds = {test::data_message(PLAYER_LASER_CODE, 0, PLAYER_LASER_DATA_SCAN, 1.0, scan())};
   ScriptedPlayerServer server(std::move(script));
@@ -983,7 +983,7 @@ TEST(PlayerSession, ReconnectsAndReadsOn) {
   EXPECT_EQ(server.connections(), 2);
 }
 
-TEST(PlayerSession, EndsRoundsOfServersThatDoNot) {
+TEST(PlayerSession, MissingRoundEnd_RoundEnds) {
   Script script = with_laser();
   script.ends_rounds = false;
   script.rounds = {test::data_message(PLAYER_LASER_CODE, 0, PLAYER_LASER_DATA_SCAN, 1.0, scan())};
@@ -1002,7 +1002,7 @@ TEST(PlayerSession, EndsRoundsOfServersThatDoNot) {
   EXPECT_EQ(count.n, 1);
 }
 
-TEST(PlayerSession, OpensASecondSessionForDrivers) {
+TEST(PlayerSession, Drivers_UseSecondSession) {
   ScriptedPlayerServer first(with_laser());
   const auto session = open_session(first.host(), 6665);
   EXPECT_EQ(session->port(), first.port());
@@ -1022,7 +1022,7 @@ class WorldVariable {
   ~WorldVariable() { unsetenv("PLAYPEN_WORLD"); }
 };
 
-TEST(PlayerHosts, GreetWithoutAProtocolInTheirName) {
+TEST(PlayerHosts, NoPrefix_GreetingSelectsPlayerProtocol) {
   unsetenv("PLAYPEN_WORLD");
   ScriptedPlayerServer server(with_laser());
   // Another name of this machine stands for a robot's.
@@ -1031,21 +1031,21 @@ TEST(PlayerHosts, GreetWithoutAProtocolInTheirName) {
   EXPECT_EQ(client.GetPort(), static_cast<uint32_t>(server.port()));
 }
 
-TEST(PlayerHosts, StandForLocalhost) {
+TEST(PlayerHosts, WorldVariable_SetsServerOfLocalhost) {
   ScriptedPlayerServer server(with_laser());
   const WorldVariable world(server.host());
   PlayerClient client("localhost", 6665);
   EXPECT_NO_THROW(PlayerCc::LaserProxy(&client, 0));
 }
 
-TEST(PlayerHosts, DecideWhateverTheWorldIs) {
+TEST(PlayerHosts, PlayerPrefix_OverridesWorld) {
   ScriptedPlayerServer server(with_laser());
   const WorldVariable world("no_such_world.json");
   PlayerClient client(server.host(), 6665);
   EXPECT_NO_THROW(PlayerCc::LaserProxy(&client, 0));
 }
 
-TEST(PlayerHosts, HaveTheClientsPortByDefault) {
+TEST(PlayerHosts, DefaultPort_FromClient) {
   EXPECT_EQ(parse_server_address("player://robot", 6666).text(), "robot:6666");
   EXPECT_EQ(parse_server_address("player://robot:7000", 6666).text(), "robot:7000");
   EXPECT_EQ(parse_server_address("player://[::1]:7000", 6666).text(), "[::1]:7000");
@@ -1076,7 +1076,7 @@ struct Served {
   std::unique_ptr<Server> server;
 };
 
-TEST(PlayerSession, DrivesARobotOfPlaypensPlayerServer) {
+TEST(PlayerSession, PlaypenServer_DrivesRobot) {
   const Served served;
   EXPECT_EQ(error_of([&] {
               PlayerClient client(served.name(), 6665);
@@ -1099,7 +1099,7 @@ TEST(PlayerSession, DrivesARobotOfPlaypensPlayerServer) {
             "no error");
 }
 
-TEST(PlayerSession, CountsWhatAServerHasDropped) {
+TEST(PlayerSession, DroppedReadings_Counted) {
   const Served served;
   EXPECT_EQ(error_of([&] {
               PlayerClient client(served.name(), 6665);
@@ -1134,7 +1134,7 @@ struct ServedOnPort4000 {
   std::unique_ptr<Server> server;
 };
 
-TEST(PlayerHosts, WithoutAProtocolArePlayerServersIfTheyGreet) {
+TEST(PlayerHosts, NoPrefix_PlayerServerIfItGreets) {
   unsetenv("PLAYPEN_WORLD");
   const ServedOnPort4000 served;
   const auto session = open_session(served.address, served.player_port());
@@ -1143,7 +1143,7 @@ TEST(PlayerHosts, WithoutAProtocolArePlayerServersIfTheyGreet) {
 }
 
 // Nobody listens on the port, or somebody who says nothing.
-TEST(PlayerHosts, WithoutAProtocolAreOtherwisePlaypenServersOnPort4000) {
+TEST(PlayerHosts, NoPrefix_PlaypenServerOnPort4000) {
   unsetenv("PLAYPEN_WORLD");
   const ServedOnPort4000 served;
   const auto refused = open_session(served.address, 6665);
@@ -1168,7 +1168,7 @@ TEST(PlayerHosts, WithoutAProtocolAreOtherwisePlaypenServersOnPort4000) {
   EXPECT_NE(dynamic_cast<SocketSession*>(open_session(served.address, 4000).get()), nullptr);
 }
 
-TEST(PlayerHosts, WithoutAnyServerAreNamedWithBothPorts) {
+TEST(PlayerHosts, NoServer_ErrorNamesBothPorts) {
   unsetenv("PLAYPEN_WORLD");
   const std::string address = test_support::own_loopback();
   EXPECT_THAT(error_of([&] { PlayerClient client(address, 6665); }),
@@ -1176,7 +1176,7 @@ TEST(PlayerHosts, WithoutAnyServerAreNamedWithBothPorts) {
                              HasSubstr("as a Playpen server")));
 }
 
-TEST(PlayerSession, ReachesTheWorldOfPlaypensPlayerServer) {
+TEST(PlayerSession, PlaypenServer_WorldReached) {
   const Served served;
   EXPECT_EQ(error_of([&] {
               PlayerClient client(served.name(), 6665);
@@ -1207,7 +1207,7 @@ TEST(PlayerSession, ReachesTheWorldOfPlaypensPlayerServer) {
             "no error");
 }
 
-TEST(PlayerSession, ServesTheCLibrary) {
+TEST(PlayerSession, CLibrary_Works) {
   const Served served;
   playerc_client_t* const client = playerc_client_create(nullptr, served.name().c_str(), 6665);
   ASSERT_EQ(playerc_client_connect(client), 0) << playerc_error_str();
@@ -1221,7 +1221,7 @@ TEST(PlayerSession, ServesTheCLibrary) {
   playerc_client_destroy(client);
 }
 
-TEST(PlayerSession, LearnsThatPlaypensPlayerServerHasNoSuchDevice) {
+TEST(PlayerSession, PlaypenServer_MissingDeviceNamed) {
   const Served served;
   EXPECT_THAT(error_of([&] {
                 PlayerClient client(served.name(), 6665);

@@ -158,7 +158,7 @@ class PlayerWork : public testing::Test {
   Client other_{hub_};
 };
 
-TEST_F(PlayerWork, LargePartsOfTheMapAreMadeWhileOthersAreAnswered) {
+TEST_F(PlayerWork, LargeMap_OthersAnsweredBetweenPieces) {
   client_.open(PLAYER_MAP_CODE);
   player::MapData part;
   part.width = 2048;
@@ -183,7 +183,7 @@ TEST_F(PlayerWork, LargePartsOfTheMapAreMadeWhileOthersAreAnswered) {
   EXPECT_EQ(client_.peer.take().at(0).header.type, PLAYER_MSGTYPE_RESP_NACK);
 }
 
-TEST_F(PlayerWork, APolygonOfManyCornersIsDrawnInPieces) {
+TEST_F(PlayerWork, LargePolygon_DrawnInPieces) {
   client_.open(PLAYER_GRAPHICS2D_CODE);
   // 10 000 corners, at the lower and the upper edge in turn: each row crosses all edges.
   player::Graphics2dCmdPolygon polygon;
@@ -205,7 +205,7 @@ TEST_F(PlayerWork, APolygonOfManyCornersIsDrawnInPieces) {
   // 1024 rows with 10 000 corners are about 10 million comparisons, 2^20 in a piece.
   EXPECT_GE(pieces, 10);
   EXPECT_FALSE(client_.peer.busy);
-  host_->with_simulation([](sim::Simulation& simulation) {
+  host_->with_simulation([](const sim::Simulation& simulation) {
     const auto layers = simulation.layers().layers();
     ASSERT_EQ(layers.size(), 2U);
     // The edges alone, five a cell, cover everything.
@@ -214,7 +214,7 @@ TEST_F(PlayerWork, APolygonOfManyCornersIsDrawnInPieces) {
   });
 }
 
-TEST_F(PlayerWork, LightDrawingsAreQueuedUntilTheyAreMany) {
+TEST_F(PlayerWork, SmallDrawings_QueuedUpToLimit) {
   client_.open(PLAYER_GRAPHICS2D_CODE);
   player::Graphics2dCmdPolyline line;
   line.points = {{0.0, 0.5}, {2.047, 0.5}};

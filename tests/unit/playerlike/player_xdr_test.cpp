@@ -96,7 +96,7 @@ class JsonWriter {
 
 class Recordings : public testing::TestWithParam<std::string> {};
 
-TEST_P(Recordings, DecodeToTheNotedValuesAndEncodeToTheSameBytes) {
+TEST_P(Recordings, DecodeToNotedValuesAndEncodeToSameBytes) {
   const PlayerRecording recording = playpen::test::player_recording(GetParam());
   int payloads = 0;
   for (const json& message : recording.described["messages"]) {
@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(All, Recordings,
                          testing::ValuesIn(playpen::test::player_recording_names()),
                          [](const auto& recording) { return recording.param; });
 
-TEST(Streams, AreWholeInAnyPieces) {
+TEST(Streams, AnyPieces_WholeMessages) {
   const PlayerRecording recording = playpen::test::player_recording("connect");
   for (const std::size_t piece : {1U, 7U, 40U, 1000U}) {
     protocol::MessageSplitter splitter(protocol::Framing::kPlayer, kMaxPayload);
@@ -160,13 +160,13 @@ TEST(Streams, AreWholeInAnyPieces) {
   }
 }
 
-TEST(Banner, BeginsAsPlayersAndHasItsLength) {
+TEST(Banner, HasPrefixAndLengthOfPlayer) {
   EXPECT_EQ(banner().size(), kBannerBytes);
   EXPECT_THAT(banner(), testing::StartsWith(PLAYER_IDENT_STRING));
   EXPECT_EQ(banner().back(), '\0');
 }
 
-TEST(Texts, EndWithAZero) {
+TEST(Texts, EndWithZeroByte) {
   EXPECT_EQ(text_bytes("stage"), std::string("stage\0", 6));
   EXPECT_EQ(text_of(std::string_view("stage\0x", 7)), "stage");
   EXPECT_EQ(text_of("stage"), "stage");
@@ -186,7 +186,7 @@ std::string error_of(const std::string& bytes) {
   return "no error";
 }
 
-TEST(Refusals, SayWhatIsWrong) {
+TEST(Refusals, NameFault) {
   EXPECT_THAT(error_of<Pose2d>(std::string(23, '\0')), HasSubstr("ends in pa: expected 8 more"));
   EXPECT_THAT(error_of<Pose2d>(std::string(28, '\0')), HasSubstr("found 4 more bytes"));
   EXPECT_THAT(error_of<Pose2d>(""), HasSubstr("ends in px"));
@@ -205,7 +205,7 @@ TEST(Refusals, SayWhatIsWrong) {
   EXPECT_THAT(error_of<Empty>(number(0)), HasSubstr("found 4 more bytes"));
 }
 
-TEST(Refusals, ConcernHeadersThatDoNotFit) {
+TEST(Refusals, InvalidHeaders_Refused) {
   for (const std::string& bytes : {std::string(39, '\0'), std::string(41, '\0')}) {
     try {
       static_cast<void>(parse_message(bytes));
@@ -216,7 +216,7 @@ TEST(Refusals, ConcernHeadersThatDoNotFit) {
   }
 }
 
-TEST(Refusals, ConcernLongMessagesAsSoonAsTheHeaderIsThere) {
+TEST(Refusals, LongMessages_RefusedAtHeader) {
   protocol::MessageSplitter splitter(protocol::Framing::kPlayer, 100);
   std::string bytes;
   Msghdr header;
@@ -226,7 +226,7 @@ TEST(Refusals, ConcernLongMessagesAsSoonAsTheHeaderIsThere) {
   EXPECT_THROW(static_cast<void>(splitter.next()), protocol::ProtocolError);
 }
 
-TEST(Numbers, KeepTheirSignsAndLimits) {
+TEST(Numbers, SignsAndLimits_Kept) {
   MapData map;
   map.data_range = -1;
   map.data = {-1, 0, 1};

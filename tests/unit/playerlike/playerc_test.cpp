@@ -143,7 +143,7 @@ class Playerc : public PlayercBase, public testing::Test {
 
 // --- Clients
 
-TEST_P(PlayercEverywhere, ConnectsAndListsDevices) {
+TEST_P(PlayercEverywhere, Connect_ListsDevices) {
   const auto robot = client();
   EXPECT_EQ(robot->connected, 1);
   EXPECT_EQ(robot->port, 6665);
@@ -165,7 +165,7 @@ TEST_P(PlayercEverywhere, ConnectsAndListsDevices) {
   EXPECT_THAT(playerc_error_str(), HasSubstr("not connected"));
 }
 
-TEST_P(PlayercEverywhere, ExplainsWhyItCannotConnectOrSubscribe) {
+TEST_P(PlayercEverywhere, FailedConnectOrSubscribe_Explained) {
   const Owned<playerc_client_t> none(playerc_client_create(nullptr, name_.c_str(), 7000));
   EXPECT_EQ(playerc_client_connect(none.get()), -1);
   EXPECT_THAT(playerc_error_str(), HasSubstr("7000"));
@@ -182,7 +182,7 @@ TEST_P(PlayercEverywhere, ExplainsWhyItCannotConnectOrSubscribe) {
   EXPECT_THAT(playerc_error_str(), HasSubstr("not subscribed"));
 }
 
-TEST_P(PlayercEverywhere, OneReadDeliversTheRoundOrOneDeviceIfAsked) {
+TEST_P(PlayercEverywhere, Read_DeliversRoundOrOneDevice) {
   const auto robot = client();
   EXPECT_EQ(robot->mode, PLAYERC_DATAMODE_PULL);
   const auto scanner = laser(robot.get());
@@ -223,7 +223,7 @@ TEST_P(PlayercEverywhere, OneReadDeliversTheRoundOrOneDeviceIfAsked) {
   EXPECT_EQ(robot->mode, PLAYERC_DATAMODE_PULL);
 }
 
-TEST_P(PlayercEverywhere, TimeDoesNotDependOnTheNumberOfDevices) {
+TEST_P(PlayercEverywhere, Time_IndependentOfDevices) {
   const auto robot = client();
   const auto base = position(robot.get());
   const auto scanner = laser(robot.get());
@@ -237,7 +237,7 @@ TEST_P(PlayercEverywhere, TimeDoesNotDependOnTheNumberOfDevices) {
   EXPECT_NEAR(base->px, 1.0 + 2.0 * 0.2, 0.05);  // minus the loss by acceleration
 }
 
-TEST_P(PlayercEverywhere, OneReadFillsTheArraysOfAllDevices) {
+TEST_P(PlayercEverywhere, Read_FillsArraysOfAllDevices) {
   const auto first = client();
   const auto robot = client(6666);
   const auto scanner = laser(first.get());
@@ -272,7 +272,7 @@ TEST_P(PlayercEverywhere, OneReadFillsTheArraysOfAllDevices) {
   EXPECT_EQ(blobs->blobs[0].area, 0U);
 }
 
-TEST_P(PlayercEverywhere, LetsTimePassWithoutDevices) {
+TEST_P(PlayercEverywhere, NoDevices_TimeAdvances) {
   const auto robot = client();
   EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
   EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
@@ -281,7 +281,7 @@ TEST_P(PlayercEverywhere, LetsTimePassWithoutDevices) {
   EXPECT_NEAR(base->info.datatime, 0.3, 1e-9);
 }
 
-TEST_P(PlayercEverywhere, PeeksAndReadsWithoutWaiting) {
+TEST_P(PlayercEverywhere, PeekAndNonblockingRead_Work) {
   const auto robot = client();
   const auto base = position(robot.get());
   ASSERT_EQ(playerc_client_read(robot.get()), robot->id);
@@ -300,7 +300,7 @@ TEST_P(PlayercEverywhere, PeeksAndReadsWithoutWaiting) {
   EXPECT_NEAR(base->info.datatime, 0.3, 1e-9);
 }
 
-TEST_P(PlayercEverywhere, SaysThatTheRunIsOver) {
+TEST_P(PlayercEverywhere, EndOfRun_Reported) {
   const auto robot = client();
   const auto base = position(robot.get());
   int readings = 0;
@@ -311,7 +311,7 @@ TEST_P(PlayercEverywhere, SaysThatTheRunIsOver) {
   EXPECT_EQ(playerc_client_read_nonblock(robot.get()), -1);
 }
 
-TEST_F(Playerc, KeepsErrorsOfThreadsApart) {
+TEST_F(Playerc, Errors_KeptPerThread) {
   EXPECT_EQ(playerc_client_connect(nullptr), -1);
   EXPECT_THAT(playerc_error_str(), HasSubstr("null pointer"));
   std::string others = "?";
@@ -319,7 +319,7 @@ TEST_F(Playerc, KeepsErrorsOfThreadsApart) {
   EXPECT_THAT(others, IsEmpty());
 }
 
-TEST_F(Playerc, RefusesNullPointers) {
+TEST_F(Playerc, NullPointers_Refused) {
   EXPECT_EQ(playerc_laser_create(nullptr, -1), nullptr);
   EXPECT_EQ(playerc_laser_subscribe(nullptr, PLAYERC_OPEN_MODE), -1);
   EXPECT_EQ(playerc_client_read(nullptr), nullptr);
@@ -339,7 +339,7 @@ TEST_F(Playerc, RefusesNullPointers) {
   EXPECT_THAT(playerc_error_str(), HasSubstr("no client"));
 }
 
-TEST_F(Playerc, LetsThingsGoInAnyOrder) {
+TEST_F(Playerc, Destruction_AnyOrder) {
   auto robot = client();
   auto base = position(robot.get());
   auto scanner = laser(robot.get());
@@ -356,7 +356,7 @@ TEST_F(Playerc, LetsThingsGoInAnyOrder) {
   EXPECT_NEAR(base->px, 1.0, 1e-9);  // what was read stays
 }
 
-TEST_F(Playerc, SubscribesAgainAfterReconnecting) {
+TEST_F(Playerc, Reconnect_SubscribesAgain) {
   const auto robot = client();
   const auto base = position(robot.get());
   EXPECT_EQ(playerc_client_disconnect_retry(robot.get()), -1);
@@ -372,7 +372,7 @@ TEST_F(Playerc, SubscribesAgainAfterReconnecting) {
   EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
 }
 
-TEST_F(Playerc, CallsUpToFourCallbacks) {
+TEST_F(Playerc, Callbacks_AtMostFour) {
   const auto robot = client();
   const auto base = position(robot.get());
   std::vector<int> calls;
@@ -397,7 +397,7 @@ TEST_F(Playerc, CallsUpToFourCallbacks) {
   EXPECT_THAT(calls, ElementsAre(0, 2, 3));
 }
 
-TEST_F(Playerc, TakesReplaceRulesBeforeAndAfterConnecting) {
+TEST_F(Playerc, ReplaceRules_AcceptedBeforeAndAfterConnect) {
   const Owned<playerc_client_t> robot(playerc_client_create(nullptr, name_.c_str(), 6665));
   EXPECT_EQ(playerc_client_set_replace_rule(robot.get(), -1, -1, PLAYER_MSGTYPE_DATA, -1, 0), 0);
   EXPECT_EQ(playerc_client_set_replace_rule(robot.get(), PLAYER_LASER_CODE, 0, -1, -1, 1), 0);
@@ -416,7 +416,7 @@ TEST_F(Playerc, TakesReplaceRulesBeforeAndAfterConnecting) {
 
 // --- Several clients
 
-TEST_P(PlayercEverywhere, ReadsSeveralClientsTogether) {
+TEST_P(PlayercEverywhere, MultiClient_ReadsClientsTogether) {
   const Owned<playerc_mclient_t> group(playerc_mclient_create());
   EXPECT_EQ(playerc_mclient_read(group.get(), 0), -1);
   const auto one = client(6665, group.get());
@@ -435,7 +435,7 @@ TEST_P(PlayercEverywhere, ReadsSeveralClientsTogether) {
   EXPECT_NEAR(base2->pa, 0.5 * std::numbers::pi, 1e-9);
 }
 
-TEST_F(Playerc, ReadsClientsOfSeveralWorldsTogether) {
+TEST_F(Playerc, MultiClient_ReadsSeveralWorlds) {
   const Owned<playerc_mclient_t> group(playerc_mclient_create());
   const auto one = client(6665, group.get());
   const std::string other = "sim:" + folder_.write("other.json", kWorld);
@@ -463,7 +463,7 @@ TEST_F(Playerc, ReadsClientsOfSeveralWorldsTogether) {
 }
 
 // The library must not access what a callback has destroyed; the sanitizer builds check this.
-TEST_F(Playerc, ACallbackMayDestroyItsClientAndTheList) {
+TEST_F(Playerc, Callback_MayDestroyClientAndList) {
   struct Told {
     playerc_mclient_t* group;
     playerc_client_t* client;
@@ -496,7 +496,7 @@ TEST_F(Playerc, ACallbackMayDestroyItsClientAndTheList) {
   }
 }
 
-TEST_F(Playerc, HoldsAtMost128ClientsInAList) {
+TEST_F(Playerc, MultiClient_HoldsAtMost128Clients) {
   const Owned<playerc_mclient_t> group(playerc_mclient_create());
   std::vector<Owned<playerc_client_t>> clients;
   for (int i = 0; i < 128; ++i) {
@@ -509,7 +509,7 @@ TEST_F(Playerc, HoldsAtMost128ClientsInAList) {
 
 // --- Devices
 
-TEST_F(Playerc, UsesDevicesByTheirCommonPart) {
+TEST_F(Playerc, Devices_UsableByCommonPart) {
   const auto robot = client();
   const Owned<playerc_laser_t> laser(playerc_laser_create(robot.get(), 0));
   char driver[4];
@@ -550,7 +550,7 @@ TEST_F(Playerc, UsesDevicesByTheirCommonPart) {
       -1);
 }
 
-TEST_F(Playerc, LeavesDevicesOfProgramsAlone) {
+TEST_F(Playerc, ProgramDevices_Untouched) {
   const auto robot = client();
   playerc_device_t own;
   playerc_device_init(&own, robot.get(), PLAYER_LASER_CODE, 0, nullptr);
@@ -566,7 +566,7 @@ TEST_F(Playerc, LeavesDevicesOfProgramsAlone) {
   EXPECT_EQ(playerc_add_xdr_ftable(nullptr, 0), -1);
 }
 
-TEST_F(Playerc, MakesDevicesThatNoWorldHasButRefusesThem) {
+TEST_F(Playerc, UnavailableDevices_CreatedButRefused) {
   const auto robot = client();
   playerc_limb_t* const limb = playerc_limb_create(robot.get(), 0);
   ASSERT_NE(limb, nullptr);
@@ -579,7 +579,7 @@ TEST_F(Playerc, MakesDevicesThatNoWorldHasButRefusesThem) {
   playerc_limb_destroy(limb);
 }
 
-TEST_P(PlayercEverywhere, DrivesABase) {
+TEST_P(PlayercEverywhere, Base_Drives) {
   const auto robot = client();
   const auto base = position(robot.get());
   ASSERT_EQ(playerc_position2d_get_geom(base.get()), 0);
@@ -608,7 +608,7 @@ TEST_P(PlayercEverywhere, DrivesABase) {
   EXPECT_THAT(playerc_error_str(), HasSubstr("finite"));
 }
 
-TEST_P(PlayercEverywhere, ScansWithALaser) {
+TEST_P(PlayercEverywhere, Laser_Scans) {
   const auto robot = client();
   const auto scanner = laser(robot.get());
   ASSERT_EQ(playerc_laser_get_geom(scanner.get()), 0);
@@ -663,7 +663,7 @@ TEST_P(PlayercEverywhere, ScansWithALaser) {
   EXPECT_EQ(playerc_laser_get_id(scanner.get()), 0);
 }
 
-TEST_P(PlayercEverywhere, GetsTheMap) {
+TEST_P(PlayercEverywhere, Map_Fetched) {
   const auto robot = client();
   const Owned<playerc_map_t> map(playerc_map_create(robot.get(), 0));
   ASSERT_EQ(playerc_map_subscribe(map.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
@@ -677,7 +677,7 @@ TEST_P(PlayercEverywhere, GetsTheMap) {
   EXPECT_EQ(playerc_map_get_vector(map.get()), -1);
 }
 
-TEST_F(Playerc, DrawsOnASheet) {
+TEST_F(Playerc, Graphics_Draw) {
   const auto robot = client();
   const Owned<playerc_graphics2d_t> sheet(playerc_graphics2d_create(robot.get(), 0));
   EXPECT_EQ(playerc_graphics2d_clear(sheet.get()), -1);  // not subscribed yet
@@ -710,7 +710,7 @@ class PlayercSensors : public Playerc {
   PlayerCc::PlayerClient other_{name_, 6665};
 };
 
-TEST_F(PlayercSensors, RangerOfALaser) {
+TEST_F(PlayercSensors, LaserRanger_Reads) {
   const Owned<playerc_ranger_t> ranger(playerc_ranger_create(robot_.get(), 0));
   PlayerCc::RangerProxy proxy(&other_, 0);
   ASSERT_EQ(playerc_ranger_subscribe(ranger.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
@@ -747,7 +747,7 @@ TEST_F(PlayercSensors, RangerOfALaser) {
   EXPECT_EQ(playerc_ranger_intns_config(ranger.get(), 1), 0);
 }
 
-TEST_F(PlayercSensors, SonarAndItsRanger) {
+TEST_F(PlayercSensors, SonarAndRanger_Read) {
   const Owned<playerc_sonar_t> sonar(playerc_sonar_create(robot_.get(), 0));
   const Owned<playerc_ranger_t> ranger(playerc_ranger_create(robot_.get(), 1));
   PlayerCc::SonarProxy proxy(&other_, 0);
@@ -768,7 +768,7 @@ TEST_F(PlayercSensors, SonarAndItsRanger) {
   }
 }
 
-TEST_F(PlayercSensors, Infrared) {
+TEST_F(PlayercSensors, Infrared_Reads) {
   const Owned<playerc_ir_t> infrared(playerc_ir_create(robot_.get(), 0));
   PlayerCc::IrProxy proxy(&other_, 0);
   ASSERT_EQ(playerc_ir_subscribe(infrared.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
@@ -785,7 +785,7 @@ TEST_F(PlayercSensors, Infrared) {
   }
 }
 
-TEST_F(PlayercSensors, Bumpers) {
+TEST_F(PlayercSensors, Bumper_Reads) {
   const Owned<playerc_bumper_t> bumper(playerc_bumper_create(robot_.get(), 0));
   PlayerCc::BumperProxy proxy(&other_, 0);
   ASSERT_EQ(playerc_bumper_subscribe(bumper.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
@@ -808,7 +808,7 @@ TEST_F(PlayercSensors, Bumpers) {
   EXPECT_TRUE(same(bumper->poses[0].pose, proxy.GetPose(0).pose));
 }
 
-TEST_F(PlayercSensors, Battery) {
+TEST_F(PlayercSensors, Battery_Reads) {
   const Owned<playerc_power_t> power(playerc_power_create(robot_.get(), 0));
   PlayerCc::PowerProxy proxy(&other_, 0);
   ASSERT_EQ(playerc_power_subscribe(power.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
@@ -822,7 +822,7 @@ TEST_F(PlayercSensors, Battery) {
   EXPECT_EQ(power->charging, 0);
 }
 
-TEST_F(PlayercSensors, Fiducials) {
+TEST_F(PlayercSensors, Fiducials_Read) {
   const Owned<playerc_fiducial_t> finder(playerc_fiducial_create(robot_.get(), 0));
   PlayerCc::FiducialProxy proxy(&other_, 0);
   ASSERT_EQ(playerc_fiducial_subscribe(finder.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
@@ -835,7 +835,7 @@ TEST_F(PlayercSensors, Fiducials) {
   EXPECT_TRUE(same(finder->fiducials[0].pose, proxy.GetFiducialItem(0).pose));
 }
 
-TEST_P(PlayercEverywhere, BlobsPicturesAndTheHead) {
+TEST_P(PlayercEverywhere, BlobsPicturesAndPtz_Work) {
   const auto robot = client(6666);
   const Owned<playerc_ptz_t> head(playerc_ptz_create(robot.get(), 0));
   const Owned<playerc_blobfinder_t> finder(playerc_blobfinder_create(robot.get(), 0));
@@ -906,7 +906,7 @@ TEST_P(PlayercEverywhere, BlobsPicturesAndTheHead) {
   EXPECT_NEAR(head->tilt, 0.05, 1e-6);
 }
 
-TEST_F(PlayercSensors, SatellitesAndInertia) {
+TEST_F(PlayercSensors, GpsAndImu_Read) {
   const Owned<playerc_gps_t> gps(playerc_gps_create(robot_.get(), 0));
   const Owned<playerc_imu_t> imu(playerc_imu_create(robot_.get(), 0));
   PlayerCc::GpsProxy gps_proxy(&other_, 0);
@@ -943,7 +943,7 @@ TEST_F(PlayercSensors, SatellitesAndInertia) {
   EXPECT_EQ(playerc_imu_reset_euler(imu.get(), 0.0F, 0.0F, 0.5F), 0);
 }
 
-TEST_F(PlayercSensors, LocalisationAndRadio) {
+TEST_F(PlayercSensors, LocalizeAndWifi_Read) {
   const Owned<playerc_localize_t> localize(playerc_localize_create(robot_.get(), 0));
   const Owned<playerc_wifi_t> wifi(playerc_wifi_create(robot_.get(), 0));
   PlayerCc::WiFiProxy proxy(&other_, 0);
@@ -975,7 +975,7 @@ TEST_F(PlayercSensors, LocalisationAndRadio) {
 
 // --- Other capabilities of worlds
 
-TEST_F(Playerc, Grips) {
+TEST_F(Playerc, Gripper_Grips) {
   const std::string world = folder_.write("can.json", R"({
     "arena": {"size": [4, 3], "obstacles": [
       {"name": "can", "center": [1.14, 1], "size": [0.06, 0.04], "portable": true}]},
@@ -1017,7 +1017,7 @@ TEST_F(Playerc, Grips) {
   EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_MOVING);
 }
 
-TEST_P(PlayercEverywhere, InputsAndOutputs) {
+TEST_P(PlayercEverywhere, DioAndAio_ReadAndSet) {
   const auto robot = client();
   const Owned<playerc_dio_t> dio(playerc_dio_create(robot.get(), 0));
   const Owned<playerc_aio_t> aio(playerc_aio_create(robot.get(), 0));
@@ -1040,7 +1040,7 @@ TEST_P(PlayercEverywhere, InputsAndOutputs) {
   EXPECT_EQ(playerc_aio_get_data(aio.get(), 1), 2.5F);
 }
 
-TEST_P(PlayercEverywhere, LightsAndVoices) {
+TEST_P(PlayercEverywhere, LightsAndSpeech_Work) {
   const auto robot = client();
   const Owned<playerc_blinkenlight_t> light(playerc_blinkenlight_create(robot.get(), 0));
   const Owned<playerc_speech_t> speech(playerc_speech_create(robot.get(), 0));
@@ -1064,7 +1064,7 @@ TEST_P(PlayercEverywhere, LightsAndVoices) {
   EXPECT_NEAR(light->duty_cycle, 0.25, 1e-9);
 }
 
-TEST_P(PlayercEverywhere, MessagesAreToldWhenTheyArrive) {
+TEST_P(PlayercEverywhere, OpaqueMessages_ReportedOnArrival) {
   const auto robot = client();
   const Owned<playerc_opaque_t> opaque(playerc_opaque_create(robot.get(), 0));
   ASSERT_EQ(playerc_opaque_subscribe(opaque.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
@@ -1080,7 +1080,7 @@ TEST_P(PlayercEverywhere, MessagesAreToldWhenTheyArrive) {
   EXPECT_EQ(playerc_opaque_req(opaque.get(), &message, nullptr), -1);
 }
 
-TEST_P(PlayercEverywhere, MovesThingsByName) {
+TEST_P(PlayercEverywhere, Simulation_MovesObjectsByName) {
   const auto robot = client();
   const Owned<playerc_simulation_t> simulation(playerc_simulation_create(robot.get(), 0));
   ASSERT_EQ(playerc_simulation_subscribe(simulation.get(), PLAYERC_OPEN_MODE), 0)
@@ -1131,7 +1131,7 @@ TEST_P(PlayercEverywhere, MovesThingsByName) {
   EXPECT_EQ(playerc_simulation_save(simulation.get()), -1);
 }
 
-TEST(PlayercNames, InterfacesHaveNamesAndCodes) {
+TEST(PlayercNames, Interfaces_NamesAndCodesMatch) {
   EXPECT_EQ(itable_init(), 0);
   EXPECT_STREQ(interf_to_str(PLAYER_LASER_CODE), "laser");
   EXPECT_STREQ(interf_to_str(60000), "unknown");
@@ -1154,7 +1154,7 @@ TEST(PlayercNames, InterfacesHaveNamesAndCodes) {
   EXPECT_STREQ(interf_to_str(PLAYER_LASER_CODE), "laser") << "there is nothing to destroy";
 }
 
-TEST(PlayercNames, KindsOfMessagesHaveNamesAndCodes) {
+TEST(PlayercNames, MessageKinds_NamesAndCodesMatch) {
   for (std::uint8_t code = PLAYER_MSGTYPE_DATA; code <= PLAYER_MSGTYPE_RESP_NACK; ++code) {
     EXPECT_EQ(str_to_msgtype(msgtype_to_str(code)), code);
   }
@@ -1165,7 +1165,7 @@ TEST(PlayercNames, KindsOfMessagesHaveNamesAndCodes) {
   EXPECT_EQ(str_to_msgtype(nullptr), 0xFF);
 }
 
-TEST(PlayercNames, AddressesOfHostsAreText) {
+TEST(PlayercNames, HostAddresses_Text) {
   std::uint32_t address = 0;
   ASSERT_EQ(hostname_to_packedaddr(&address, "127.0.0.1"), 0);
   std::array<char, 16> text{};
@@ -1181,7 +1181,7 @@ TEST(PlayercNames, AddressesOfHostsAreText) {
   EXPECT_EQ(hostname_to_packedaddr(&address, nullptr), -1);
 }
 
-TEST_F(Playerc, WritesALog) {
+TEST_F(Playerc, Log_Written) {
   const std::string out = folder_ / "out";
   setenv("PLAYPEN_OUT", out.c_str(), 1);
   const auto robot = client();

@@ -43,7 +43,7 @@ class OnRobot : public testing::Test {
   std::unique_ptr<Position2dProxy> truth;
 };
 
-TEST_F(OnRobot, APioneersIndexZeroStartsAtZero) {
+TEST_F(OnRobot, Pioneer_IndexZeroStartsAtZero) {
   start("pioneer2dx");
   read(1);
   expect_at(0.0, 0.0, 0.0, 1e-12);
@@ -57,7 +57,7 @@ TEST_F(OnRobot, APioneersIndexZeroStartsAtZero) {
   EXPECT_FALSE(position->GetStall());
 }
 
-TEST_F(OnRobot, ASpeedBeyondTheLimitsIsToldOnce) {
+TEST_F(OnRobot, SpeedBeyondLimit_WarnsOnce) {
   start("s1r_full");
   testing::internal::CaptureStderr();
   position->SetSpeed(0.5, 3.0);  // the limits
@@ -76,7 +76,7 @@ TEST_F(OnRobot, ASpeedBeyondTheLimitsIsToldOnce) {
       "is clamped to that (reported once)\n");
 }
 
-TEST_F(OnRobot, ATurnRateBeyondTheLimitIsToldOnce) {
+TEST_F(OnRobot, TurnRateBeyondLimit_WarnsOnce) {
   start("s1r_full");
   testing::internal::CaptureStderr();
   for (int i = 0; i < 3; ++i) position->SetSpeed(0.1, -4.0);
@@ -85,7 +85,7 @@ TEST_F(OnRobot, ATurnRateBeyondTheLimitIsToldOnce) {
             "rad/s is clamped to that (reported once)\n");
 }
 
-TEST_F(OnRobot, APioneerTellsItsGeometry) {
+TEST_F(OnRobot, Pioneer_ReportsGeometry) {
   start("pioneer2dx");
   position->RequestGeom();
   EXPECT_DOUBLE_EQ(position->GetSize().sl, 0.44);
@@ -93,7 +93,7 @@ TEST_F(OnRobot, APioneerTellsItsGeometry) {
   EXPECT_NEAR(position->GetOffset().px, -0.04, 1e-12);  // the axle is ahead of the centre
 }
 
-TEST_F(OnRobot, GoToEndsAtThePoseInTheFrameOfTheIndex) {
+TEST_F(OnRobot, GoTo_EndsAtPoseInFrameOfIndex) {
   start("pioneer2dx");
   position->GoTo(2.0, -1.0, kPi);
   read(150);
@@ -110,7 +110,7 @@ TEST_F(OnRobot, GoToEndsAtThePoseInTheFrameOfTheIndex) {
   EXPECT_NEAR(truth->GetYaw(), 0.0, 0.011);
 }
 
-TEST_F(OnRobot, GoToKeepsToItsSpeedsAndIsEndedByASpeed) {
+TEST_F(OnRobot, GoTo_KeepsSpeedsUntilSpeedCommand) {
   start("pioneer2dx");
   position->GoTo(player_pose2d_t{5.0, 0.0, 0.0}, player_pose2d_t{0.2, 0.0, 0.1});
   read(20);
@@ -121,7 +121,7 @@ TEST_F(OnRobot, GoToKeepsToItsSpeedsAndIsEndedByASpeed) {
   EXPECT_NEAR(position->GetYawSpeed(), 0.3, 1e-9);
 }
 
-TEST_F(OnRobot, GoToCountsFromOdometryAsItIsSet) {
+TEST_F(OnRobot, GoTo_UsesSetOdometry) {
   start("pioneer2dx");
   position->SetOdometry(3.0, 4.0, 0.0);
   position->GoTo(3.5, 4.0, 0.0);
@@ -130,7 +130,7 @@ TEST_F(OnRobot, GoToCountsFromOdometryAsItIsSet) {
   EXPECT_NEAR(truth->GetYPos(), 10.5, 0.011);
 }
 
-TEST_F(OnRobot, VelHeadHoldsTheHeadingWhileItDrives) {
+TEST_F(OnRobot, VelHead_HoldsHeadingWhileDriving) {
   start("pioneer2dx");
   position->SetVelHead(0.3, kPi / 2.0);
   read(100);
@@ -139,7 +139,7 @@ TEST_F(OnRobot, VelHeadHoldsTheHeadingWhileItDrives) {
   EXPECT_GT(position->GetYPos(), 2.0);
 }
 
-TEST_F(OnRobot, AnOmnidirectionalBaseGoesToItsSide) {
+TEST_F(OnRobot, OmnidirectionalBase_MovesSideways) {
   start("omni");
   position->SetSpeed(0.0, 0.4, 0.0);
   read(20);
@@ -155,7 +155,7 @@ TEST_F(OnRobot, AnOmnidirectionalBaseGoesToItsSide) {
   expect_at(-1.0, 1.0, 1.0, 0.011);
 }
 
-TEST_F(OnRobot, ACarDrivesOnTheCircleOfItsSteering) {
+TEST_F(OnRobot, Car_DrivesOnSteeringCircle) {
   start("car");
   position->SetCarlike(0.5, 0.4);
   read(20);  // the wheels are turned by now

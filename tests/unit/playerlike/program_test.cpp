@@ -29,7 +29,7 @@ using testing::Pair;
 using testing::ThrowsMessage;
 using testing::UnorderedElementsAre;
 
-TEST(RunEnvironment, RemovesWhatIsNotSet) {
+TEST(RunEnvironment, UnsetVariables_Removed) {
   EXPECT_THAT(
       run_environment("", RunSettings{}),
       UnorderedElementsAre(
@@ -51,7 +51,7 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
           Pair("PLAYPEN_DESK", std::nullopt)));
 }
 
-TEST(RunEnvironment, MakesPathsAbsolute) {
+TEST(RunEnvironment, Paths_MadeAbsolute) {
   RunSettings settings;
   settings.output_folder = "a/../out";
   settings.film = "/films/./run.mp4";
@@ -88,7 +88,7 @@ class ScopedEnvironment {
   EnvironmentChanges old_;
 };
 
-TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
+TEST(RunEnvironment, RoundTrips) {
   RunSettings settings;
   settings.seed = 18446744073709551615U;  // 2^64 - 1: a double could not hold it
   settings.duration_s = 0.1;              // no finite binary fraction: must survive the text
@@ -136,14 +136,14 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   EXPECT_EQ(world.simulation.start_gate_clients, 12);
 }
 
-TEST(RunEnvironment, LockstepIsReadBackAsLockstep) {
+TEST(RunEnvironment, Lockstep_RoundTrips) {
   RunSettings settings;
   settings.time_mode = sim::TimeMode::kLockstep;
   const ScopedEnvironment environment(run_environment("", settings));
   EXPECT_EQ(RunSettings::from_environment().time_mode, sim::TimeMode::kLockstep);
 }
 
-TEST(RunSettings, BadVariablesAreNamedWithWhatTheyHold) {
+TEST(RunSettings, InvalidVariables_NamedWithValue) {
   const EnvironmentChanges bad = {{"PLAYPEN_RECORD", "film.gif"},
                                   {"PLAYPEN_RECORD_FPS", "0"},
                                   {"PLAYPEN_RECORD_SPEED", "1001"},
@@ -170,7 +170,7 @@ TEST(RunSettings, BadVariablesAreNamedWithWhatTheyHold) {
   }
 }
 
-TEST(RunSettings, PicturesAreReadBackFromTheEnvironment) {
+TEST(RunSettings, Pictures_RoundTrip) {
   RunSettings settings;
   EXPECT_TRUE(parse_film_size("640x480", settings.pictures));
   EXPECT_TRUE(parse_follow("r1,2.5", settings.pictures));
@@ -196,7 +196,7 @@ TEST(RunSettings, PicturesAreReadBackFromTheEnvironment) {
   EXPECT_EQ(RunSettings::from_environment().pictures, settings.pictures);
 }
 
-TEST(RunSettings, BadPictureSettingsChangeNothing) {
+TEST(RunSettings, InvalidPictureSettings_ChangeNothing) {
   sim::render::RenderOptions options;
   const sim::render::RenderOptions before = options;
   for (const char* size : {"", "x", "63", "4097", "640x", "x480", "640x480x3", "640 x 480"}) {
@@ -216,7 +216,7 @@ TEST(RunSettings, BadPictureSettingsChangeNothing) {
   EXPECT_EQ(options, before);
 }
 
-TEST(RunSettings, PicturesMustShowWhatTheWorldHas) {
+TEST(RunSettings, Pictures_RequireObjectsOfWorld) {
   sim::WorldDescription world = sim::load_world_text(
       R"({"name": "small", "arena": {"size": [2, 1]}, "robots": [{"name": "r1"}]})");
   RunSettings settings;
@@ -248,7 +248,7 @@ std::vector<int> ports_from(int lowest, const std::string& world) {
   return ports;
 }
 
-TEST(RunSettings, PortMovesAllRobotsByTheSameNumber) {
+TEST(RunSettings, Port_ShiftsAllRobots) {
   using testing::ElementsAre;
   // By default 6665 and 6666.
   EXPECT_THAT(ports_from(7000, R"({"arena": {"size": [4, 4]}, "robots": [
@@ -264,7 +264,7 @@ TEST(RunSettings, PortMovesAllRobotsByTheSameNumber) {
               ElementsAre(7000, 7000));
 }
 
-TEST(RunSettings, PortOfARealRobotStaysThatOfItsServer) {
+TEST(RunSettings, PortOfRealRobot_NotShifted) {
   sim::WorldDescription world = sim::load_world_text(
       R"({"arena": {"size": [4, 4]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}}]})");
   RunSettings settings;
@@ -275,7 +275,7 @@ TEST(RunSettings, PortOfARealRobotStaysThatOfItsServer) {
   EXPECT_EQ(world.robots[0].real->port, 6665);
 }
 
-TEST(RunSettings, PortsThatRobotsCannotHaveAreRefused) {
+TEST(RunSettings, InvalidPorts_Refused) {
   const std::string world = R"({"arena": {"size": [4, 4]}, "robots": [
       {"name": "r1", "pose": {"x": 1, "y": 1}}, {"name": "r2", "pose": {"x": 3, "y": 3}}]})";
   EXPECT_THAT([&] { ports_from(65535, world); },
@@ -286,14 +286,14 @@ TEST(RunSettings, PortsThatRobotsCannotHaveAreRefused) {
                   AllOf(HasSubstr("run/port"), HasSubstr("4000"), HasSubstr("robot r2"))));
 }
 
-TEST(RunSettings, SnapshotsNeedAnOutputFolder) {
+TEST(RunSettings, Snapshots_NeedOutputFolder) {
   const ScopedEnvironment environment(
       {{"PLAYPEN_SNAPSHOT_EVERY", "1"}, {"PLAYPEN_OUT", std::nullopt}});
   EXPECT_THAT([] { static_cast<void>(RunSettings::from_environment()); },
               ThrowsMessage<sim::ConfigError>(HasSubstr("PLAYPEN_OUT beside it")));
 }
 
-TEST(RunSettings, ViewModeIsTheRunsUnlessTheWorldLocksAnother) {
+TEST(RunSettings, ViewMode_SetUnlessWorldLocksAnother) {
   RunSettings settings;
   settings.view_mode = sim::ViewMode::kFullScreen;
   settings.realism = sim::Realism::kIdeal;
@@ -311,13 +311,13 @@ TEST(RunSettings, ViewModeIsTheRunsUnlessTheWorldLocksAnother) {
           AllOf(HasSubstr("run/view_mode_locked"), HasSubstr("full-screen"), HasSubstr("ground"))));
 }
 
-TEST(FindProgram, TakesANameWithASlashAsAPath) {
+TEST(FindProgram, NameWithSlash_IsPath) {
   EXPECT_EQ(find_program("/bin/sh"), "/bin/sh");
   EXPECT_THAT([] { static_cast<void>(find_program("./no/such/program")); },
               ThrowsMessage<ProgramError>(HasSubstr("there is no program './no/such/program'")));
 }
 
-TEST(FindProgram, LooksInTheFoldersOfPathInOrder) {
+TEST(FindProgram, Path_SearchedInOrder) {
   const TemporaryFolder folder;
   for (const char* name : {"first/tool", "second/tool"}) {
     fs::permissions(folder.write(name, "#!/bin/sh\n"), fs::perms::owner_all);
@@ -331,14 +331,14 @@ TEST(FindProgram, LooksInTheFoldersOfPathInOrder) {
               ThrowsMessage<ProgramError>(HasSubstr("'tol' on the PATH")));
 }
 
-TEST(FindProgram, RefusesFoldersAndTheEmptyName) {
+TEST(FindProgram, FoldersAndEmptyName_Refused) {
   EXPECT_THAT([] { static_cast<void>(find_program("/")); },
               ThrowsMessage<ProgramError>(HasSubstr("is a folder")));
   EXPECT_THAT([] { static_cast<void>(find_program("")); },
               ThrowsMessage<ProgramError>(HasSubstr("empty")));
 }
 
-TEST(RunProgram, TellsHowItEnded) {
+TEST(RunProgram, ReportsEnd) {
   const ProgramEnd fine = run_program({"/bin/sh", "-c", "exit 0"}, {});
   EXPECT_TRUE(fine.success());
   const ProgramEnd failed = run_program({"/bin/sh", "-c", "exit 42"}, {});
@@ -350,7 +350,7 @@ TEST(RunProgram, TellsHowItEnded) {
   EXPECT_EQ(killed.text(), "was ended by signal 15 (Terminated)");
 }
 
-TEST(RunProgram, ChangesTheEnvironmentOfTheProgramAlone) {
+TEST(RunProgram, Environment_ChangedForProgramOnly) {
   const ScopedEnvironment environment({{"PLAYPEN_TEST_OLD", "old"}, {"PLAYPEN_TEST_GONE", "gone"}});
   const ProgramEnd end =
       run_program({"/bin/sh", "-c",
@@ -361,7 +361,7 @@ TEST(RunProgram, ChangesTheEnvironmentOfTheProgramAlone) {
   EXPECT_EQ(std::getenv("PLAYPEN_TEST_NEW"), nullptr);
 }
 
-TEST(RunProgram, LeavesTheSignalMaskAsItWas) {
+TEST(RunProgram, SignalMask_Kept) {
   sigset_t before;
   pthread_sigmask(SIG_BLOCK, nullptr, &before);
   EXPECT_TRUE(run_program({"/bin/sh", "-c", "exit 0"}, {}).success());
@@ -372,7 +372,7 @@ TEST(RunProgram, LeavesTheSignalMaskAsItWas) {
   }
 }
 
-TEST(RunProgram, ThrowsIfTheProgramCannotBeStarted) {
+TEST(RunProgram, ProgramThatCannotStart_Throws) {
   const TemporaryFolder folder;
   const std::string script = folder.write("script", "#!/no/such/interpreter\n");
   fs::permissions(script, fs::perms::owner_all);
@@ -427,7 +427,7 @@ class TermIgnored {
   void (*old_)(int);
 };
 
-TEST_F(RunPrograms, GivesTheEndsInTheOrderOfTheJobsAndKeepsOutputsApart) {
+TEST_F(RunPrograms, Ends_InOrderOfJobsWithSeparateOutputs) {
   const std::vector<ProgramJob> jobs = {job("echo one; echo more >&2; exit 3"), job("echo two"),
                                         job("kill -SEGV $$")};
   std::vector<std::size_t> started;
@@ -448,7 +448,7 @@ TEST_F(RunPrograms, GivesTheEndsInTheOrderOfTheJobsAndKeepsOutputsApart) {
   EXPECT_THAT(ended, testing::UnorderedElementsAre(0, 1, 2));
 }
 
-TEST_F(RunPrograms, RunsAsManyAtOnceAsToldAndNoMore) {
+TEST_F(RunPrograms, ParallelJobs_Limited) {
   std::vector<ProgramJob> jobs;
   // Each of a pair waits for the other, so the pair must run in parallel.
   for (const char* fifo : {"a", "b", "c"}) {
@@ -466,11 +466,11 @@ TEST_F(RunPrograms, RunsAsManyAtOnceAsToldAndNoMore) {
   EXPECT_EQ(running, 0);
 }
 
-TEST_F(RunPrograms, GiveNoInput) {
+TEST_F(RunPrograms, Input_Empty) {
   EXPECT_TRUE(run_programs({job("test -z \"$(cat)\"")}, {})[0].program.success());
 }
 
-TEST_F(RunPrograms, EndsWhatTakesTooLongPolitely) {
+TEST_F(RunPrograms, Timeout_SendsSigtermFirst) {
   const std::vector<JobEnd> ends = run_programs(
       {job("sleep 1000"), job("exit 0")}, {.at_once = 1, .timeout_s = 0.1, .grace_s = 1000.0});
   EXPECT_EQ(ends[0].kind, JobEnd::Kind::kTimedOut);
@@ -478,7 +478,7 @@ TEST_F(RunPrograms, EndsWhatTakesTooLongPolitely) {
   EXPECT_GE(ends[0].wall_time_s, 0.1);
 }
 
-TEST_F(RunPrograms, KillsWhatDoesNotEndWithinTheGrace) {
+TEST_F(RunPrograms, Timeout_KillsAfterGrace) {
   const TermIgnored ignored;
   const std::vector<JobEnd> ends =
       run_programs({job("sleep 1000")}, {.at_once = 1, .timeout_s = 0.1, .grace_s = 0.1});
@@ -486,13 +486,13 @@ TEST_F(RunPrograms, KillsWhatDoesNotEndWithinTheGrace) {
   EXPECT_EQ(ends[0].program.signal, SIGKILL);
 }
 
-TEST_F(RunPrograms, EndsAStoppedProgramToo) {
+TEST_F(RunPrograms, StoppedProgram_Ended) {
   const std::vector<JobEnd> ends =
       run_programs({job("kill -STOP $$")}, {.at_once = 1, .timeout_s = 0.1, .grace_s = 1000.0});
   EXPECT_EQ(ends[0].kind, JobEnd::Kind::kTimedOut);
 }
 
-TEST_F(RunPrograms, KeepTheFirstBytesOfALongOutputAndSayWhatIsMissing) {
+TEST_F(RunPrograms, LongOutput_FirstBytesKept) {
   ProgramJob loud = job("head -c 300000 /dev/zero | tr '\\0' x; exit 3");
   loud.output_limit = 1000;
   const std::vector<JobEnd> ends = run_programs({loud}, {});
@@ -502,7 +502,7 @@ TEST_F(RunPrograms, KeepTheFirstBytesOfALongOutputAndSayWhatIsMissing) {
   EXPECT_THAT(kept.substr(1000), HasSubstr("more than 1000 bytes; the last 299000 are left out"));
 }
 
-TEST_F(RunPrograms, EndAProgramWhoseFolderBecomesTooLarge) {
+TEST_F(RunPrograms, LargeFolder_EndsProgram) {
   const std::string folder = folder_ / "out";
   fs::create_directories(folder);
   ProgramJob writer = job("head -c 200000 /dev/urandom > " + folder + "/big; sleep 1000");
@@ -516,7 +516,7 @@ TEST_F(RunPrograms, EndAProgramWhoseFolderBecomesTooLarge) {
   EXPECT_EQ(ends[1].kind, JobEnd::Kind::kEnded);
 }
 
-TEST_F(RunPrograms, EndWhatHasLeftTheGroup) {
+TEST_F(RunPrograms, ProcessOutsideGroup_Ended) {
   HeldByPrograms held;
   const std::vector<JobEnd> ends =
       run_programs({job("(trap '' TERM; setsid sh -c 'sleep 1000 & sleep 1000') & exit 0")}, {});
@@ -524,7 +524,7 @@ TEST_F(RunPrograms, EndWhatHasLeftTheGroup) {
   held.wait_until_all_are_gone();
 }
 
-TEST_F(RunPrograms, AKilledSupervisorTakesItsProgramAlongAndNoOther) {
+TEST_F(RunPrograms, KilledSupervisor_EndsItsProgramOnly) {
   HeldByPrograms held;
   const std::vector<JobEnd> ends = run_programs(
       {job("(setsid sleep 1000) & kill -KILL $PPID; sleep 1000"), job("sleep 1; exit 7")}, {2});
@@ -533,14 +533,14 @@ TEST_F(RunPrograms, AKilledSupervisorTakesItsProgramAlongAndNoOther) {
   held.wait_until_all_are_gone();
 }
 
-TEST_F(RunPrograms, LeaveNothingRunningInTheirGroups) {
+TEST_F(RunPrograms, End_LeavesNothingRunning) {
   HeldByPrograms held;
   const std::vector<JobEnd> ends = run_programs({job("sleep 1000 & exit 0")}, {});
   EXPECT_TRUE(ends[0].program.success());
   held.wait_until_all_are_gone();
 }
 
-TEST_F(RunPrograms, EndEarlyWhenThisProcessIsToldTo) {
+TEST_F(RunPrograms, Signal_EndsAllEarly) {
   for (const int signal : {SIGINT, SIGTERM}) {
     int started = 0;
     const std::vector<JobEnd> ends =
@@ -555,7 +555,7 @@ TEST_F(RunPrograms, EndEarlyWhenThisProcessIsToldTo) {
   }
 }
 
-TEST_F(RunPrograms, ASecondSignalEndsTheGrace) {
+TEST_F(RunPrograms, SecondSignal_EndsGrace) {
   const TermIgnored ignored;
   const std::vector<JobEnd> ends = run_programs(
       {job("sleep 1000")}, {.at_once = 1, .timeout_s = 0.0, .grace_s = 1e6}, [](std::size_t) {
@@ -566,7 +566,7 @@ TEST_F(RunPrograms, ASecondSignalEndsTheGrace) {
   EXPECT_EQ(ends[0].program.signal, SIGKILL);
 }
 
-TEST_F(RunPrograms, ThrowWhenOneCannotBeStartedAndLeaveNoneRunning) {
+TEST_F(RunPrograms, FailedStart_ThrowsAndEndsOthers) {
   HeldByPrograms held;
   ProgramJob no_program = job("");
   no_program.command = {folder_ / "none"};
@@ -585,7 +585,7 @@ TEST_F(RunPrograms, ThrowWhenOneCannotBeStartedAndLeaveNoneRunning) {
   held.wait_until_all_are_gone();
 }
 
-TEST_F(RunPrograms, NoneAtAllIsFine) { EXPECT_THAT(run_programs({}, {}), testing::IsEmpty()); }
+TEST_F(RunPrograms, NoJobs_Accepted) { EXPECT_THAT(run_programs({}, {}), testing::IsEmpty()); }
 
 }  // namespace
 }  // namespace playerlike

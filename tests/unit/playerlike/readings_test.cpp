@@ -23,6 +23,7 @@ namespace {
 using PlayerCc::LaserProxy;
 using PlayerCc::PlayerClient;
 using PlayerCc::PlayerError;
+using PlayerCc::Position2dProxy;
 using test::FakeSession;
 using test::FakeWorld;
 
@@ -52,7 +53,7 @@ std::vector<sim::SharedReading> next(Session& session) {
   return keeper.readings;
 }
 
-TEST(SharedReading, StaysAsItIsAndIsTheSameForAll) {
+TEST(SharedReading, ConstantAndSharedByAll) {
   const auto host = Host::create(room());
   const auto one = host->connect(6665);
   const auto other = host->connect(6665);
@@ -76,7 +77,7 @@ TEST(SharedReading, StaysAsItIsAndIsTheSameForAll) {
 }
 
 // A program that reads repeatedly needs two objects: the current one, and the next.
-TEST(SharedReading, ObjectsThatNobodyHasAreUsedAgain) {
+TEST(SharedReading, UnusedObjects_Reused) {
   const auto host = Host::create(room());
   const auto session = host->connect(6665);
   session->request(SubscribeRequest{device_of(*session, "laser")});
@@ -91,7 +92,7 @@ TEST(SharedReading, ObjectsThatNobodyHasAreUsedAgain) {
   for (std::size_t i = 4; i < seen.size(); ++i) EXPECT_EQ(seen[i], seen[i - 2]) << i;
 }
 
-TEST(SharedReading, QueuedOnesAreAllDifferent) {
+TEST(SharedReading, QueuedReadings_Distinct) {
   const auto host = Host::create(room());
   const auto session = host->connect(6665);
   session->request(ReplaceRequest{std::nullopt, false});
@@ -110,40 +111,50 @@ class Looks : public testing::Test {
  protected:
   void add_scans(int count) {
     for (int i = 1; i <= count; ++i) {
-      world->add_round({{test::kLaser, test::scan(i, std::vector<double>(5, 0.001 * i))}});
+      const double number = 0.001 * i;
+      world->add_round({{test::kLaser, test::scan(i, std::vector<double>(5, number))},
+                        {test::kPose, test::pose_reading(i, {number, number, number})}});
     }
   }
   // Reads all beams until it is stopped; the number never decreases.
-  static void look(const LaserProxy& laser, const std::atomic<bool>& stop) {
+  void look(const std::atomic<bool>& stop) const {
     double last = 0.0;
+    double last_x = 0.0;
     while (!stop) {
-      for (std::uint32_t i = 0; i < 5; ++i) {
+      for (std::uint32_t i = 0; i < laser.GetCount(); ++i) {
         const double seen = laser[i];
         EXPECT_GE(seen, last);
+        EXPECT_NEAR(laser.GetBearing(i), 0.5 * i - 1.0, 1e-12);
         last = seen;
       }
+      const double x = position.GetXPos();
+      EXPECT_GE(x, last_x);
+      last_x = x;
+      EXPECT_GE(position.GetYaw(), x);
     }
   }
 
   std::shared_ptr<FakeWorld> world = test::make_fake_world();
   PlayerClient client{std::make_unique<FakeSession>(world)};
   LaserProxy laser{&client, 0};
+  Position2dProxy position{&client, 0};
 };
 
-TEST_F(Looks, OneThreadReadsAndAnotherLooks) {
+TEST_F(Looks, ReaderThread_OtherThreadSeesConsistentData) {
   constexpr int kScans = 2000;
   add_scans(kScans);
   std::atomic<bool> stop{false};
-  std::thread other([&] { look(laser, stop); });
+  std::thread other([&] { look(stop); });
   for (int i = 1; i <= kScans; ++i) {
     client.Read();
     for (std::uint32_t beam = 0; beam < 5; ++beam) EXPECT_EQ(laser[beam], 0.001 * i);
+    EXPECT_EQ(position.GetYPos(), 0.001 * i);
   }
   stop = true;
   other.join();
 }
 
-TEST_F(Looks, TheThreadThatReadChangesInTheMiddle) {
+TEST_F(Looks, ReaderThread_MayChange) {
   constexpr int kScans = 1000;
   add_scans(2 * kScans);
   for (int i = 1; i <= kScans; ++i) client.Read();
@@ -156,12 +167,12 @@ TEST_F(Looks, TheThreadThatReadChangesInTheMiddle) {
     }
     stop = true;
   });
-  look(laser, stop);  // began without the mutex
+  look(stop);  // began without the mutex
   other.join();
   EXPECT_EQ(laser[0], 0.001 * 2 * kScans);
 }
 
-TEST_F(Looks, ThreadsReadByTurns) {
+TEST_F(Looks, Threads_ReadInTurns) {
   constexpr int kScans = 1000;
   add_scans(2 * kScans);
   const auto read = [this] {
@@ -184,7 +195,7 @@ TEST_F(Looks, ThreadsReadByTurns) {
   EXPECT_GT(laser[2], 0.001 * kScans);
 }
 
-TEST_F(Looks, AnotherThreadConfigures) {
+TEST_F(Looks, Configure_FromOtherThread) {
   add_scans(1);
   client.Read();
   EXPECT_EQ(laser.GetCount(), 5U);
@@ -200,7 +211,24 @@ TEST_F(Looks, AnotherThreadConfigures) {
   EXPECT_EQ(laser[4], 0.0);  // beyond the window
 }
 
-TEST_F(Looks, CopiesAndLatecomersHaveTheirOwnSnapshots) {
+TEST_F(Looks, SoleUserAndOthers_SameBearings) {
+  add_scans(1);
+  client.Read();
+  const auto bearings = [this] {
+    std::vector<double> all;
+    for (std::uint32_t i = 0; i < 5; ++i) all.push_back(laser.GetBearing(i));
+    return all;
+  };
+  const std::vector<double> alone = bearings();  // the first with the mutex, then from the table
+  EXPECT_EQ(bearings(), alone);
+  std::vector<double> elsewhere;
+  std::thread([&] { elsewhere = bearings(); }).join();
+  EXPECT_EQ(elsewhere, alone);
+  laser.Configure(-0.6, 0.6, 0, 0, false, 10.0);  // no bearing of the old table is left
+  EXPECT_EQ(bearings(), (std::vector<double>{alone[1], alone[2], alone[3], 0.0, 0.0}));
+}
+
+TEST_F(Looks, CopiesAndLateProxies_HaveOwnSnapshots) {
   add_scans(3);
   client.Read();
   LaserProxy copy(laser);
@@ -213,7 +241,7 @@ TEST_F(Looks, CopiesAndLatecomersHaveTheirOwnSnapshots) {
   for (const LaserProxy* proxy : {&laser, &copy, &late}) EXPECT_EQ((*proxy)[1], 0.003);
 }
 
-TEST(LooksAtTheEnd, AClientThatIsGoneIsAnError) {
+TEST(LooksAtTheEnd, ClosedClient_Throws) {
   const auto world = test::make_fake_world();
   world->add_round({{test::kLaser, test::scan(1, {1, 2, 3, 4, 5})}});
   auto client = std::make_unique<PlayerClient>(std::make_unique<FakeSession>(world));
@@ -230,7 +258,7 @@ TEST(LooksAtTheEnd, AClientThatIsGoneIsAnError) {
   }
 }
 
-TEST(MorseLooks, OneThreadReadsAndAnotherLooks) {
+TEST(MorseLooks, ReaderThread_OtherThreadSeesConsistentData) {
   constexpr int kScans = 1000;
   const auto world = test::make_fake_world();
   for (int i = 1; i <= kScans; ++i) {

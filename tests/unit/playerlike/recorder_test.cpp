@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "host/recorder.h"
+#include "host/results/recorder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ struct Case {
   std::size_t frames;
 };
 
-TEST(Recorder, FilmMayBeginLater) {
+TEST(Recorder, Film_MayBeginLater) {
   // floor((0.4 - 0.25) * 25) + 1 frames: at 0.25, 0.29, 0.33 and 0.37 s.
   const TemporaryFolder folder;
   RunSettings settings;
@@ -69,7 +69,7 @@ TEST(Recorder, FilmMayBeginLater) {
   EXPECT_EQ(files_in(folder / "film").size(), 4U);
 }
 
-TEST(Recorder, AFilmThatWouldBeginAfterTheEndIsReported) {
+TEST(Recorder, FilmAfterEnd_Reported) {
   const TemporaryFolder folder;
   RunSettings settings;
   settings.film = folder / "film.mp4";
@@ -79,11 +79,11 @@ TEST(Recorder, AFilmThatWouldBeginAfterTheEndIsReported) {
   simulation.step();
   recorder.observe(simulation);
   EXPECT_THAT([&] { recorder.close_film(); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("begin at 2 s (--record-from)")));
+              ThrowsMessage<std::runtime_error>(HasSubstr("start at 2 s (--record-from)")));
   EXPECT_FALSE(fs::exists(settings.film));
 }
 
-TEST(Recorder, FilmHasAFrameForEveryPeriodAndOneForTheStart) {
+TEST(Recorder, Film_FramePerPeriodAndStart) {
   // floor(duration * fps / speed) + 1 each.
   for (const Case& c : std::vector<Case>{
            {0.4, 25.0, 1.0, 0.01, 11},   // 10 + 1
@@ -112,7 +112,7 @@ TEST(Recorder, FilmHasAFrameForEveryPeriodAndOneForTheStart) {
   }
 }
 
-TEST(Recorder, FrameShowsTheSceneOfItsTime) {
+TEST(Recorder, Frame_ShowsSceneOfItsTime) {
   const TemporaryFolder folder;
   RunSettings settings;
   settings.film = folder / "film";
@@ -135,7 +135,7 @@ TEST(Recorder, FrameShowsTheSceneOfItsTime) {
   EXPECT_FALSE(read_bytes(folder / "film/frame_000002.png") == expected);
 }
 
-TEST(Recorder, SnapshotsAreNamedByTheirTimesAndThoseOfEarlierRunsGo) {
+TEST(Recorder, Snapshots_NamedByTimeAndReplaceEarlierRuns) {
   const TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = folder.path();
@@ -154,7 +154,7 @@ TEST(Recorder, SnapshotsAreNamedByTheirTimesAndThoseOfEarlierRunsGo) {
                           "scene_000000.200s.png"));
 }
 
-TEST(Recorder, SnapshotsShowTheViewModeOfTheirTime) {
+TEST(Recorder, Snapshots_ShowViewModeOfTheirTime) {
   const TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = folder.path();
@@ -173,7 +173,7 @@ TEST(Recorder, SnapshotsShowTheViewModeOfTheirTime) {
               read_bytes(folder / "expected.png"));
 }
 
-TEST(Recorder, WithoutAPeriodThereAreNoSnapshots) {
+TEST(Recorder, NoPeriod_NoSnapshots) {
   const TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = folder.path();
@@ -183,7 +183,7 @@ TEST(Recorder, WithoutAPeriodThereAreNoSnapshots) {
   EXPECT_THAT(files_in(folder.path()), ElementsAre("trajectory.csv"));
 }
 
-TEST(Recorder, AFailureIsToldAtTheEndAndDoesNotStopTheRun) {
+TEST(Recorder, Failure_ReportedAtEndWithoutStoppingRun) {
   const TemporaryFolder folder;
   RunSettings settings;
   settings.film = folder / "film";
@@ -201,7 +201,7 @@ TEST(Recorder, AFailureIsToldAtTheEndAndDoesNotStopTheRun) {
   recorder.close_film();  // no error is left to report
 }
 
-TEST(Recorder, AFilmEndsAtItsLimitAndSaysSo) {
+TEST(Recorder, FilmLimit_EndsFilmWithMessage) {
   const TemporaryFolder folder;
   RunSettings settings;
   settings.film = folder / "film";
@@ -217,7 +217,7 @@ TEST(Recorder, AFilmEndsAtItsLimitAndSaysSo) {
   EXPECT_EQ(files_in(folder / "film").size(), 1U);
 }
 
-TEST(Recorder, AFilmThatCannotBeMadeIsAnErrorAtOnce) {
+TEST(Recorder, FilmThatCannotStart_Error) {
   const TemporaryFolder folder;
   RunSettings settings;
   settings.film = folder / "none/film.mp4";
@@ -226,7 +226,7 @@ TEST(Recorder, AFilmThatCannotBeMadeIsAnErrorAtOnce) {
               ThrowsMessage<std::runtime_error>(HasSubstr("none/film.mp4")));
 }
 
-TEST(GoalBook, KeepsGoalsWithTheTimesAtWhichTheyWereSetAndReached) {
+TEST(GoalBook, Goals_KeptWithTimesSetAndReached) {
   sim::WorldDescription world = small_world();
   sim::Simulation simulation(world);
   GoalBook book;
@@ -251,7 +251,7 @@ TEST(GoalBook, KeepsGoalsWithTheTimesAtWhichTheyWereSetAndReached) {
   EXPECT_TRUE(book.marks().back().newest);
 }
 
-TEST(GoalBook, FindsGoalsOfWaypointsAndMotors) {
+TEST(GoalBook, Goals_OfWaypointsAndMotors) {
   sim::Simulation simulation(sim::load_world_text(R"({
     "arena": {"size": [4, 4]},
     "robots": [{"name": "r1", "pose": {"x": 1, "y": 2, "yaw_deg": 0}, "devices": {"waypoint": {}}},
@@ -277,7 +277,7 @@ TEST(GoalBook, FindsGoalsOfWaypointsAndMotors) {
   EXPECT_LT(*book.goals()[1].reached_ns, simulation.now_ns());
 }
 
-TEST(Recorder, SceneHasThePlacesOfCollisions) {
+TEST(Recorder, Scene_ShowsCollisions) {
   const TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = folder.path();

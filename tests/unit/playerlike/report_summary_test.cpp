@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::ThrowsMessage;
 
-TEST(ReportSummary, ShowsTheFiguresOfTheRunAndOfEachRobot) {
+TEST(ReportSummary, ShowsFiguresOfRunAndRobots) {
   const TemporaryFolder folder;
   const std::string file = folder.write("report.json", R"({
     "run": {"sim_time": 120.0, "wall_time": 0.0251, "real_time_factor": 4780.9, "seed": 7},
@@ -33,7 +33,7 @@ TEST(ReportSummary, ShowsTheFiguresOfTheRunAndOfEachRobot) {
             "  long_name      0.00          12                0.000         3.46\n");
 }
 
-TEST(ReportSummary, NamesRobotsThatStalledForMostOfTheTimeThatTheyDrove) {
+TEST(ReportSummary, RobotsThatStalledMostly_Named) {
   const TemporaryFolder folder;
   // r1 stalled for 9 of 12 s and r2 for exactly half of its time. The driven time of r3 is too
   // short.
@@ -54,7 +54,7 @@ TEST(ReportSummary, NamesRobotsThatStalledForMostOfTheTimeThatTheyDrove) {
   EXPECT_THAT(summary, Not(HasSubstr("r3 was stalled")));
 }
 
-TEST(ReportSummary, ShowsScoresAndVerdictOfTheArenaController) {
+TEST(ReportSummary, ShowsScoresAndVerdict) {
   const TemporaryFolder folder;
   const auto summary = [&](const std::string& verdict) {
     return summarize_report(folder.write("report.json", R"({
@@ -69,7 +69,7 @@ TEST(ReportSummary, ShowsScoresAndVerdictOfTheArenaController) {
   EXPECT_THAT(summary("null"), HasSubstr("verdict: none\n"));
 }
 
-TEST(ReportSummary, NamesALevelOfRealismOtherThanTheCourses) {
+TEST(ReportSummary, UnusualRealism_Named) {
   const TemporaryFolder folder;
   const auto summary_with = [&](const std::string& level) {
     return summarize_report(folder.write(
@@ -82,7 +82,7 @@ TEST(ReportSummary, NamesALevelOfRealismOtherThanTheCourses) {
   EXPECT_THAT(summary_with("course"), HasSubstr("(seed 7)\n"));
 }
 
-TEST(ReportSummary, SaysWhyAnotherRunMayDiffer) {
+TEST(ReportSummary, NotRepeatable_ReasonsShown) {
   const TemporaryFolder folder;
   const std::string file = folder.write("report.json", R"({
     "run": {"sim_time": 1.0, "wall_time": 1.0, "real_time_factor": 1.0, "seed": 7,
@@ -91,7 +91,7 @@ TEST(ReportSummary, SaysWhyAnotherRunMayDiffer) {
   EXPECT_THAT(summarize_report(file), HasSubstr("another run may differ:\n  because\n  and so\n"));
 }
 
-TEST(ReportSummary, NamesAFileThatIsMissingOrNoReport) {
+TEST(ReportSummary, MissingOrInvalidFile_Named) {
   const TemporaryFolder folder;
   EXPECT_THAT([&] { static_cast<void>(summarize_report(folder / "none.json")); },
               ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("none.json"), HasSubstr("read"))));

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <limits>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -17,13 +17,19 @@
 
 #include "print_encoding.h"
 #include "protocol/codec.h"
+#include "protocol/field_codec.h"
+#include "protocol/request_fields.h"
+#include "random_fields.h"
 
 namespace playerlike::protocol {
 
 namespace {
 
+using test::field_of_key;
+using test::FieldText;
+using test::may_be_missing;
+using test::RandomFields;
 using testing::HasSubstr;
-using testing::IsSupersetOf;
 
 class RequestMessages : public testing::TestWithParam<Encoding> {
  protected:
@@ -38,61 +44,6 @@ INSTANTIATE_TEST_SUITE_P(Encodings, RequestMessages,
                          testing::Values(Encoding::kJson, Encoding::kCbor), [](const auto& test) {
                            return test.param == Encoding::kCbor ? "cbor" : "json";
                          });
-
-const std::vector<sim::CellValue> kCells{{0U}, {4278190335U}, {0xffffffffU}};
-const sim::LayerStyle kStyle{.name = "way \u00e9",
-                             .colour = {0x34, 0xaa, 0xff, 0x80},
-                             .transparency = 0.1,
-                             .transparent_colour = sim::Colour{1, 2, 3, 4},
-                             .priority = -5,
-                             .visible = false};
-
-/// At least one example of each named request, with and without optional members.
-std::vector<Request> examples() {
-  return {SubscribeRequest{{1, 2}},
-          UnsubscribeRequest{{0, 0}},
-          ReplaceRequest{DeviceId{1, 2}, false},
-          ReplaceRequest{std::nullopt, true},
-          TimeRequest{},
-          PreferRealTimeRequest{"a \"reason\""},
-          SetCellsRequest{3, {-1, 2, 3, 1}, kCells},
-          CellRequest{0, -7, 1 << 30},
-          CellsRequest{1 << 30},
-          CreateLayerRequest{sim::LayerKind::kGrey, kStyle},
-          RemoveLayerRequest{4},
-          SetLayerStyleRequest{0, {}},
-          LayersRequest{},
-          CanvasImageRequest{},
-          ResizeCanvasRequest{0, -3},
-          SaveImageRequest{"a", 1},
-          SaveImageRequest{"b", 64, 2},
-          SaveMapRequest{1, "c", sim::io::MapMode::kScale},
-          ViewModeRequest{},
-          SetViewModeRequest{sim::ViewMode::kFullScreen},
-          WorldMapRequest{0.1},
-          WorldMapRequest{std::numeric_limits<double>::min(), sim::CellRect{0, 1024, 5, 6}},
-          ObjectPoseRequest{"r1"},
-          PlaceObjectRequest{"r1", {1.0 / 3.0, -2.0, 0.1}},
-          ObjectPropertyRequest{"r1", "size"},
-          SetObjectPropertyRequest{"r1", "size", std::vector{0.1, 1e300}},
-          SetObjectPropertyRequest{"r1", "colour", "red"},
-          SaveStateRequest{"before the door"},
-          RestoreStateRequest{"s"},
-          NoteGoalRequest{{1, 2}, {-0.5, 1.0 / 3.0}, 0.05},
-          ParticlesRequest{{0, 3}},
-          TakeChargeRequest{{0, 3}, 0.25, true, "m"},
-          LogRequest{},
-          LogRequest{"f", true, false, true},
-          SetBlackboardRequest{"g", "k", 1, 65535, {0, 255, 10}},
-          BlackboardRequest{},
-          BlackboardRequest{7, "", "k"},
-          ArenaRequest{},
-          ArenaEventsRequest{std::uint64_t{1} << 62U},
-          SetConfigurationRequest{"open"},
-          SetBlockRequest{"gate", true},
-          SetTimerRequest{"tick", false},
-          SetTrapRequest{"home", true}};
-}
 
 /// A state of the arena without empty members.
 ArenaStatus arena_status() {
@@ -124,74 +75,87 @@ std::vector<sim::ArenaEvent> all_kinds_of_events() {
   return events;
 }
 
-/// Names of all requests that are sent as messages.
-template <typename... One>
-std::set<std::string> names(std::type_identity<std::variant<One...>>) {
-  std::set<std::string> all;
-  const auto note = [&]<typename R>(std::type_identity<R>) {
-    if constexpr (requires { R::kName; }) all.insert(R::kName);
-  };
-  (note(std::type_identity<One>{}), ...);
-  return all;
+/// Calls a function for each type of request that is sent.
+void for_each_kind(const std::function<void(std::size_t type, const RequestKind& kind)>& visit) {
+  std::size_t count = 0;
+  for (std::size_t type = 0; type < request_kinds().size(); ++type) {
+    const RequestKind& kind = request_kinds()[type];
+    if (kind.name.empty()) continue;
+    visit(type, kind);
+    ++count;
+  }
+  EXPECT_GT(count, 30U);
 }
 
-TEST_P(RequestMessages, ComeOutAsTheyWentIn) {
-  std::set<std::string> seen;
-  for (const Request& request : examples()) {
-    const json message = sent(encode_request(request, GetParam()));
-    const auto name = message.at("do").get<std::string>();
-    const auto type = find_request(name);
-    ASSERT_EQ(type, request.index()) << name;
-    const Request decoded = decode_request(*type, message, GetParam());
-    ASSERT_EQ(decoded.index(), request.index());
-    EXPECT_EQ(encode_request(decoded, GetParam()), encode_request(request, GetParam())) << name;
-    seen.insert(name);
-  }
-  EXPECT_EQ(seen, names(std::type_identity<Request>{})) << "examples() has one of each";
+Request any_request(const RequestKind& kind, RandomFields& fields) {
+  Request request = kind.make();
+  fields.fill(kind.fields(), sim::object_in(request));
+  return request;
+}
+
+TEST_P(RequestMessages, RoundTrip) {
+  RandomFields fields(1);
+  for_each_kind([&](std::size_t type, const RequestKind& kind) {
+    EXPECT_EQ(find_request(kind.name), type);
+    for (int i = 0; i < 20; ++i) {
+      const Request request = any_request(kind, fields);
+      const json message = sent(encode_request(request, GetParam()));
+      EXPECT_EQ(message.at("do"), kind.name);
+      const Request decoded = decode_request(type, message, GetParam());
+      ASSERT_EQ(decoded.index(), type);
+      EXPECT_EQ(FieldText::of(kind.fields(), sim::object_in(decoded)),
+                FieldText::of(kind.fields(), sim::object_in(request)))
+          << kind.name;
+    }
+  });
   EXPECT_FALSE(find_request(""));
   EXPECT_FALSE(find_request("nonsense"));
 }
 
-TEST_P(RequestMessages, AnswersComeOutAsTheyWentIn) {
-  const sim::OccupancyMap map{2, 1, 0.5, {1.0, -1.0}, {0.0F, 1.0F}};
-  TimeStatistics time;
-  time.sim_time_ns = 5;
-  time.duration_s = 7.5;
-  const std::vector<std::pair<Request, Answer>> all{
-      {SubscribeRequest{}, {}},
-      {CellRequest{}, std::optional(kCells[1])},
-      {CellRequest{}, std::optional<sim::CellValue>()},
-      {CellsRequest{}, kCells},
-      {CreateLayerRequest{}, sim::LayerId{7}},
-      {LayersRequest{}, std::vector<sim::LayerInfo>{{3, sim::LayerKind::kBinary, 6665, kStyle}}},
-      {CanvasImageRequest{}, CanvasImage{{1, 2, 3, 255}, {1, 1, 0.02, -1.0, 2.0}}},
-      {ResizeCanvasRequest{}, CanvasInfo{8192, 1, 0.02, -1.0, 2.0}},
-      {ViewModeRequest{}, sim::ViewMode::kMiniMap},
-      {WorldMapRequest{}, WorldMap{map}},
-      {WorldMapRequest{}, WorldMap{map, 100, 200, sim::Pose{1.0, 2.0, 0.0}}},
-      {ObjectPoseRequest{}, ObjectPose{{0.1, 0.2, 0.3}, std::int64_t{1} << 62U}},
-      {ObjectPropertyRequest{}, PropertyValue("text")},
-      {ObjectPropertyRequest{}, PropertyValue(std::vector{0.1, -0.0})},
-      {LogRequest{}, LogStatus{true, false, "f"}},
-      {ArenaRequest{}, ArenaStatus{}},
-      {ArenaRequest{}, arena_status()},
-      {ArenaEventsRequest{}, ArenaEventList{}},
-      {ArenaEventsRequest{}, ArenaEventList{all_kinds_of_events(), 40, 21}},
-      {ParticlesRequest{}, std::vector<LocalizationParticle>{}},
-      {ParticlesRequest{},
-       std::vector<LocalizationParticle>{{{0.1, -2.0, 1.0 / 3.0}, 0.25}, {{}, 0.75}}},
-      {TakeChargeRequest{}, Charge{true, false}},
-      {BlackboardRequest{}, std::vector<BlackboardEntry>{{"", "k", 1, 2, {0, 255}, 5, 6}}},
-      {TimeRequest{}, time}};
-  for (const auto& [request, answer] : all) {
-    const json message = encode_answer(request, answer, GetParam());
-    const Answer decoded = decode_answer(request, sent(message), GetParam());
-    ASSERT_EQ(decoded.index(), answer.index()) << message;
-    EXPECT_EQ(encode_answer(request, decoded, GetParam()), message);
-  }
+TEST_P(RequestMessages, Answers_RoundTrip) {
+  RandomFields fields(2);
+  for_each_kind([&](std::size_t, const RequestKind& kind) {
+    for (int i = 0; i < 5; ++i) {
+      Answer answer = kind.make_answer();
+      fields.fill(kind.answer(), sim::object_in(answer));
+      const json message = sent(encode_answer(kind.make(), answer, GetParam()));
+      const Answer decoded = decode_answer(kind.make(), message, GetParam());
+      ASSERT_EQ(decoded.index(), answer.index()) << message;
+      EXPECT_EQ(FieldText::of(kind.answer(), sim::object_in(decoded)),
+                FieldText::of(kind.answer(), sim::object_in(answer)))
+          << kind.name;
+    }
+  });
 }
 
-TEST_P(RequestMessages, HaveDefaultsForWhatMayBeLeftOut) {
+// The formats of docs/protocol.md, as bytes.
+TEST(RequestCodec, Samples_AreEncodedAsInTheReference) {
+  const auto line = [](const Request& request) {
+    return encode(encode_request(request, Encoding::kJson), Encoding::kJson);
+  };
+  EXPECT_EQ(line(SetCellsRequest{3, {-1, 2, 2, 1}, {{0U}, {4278190335U}}}),
+            R"({"cells":"AAAAAP8AAP8=","do":"set_cells","layer":3,"rect":[-1,2,2,1]})"
+            "\n");
+  EXPECT_EQ(line(ReplaceRequest{}), "{\"device\":null,\"do\":\"replace\",\"replace\":true}\n");
+  EXPECT_EQ(line(NoteGoalRequest{{1, 2}, {-0.5, 0.25}, 0.05}),
+            R"({"device":[1,2],"do":"note_goal","goal_x":-0.5,"goal_y":0.25,"tolerance":0.05})"
+            "\n");
+  EXPECT_EQ(line(LogRequest{.running = true}), "{\"do\":\"log\",\"running\":true}\n");
+  EXPECT_EQ(line(CreateLayerRequest{sim::LayerKind::kGrey, {.name = "way"}}),
+            R"({"do":"create_layer","kind":"grey","style":{"colour":"#000000","name":"way",)"
+            R"("priority":0,"transparency":0.0,"transparent_colour":null,"visible":true}})"
+            "\n");
+  const auto answer = [](const Request& request, const Answer& result) {
+    return encode(encode_answer(request, result, Encoding::kJson), Encoding::kJson);
+  };
+  EXPECT_EQ(answer(CellRequest{}, std::optional<sim::CellValue>()), "{\"cell\":null}\n");
+  EXPECT_EQ(answer(SubscribeRequest{}, {}), "{}\n");
+  EXPECT_EQ(answer(ViewModeRequest{}, sim::ViewMode::kMiniMap), "{\"mode\":\"mini-map\"}\n");
+  EXPECT_EQ(answer(TakeChargeRequest{}, Charge{true, false}),
+            "{\"stopped\":false,\"watched\":true}\n");
+}
+
+TEST_P(RequestMessages, OptionalMembers_HaveDefaults) {
   const auto read = [](const json& message) {
     const Encoding encoding = GetParam();
     return decode_request(find_request(message.at("do").get<std::string>()).value(), message,
@@ -215,7 +179,26 @@ std::string refusal(const json& message) {
   return "";
 }
 
-TEST(RequestCodec, AreRefusedForWhatIsWrongByName) {
+TEST(RequestCodec, AreRefusedWhenAnythingIsMissingWrongOrUnknown) {
+  RandomFields fields(3);
+  for_each_kind([&](std::size_t, const RequestKind& kind) {
+    json whole = encode_request(any_request(kind, fields), Encoding::kJson);
+    for (const std::string& key : keys_of(kind.fields())) {
+      const bool optional = may_be_missing(field_of_key(kind.fields(), key));
+      EXPECT_TRUE(optional || whole.contains(key)) << whole << " without " << key;
+      json changed = whole;
+      changed.erase(key);
+      EXPECT_EQ(refusal(changed).empty(), optional) << changed;
+      changed[key] = {{"wrong", nullptr}};  // of no type
+      EXPECT_NE(refusal(changed), "") << changed;
+    }
+    EXPECT_EQ(refusal(whole), "");
+    whole["unknown"] = 1;
+    EXPECT_THAT(refusal(whole), HasSubstr("the unknown key \"unknown\""));
+  });
+}
+
+TEST(RequestCodec, InvalidMembers_RefusedByName) {
   EXPECT_EQ(refusal({{"do", "object_pose"}}), "protocol/bad-value: the key \"name\" is missing");
   EXPECT_EQ(refusal({{"do", "object_pose"}, {"name", 3}}),
             "protocol/bad-value: name: expected a text, found 3");
@@ -234,7 +217,7 @@ TEST(RequestCodec, AreRefusedForWhatIsWrongByName) {
               HasSubstr("[column, row, width, height]"));
 }
 
-TEST(RequestCodec, RefuseWrongAnswersAboutTheArena) {
+TEST(RequestCodec, InvalidArenaAnswers_Refused) {
   const auto refusal_of = [](const Request& request, const json& answer) -> std::string {
     try {
       static_cast<void>(decode_answer(request, answer, Encoding::kJson));
@@ -261,7 +244,7 @@ TEST(RequestCodec, RefuseWrongAnswersAboutTheArena) {
 }
 
 // The table of docs/protocol.md: | `NAME` | `key`, `key`... | ... |
-TEST(RequestCodec, AreThoseOfTheReference) {
+TEST(RequestCodec, MatchReference) {
   std::ifstream page(PLAYPEN_SOURCE_DIR "/docs/protocol.md");
   ASSERT_TRUE(page);
   std::map<std::string, std::set<std::string>> told;
@@ -278,16 +261,12 @@ TEST(RequestCodec, AreThoseOfTheReference) {
     }
     told[match[1]];
   }
-  for (const Request& request : examples()) {
-    const json message = encode_request(request, Encoding::kJson);
-    const auto name = message.at("do").get<std::string>();
-    ASSERT_TRUE(told.contains(name)) << name;
-    std::set<std::string> keys;
-    for (const auto& [k, value] : message.items()) {
-      if (k != "do") keys.insert(k);
-    }
-    EXPECT_THAT(told[name], IsSupersetOf(keys)) << name;
-  }
+  for_each_kind([&](std::size_t, const RequestKind& kind) {
+    const std::vector<std::string> keys = keys_of(kind.fields());
+    const auto row_of_request = told.find(std::string(kind.name));
+    ASSERT_NE(row_of_request, told.end()) << kind.name;
+    EXPECT_EQ(row_of_request->second, std::set(keys.begin(), keys.end())) << kind.name;
+  });
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ sim::LaserReading scan_of(std::vector<double> ranges_m, double angle_min_rad,
 
 // Three beams at -30, 0 and 30 degrees. The middle one is the shortest, so its end is the obstacle
 // of the other two: it lies 2 cos 30 = 1.732 m along them and 2 sin 30 = 1 m beside them.
-TEST(ConfigurationSpace, EndsWhereTheDiscTouchesAnEnd) {
+TEST(ConfigurationSpace, BeamEndsWhereDiscTouchesEndpoint) {
   const auto scan = scan_of({5.0, 2.0, 5.0}, -30 * kDegree, 30 * kDegree);
   // The disc touches when it is sqrt(1.25^2 - 1^2) = 0.75 m before the nearest point.
   const auto wide = configuration_space(scan, {1.25, 1});
@@ -62,21 +62,21 @@ TEST(ConfigurationSpace, EndsWhereTheDiscTouchesAnEnd) {
   EXPECT_EQ(narrow->range_max_m, scan.range_max_m);
 }
 
-TEST(ConfigurationSpace, IsEmptyWhereTheDiscTouchesFromTheStart) {
+TEST(ConfigurationSpace, DiscTouchingAtStart_RangeZero) {
   const auto made = configuration_space(scan_of({0.3, 4.0}, 0.0, 90 * kDegree), {0.5, 1});
   EXPECT_EQ(made->ranges_m[0], 0.0);
   // The first end lies 0 m along the second beam and 0.3 m beside it.
   EXPECT_EQ(made->ranges_m[1], 0.0);
 }
 
-TEST(ConfigurationSpace, WithAStepOnlySomeBeamsAreObstacles) {
+TEST(ConfigurationSpace, Step_UsesSomeBeamsOnly) {
   const auto scan = scan_of({5.0, 2.0, 5.0}, -30 * kDegree, 30 * kDegree);
   const auto made = configuration_space(scan, {1.25, 2});  // the ends of beams 0 and 2
   EXPECT_NEAR(made->ranges_m[0], 5.0 - 1.25, 1e-12);
   EXPECT_NEAR(made->ranges_m[1], 2.0 - 1.25, 1e-12);  // each range is shortened by the radius
 }
 
-TEST(ConfigurationSpace, TakesAnEmptyScan) {
+TEST(ConfigurationSpace, EmptyScan_Accepted) {
   EXPECT_TRUE(configuration_space({}, {})->ranges_m.empty());
 }
 
@@ -87,7 +87,7 @@ sim::PoseReading pose_at(double time_s, const sim::Pose& pose) {
   return reading;
 }
 
-TEST(ScanPoses, LieOnALineBetweenTwoReadings) {
+TEST(ScanPoses, InterpolatedBetweenReadings) {
   ScanPoses poses(true);
   EXPECT_FALSE(poses.at(0).has_value());
   EXPECT_FALSE(poses.knows(0));
@@ -106,7 +106,7 @@ TEST(ScanPoses, LieOnALineBetweenTwoReadings) {
   EXPECT_EQ(poses.at(sim::from_seconds(0.5))->x_m, 1.0);
 }
 
-TEST(ScanPoses, WithoutInterpolationTheNewestCounts) {
+TEST(ScanPoses, NoInterpolation_NewestPose) {
   ScanPoses poses(false);
   poses.add(pose_at(1.0, {1.0, 2.0, 3.0}));
   poses.add(pose_at(1.1, {2.0, 0.0, -3.0}));
@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, ScanDrivers,
                          testing::Values(Transport::kInProcess, Transport::kCbor),
                          [](const auto& instance) { return transport_name(instance.param); });
 
-TEST_P(ScanDrivers, LasercspaceShortensTheScanOfItsLaser) {
+TEST_P(ScanDrivers, Lasercspace_ShortensScanOfLaser) {
   const ReachableHost host(test::patient_host(sim::load_world_text(world(kDrivers))), GetParam());
   PlayerClient client(host.connect(6665));
   LaserProxy laser(&client, 0);
@@ -157,7 +157,7 @@ TEST_P(ScanDrivers, LasercspaceShortensTheScanOfItsLaser) {
   EXPECT_LT(cspace.GetCount(), laser.GetCount());
 }
 
-TEST_P(ScanDrivers, LaserposeinterpolatorGivesThePoseOfTheScan) {
+TEST_P(ScanDrivers, Laserposeinterpolator_GivesPoseOfScan) {
   const ReachableHost host(test::patient_host(sim::load_world_text(world(kDrivers))), GetParam());
   PlayerClient client(host.connect(6665));
   LaserProxy stamped(&client, 5);
@@ -177,7 +177,7 @@ TEST_P(ScanDrivers, LaserposeinterpolatorGivesThePoseOfTheScan) {
   EXPECT_GE(scans, 8);
 }
 
-TEST_P(ScanDrivers, CopiesOfTheProxyKnowThePosesToo) {
+TEST_P(ScanDrivers, ProxyCopies_HavePoses) {
   const ReachableHost host(test::patient_host(sim::load_world_text(world(kDrivers))), GetParam());
   PlayerClient client(host.connect(6665));
   auto original = std::make_unique<LaserProxy>(&client, 5);
@@ -215,7 +215,7 @@ struct Wire final : wire::DataSink, ReadingSink {
   std::string last;
 };
 
-TEST(ScanDriversOnTheWire, LaserposeinterpolatorSendsScansWithPoses) {
+TEST(ScanDriversOnTheWire, Laserposeinterpolator_SendsScansWithPoses) {
   const auto host = test::patient_host(sim::load_world_text(world(kDrivers)));
   const auto session = host->connect(6665);
   Wire stamped(*session, 5);
@@ -233,7 +233,7 @@ TEST(ScanDriversOnTheWire, LaserposeinterpolatorSendsScansWithPoses) {
   EXPECT_EQ(message.scan.ranges.size(), 682U);
 }
 
-TEST(ScanDriversOnTheWire, LasercspaceSendsItsScan) {
+TEST(ScanDriversOnTheWire, Lasercspace_SendsScan) {
   const auto host = test::patient_host(sim::load_world_text(world(kDrivers)));
   const auto session = host->connect(6665);
   Wire cspace(*session, 1);
@@ -257,7 +257,7 @@ std::string fault(const std::string& drivers, const std::string& devices = "{}")
   return "";
 }
 
-TEST(ScanDriverEntries, AreChecked) {
+TEST(ScanDriverEntries, Checked) {
   EXPECT_EQ(fault(kDrivers), "");
   EXPECT_THAT(fault(R"([{"type": "lasercspace", "radius": 0}])"),
               AllOf(HasSubstr("world/out-of-range"), HasSubstr("/robots/0/drivers/0/radius")));
@@ -272,7 +272,7 @@ TEST(ScanDriverEntries, AreChecked) {
   EXPECT_THAT(fault(R"([{"type": "localbb", "laser": 0}])"), HasSubstr("world/unknown-key"));
 }
 
-TEST(ScanDriverEntries, ThatChangeNothingAreNoFurtherDevices) {
+TEST(ScanDriverEntries, ConvertersWithoutEffect_AddNoDevice) {
   const auto host = test::patient_host(sim::load_world_text(
       world(R"([{"type": "lasertoranger"}, {"type": "rangertolaser"}, {"type": "localbb"}])")));
   PlayerClient client(host->connect(6665));

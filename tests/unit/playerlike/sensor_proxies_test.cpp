@@ -79,7 +79,7 @@ std::string printed(const Proxy& proxy) {
   return out.str();
 }
 
-TEST_P(SensorProxies, SonarReadsRangesInTheOrderOfItsMounts) {
+TEST_P(SensorProxies, Sonar_ReadsRangesInOrderOfMounts) {
   const auto client = open(room(
       R"({"sonar": {"mounts": [{"x": 0.1}, {"y": 0.05, "yaw_deg": 90}], "range_max": 5,
           "field_of_view_deg": 15, "height": 0.12}})"));
@@ -106,7 +106,7 @@ TEST_P(SensorProxies, SonarReadsRangesInTheOrderOfItsMounts) {
   EXPECT_THAT(printed(sonar), HasSubstr("1.7\n"));
 }
 
-TEST_P(SensorProxies, IrReadsRangesAndVoltages) {
+TEST_P(SensorProxies, Ir_ReadsRangesAndVoltages) {
   const auto client =
       open(room(R"({"infrared": {"mounts": [{"x": 0.1}], "range_max": 3, "noise": 0.01}})"));
   IrProxy ir(client.get(), 0);
@@ -124,7 +124,7 @@ TEST_P(SensorProxies, IrReadsRangesAndVoltages) {
   EXPECT_THAT(printed(ir), HasSubstr("voltage"));
 }
 
-TEST_P(SensorProxies, RangerOfALaserIsOneElementWithManyRanges) {
+TEST_P(SensorProxies, LaserRanger_OneElementWithManyRanges) {
   const auto client = open(room(
       R"({"laser": {"beams": 181, "resolution_deg": 1, "range_max": 8, "pose": {"x": 0.1},
                     "size": [0.156, 0.155], "size_height": 0.21}})"));
@@ -164,7 +164,7 @@ TEST_P(SensorProxies, RangerOfALaserIsOneElementWithManyRanges) {
 
 // As a ranger of Stage states them: -fov / 2 to fov / 2, the least range, which does not change the
 // ranges, and an intensity for each range: that of echoes, and 0 without one.
-TEST_P(SensorProxies, RangersStateTheirLeastRangeViewAndIntensities) {
+TEST_P(SensorProxies, Ranger_ReportsLeastRangeViewAndIntensities) {
   const auto client = open(room(
       R"({"laser": {"beams": 3, "resolution_deg": 90, "range_max": 1.8, "pose": {"x": 0.1},
                     "range_min": 1.75, "intensity": 1},
@@ -185,7 +185,7 @@ TEST_P(SensorProxies, RangersStateTheirLeastRangeViewAndIntensities) {
   EXPECT_EQ(sonar.GetIntensity(0), 0.0);  // the block is 1.7 m away
 }
 
-TEST_P(SensorProxies, RangerIsCroppedByConfigure) {
+TEST_P(SensorProxies, Ranger_CroppedByConfigure) {
   const auto client = open(room(
       R"({"laser": {"beams": 181, "resolution_deg": 1, "range_max": 8, "pose": {"x": 0.1}}})"));
   RangerProxy ranger(client.get());
@@ -215,7 +215,7 @@ TEST_P(SensorProxies, RangerIsCroppedByConfigure) {
             PlayerError::kBadArgument);
 }
 
-TEST_P(SensorProxies, SettingsAreThoseOfConfigureRightAfterIt) {
+TEST_P(SensorProxies, Configure_SettingsApplyAtOnce) {
   const auto client = open(room(R"({"laser": {"beams": 181, "resolution_deg": 1}})"));
   RangerProxy ranger(client.get());
   LaserProxy laser(client.get());
@@ -241,7 +241,7 @@ TEST_P(SensorProxies, SettingsAreThoseOfConfigureRightAfterIt) {
 constexpr const char* kThreeRangers =
     R"({"infrared": {}, "sonar": {"mounts": [{"x": 0.1, "yaw_deg": 30}, {"x": 0.2}]}})";
 
-TEST_P(SensorProxies, SonarShowsTheNewestReading) {
+TEST_P(SensorProxies, Sonar_ShowsNewestReading) {
   const auto client = open(room(R"({"sonar": {"mounts": [{}], "range_max": 5}})"));
   SonarProxy sonar(client.get(), 0);
   Position2dProxy position(client.get(), 0);
@@ -253,7 +253,7 @@ TEST_P(SensorProxies, SonarShowsTheNewestReading) {
   EXPECT_LT(sonar[0], 1.65);  // 2 cm nearer with each reading
 }
 
-TEST_P(SensorProxies, RangersAreCountedLaserSonarInfrared) {
+TEST_P(SensorProxies, RangerIndices_LaserSonarInfrared) {
   const auto client = open(room(kThreeRangers));
   EXPECT_EQ(RangerProxy(client.get(), 0).GetDriverName(), "laser");
   EXPECT_EQ(RangerProxy(client.get(), 1).GetDriverName(), "sonar");
@@ -267,7 +267,7 @@ TEST_P(SensorProxies, RangersAreCountedLaserSonarInfrared) {
   }
 }
 
-TEST_P(SensorProxies, RangersHaveTheOrderThatTheWorldGives) {
+TEST_P(SensorProxies, RangerIndices_FollowWorld) {
   const auto client =
       open(room(kThreeRangers, R"(, "interfaces": {"ranger": ["sonar", "laser"]})"));
   RangerProxy ranger(client.get(), 0);
@@ -290,7 +290,7 @@ TEST_P(SensorProxies, RangersHaveTheOrderThatTheWorldGives) {
   EXPECT_EQ(ranger[1], 1.0);
 }
 
-TEST(InterfaceOrders, AreRefusedWhereTheDeviceHasNoSuchInterface) {
+TEST(InterfaceOrders, MissingInterface_Refused) {
   const auto issues = [](const std::string& interfaces) {
     try {
       static_cast<void>(
@@ -308,13 +308,13 @@ TEST(InterfaceOrders, AreRefusedWhereTheDeviceHasNoSuchInterface) {
   EXPECT_EQ(issues(R"({"position2d": ["odometry"]})"), "none");
 }
 
-TEST_P(SensorProxies, OrdersHoldForPositionsToo) {
+TEST_P(SensorProxies, Orders_ApplyToPositions) {
   const auto client = open(room("{}", R"(, "interfaces": {"position2d": ["odometry"]})"));
   EXPECT_EQ(Position2dProxy(client.get(), 0).GetDriverName(), "odometry");
   EXPECT_EQ(Position2dProxy(client.get(), 1).GetDriverName(), "pose");
 }
 
-TEST_P(SensorProxies, BumperTellsWhatIsPressed) {
+TEST_P(SensorProxies, Bumper_ReportsPressedSegments) {
   const auto client = open(room(R"({"bumper": {"segments": [
       {"x": 0.087, "y": 0.03, "length": 0.06}, {"x": 0.087, "y": -0.03, "length": 0.06},
       {"x": -0.08, "yaw_deg": 180, "length": 0.1, "radius": 0.2}]}})"));
@@ -341,7 +341,7 @@ TEST_P(SensorProxies, BumperTellsWhatIsPressed) {
   EXPECT_THAT(printed(bumper), HasSubstr("pressed"));
 }
 
-TEST_P(SensorProxies, BumperOfADefaultHasASegmentASide) {
+TEST_P(SensorProxies, DefaultBumper_HasSegmentPerSide) {
   const auto client = open(room(R"({"bumper": {}})"));
   BumperProxy bumper(client.get(), 0);
   ASSERT_EQ(bumper.GetPoseCount(), 8U);
@@ -349,7 +349,7 @@ TEST_P(SensorProxies, BumperOfADefaultHasASegmentASide) {
   EXPECT_FLOAT_EQ(bumper.GetPose(0).length, 0.09F);
 }
 
-TEST_P(SensorProxies, PowerTellsTheBattery) {
+TEST_P(SensorProxies, Power_ReportsBattery) {
   const auto client = open(room(R"({"battery": {"initial_charge": 50, "capacity": 10}})"));
   PowerProxy power(client.get(), 0);
   Position2dProxy position(client.get(), 0);
@@ -369,7 +369,7 @@ TEST_P(SensorProxies, PowerTellsTheBattery) {
   EXPECT_THAT(printed(power), HasSubstr("power [W]"));
 }
 
-TEST_P(SensorProxies, FiducialTellsTheMarksInView) {
+TEST_P(SensorProxies, Fiducial_ReportsVisibleMarks) {
   const auto client =
       open(room(R"({"fiducial": {"pose": {"x": 0.1}, "noise": 1e-9, "noise_yaw_deg": 1e-9}})"));
   FiducialProxy finder(client.get(), 0);
@@ -390,7 +390,7 @@ TEST_P(SensorProxies, FiducialTellsTheMarksInView) {
   EXPECT_THAT(printed(finder), HasSubstr("\n7\t"));
 }
 
-TEST_P(SensorProxies, BlobfinderTellsTheBlobsInView) {
+TEST_P(SensorProxies, Blobfinder_ReportsVisibleBlobs) {
   const auto client = open(room(R"({"blobfinder": {"height": 0.1}})"));
   BlobfinderProxy finder(client.get(), 0);
   EXPECT_EQ(finder.GetCount(), 0U);
@@ -417,7 +417,7 @@ TEST_P(SensorProxies, BlobfinderTellsTheBlobsInView) {
   EXPECT_THAT(printed(finder), HasSubstr("\n#ff8000\t96\t40\t31\t32\t47\t28\t33\t1.8"));
 }
 
-TEST_P(SensorProxies, PtzTurnsWhatSitsOnIt) {
+TEST_P(SensorProxies, Ptz_TurnsMountedDevice) {
   const auto client = open(room(R"({"ptz": {}, "blobfinder": {"height": 0.1, "ptz": "ptz"}})"));
   PtzProxy head(client.get(), 0);
   BlobfinderProxy finder(client.get(), 0);
@@ -450,7 +450,7 @@ TEST_P(SensorProxies, PtzTurnsWhatSitsOnIt) {
   EXPECT_THAT(printed(head), HasSubstr("\n0.25\t"));
 }
 
-TEST_P(SensorProxies, CameraHandsOverPictures) {
+TEST_P(SensorProxies, Camera_DeliversPictures) {
   const auto client = open(room(R"({"camera": {"height": 0.1, "image": [80, 40]}})"));
   CameraProxy camera(client.get(), 0);
   EXPECT_EQ(camera.GetWidth(), 80U);
@@ -487,7 +487,7 @@ TEST_P(SensorProxies, CameraHandsOverPictures) {
   EXPECT_THAT(printed(camera), HasSubstr("\n80\t40\t24\t5\t0\t9600\n"));
 }
 
-TEST_P(SensorProxies, GpsTellsThePlaceOnTheEarth) {
+TEST_P(SensorProxies, Gps_ReportsPosition) {
   const auto client = open(room(R"({"gps": {"noise_vertical": 1e-9, "satellites": 6}})"));
   GpsProxy gps(client.get(), 0);
   Position2dProxy position(client.get(), 0);
@@ -513,7 +513,7 @@ TEST_P(SensorProxies, GpsTellsThePlaceOnTheEarth) {
   EXPECT_THAT(printed(gps), HasSubstr("50.0764"));
 }
 
-TEST_P(SensorProxies, ImuTellsMotionAndOrientation) {
+TEST_P(SensorProxies, Imu_ReportsMotionAndOrientation) {
   const auto client = open(room(R"({"imu": {}})"));
   ImuProxy imu(client.get(), 0);
   Position2dProxy position(client.get(), 0);
@@ -553,7 +553,7 @@ TEST_P(SensorProxies, ImuTellsMotionAndOrientation) {
   EXPECT_THAT(printed(imu), HasSubstr("9.80665"));
 }
 
-TEST_P(SensorProxies, MorsesClassesTellTheSameAsPlayers) {
+TEST_P(SensorProxies, MorseClasses_MatchPlayerProxies) {
   const auto client = open(room(R"({"gps": {}, "imu": {}})"));
   GpsProxy gps(client.get(), 0);
   ImuProxy imu(client.get(), 0);
@@ -577,7 +577,7 @@ TEST_P(SensorProxies, MorsesClassesTellTheSameAsPlayers) {
   EXPECT_EQ(morse_imu.GetYaw(), imu.GetPose().pyaw);
 }
 
-TEST_P(SensorProxies, WifiTellsItsLinks) {
+TEST_P(SensorProxies, Wifi_ReportsLinks) {
   const auto client =
       open(room(R"({"wifi": {"access_points": [{"name": "hall", "x": 1, "y": 2.5}]}})"));
   WiFiProxy wifi(client.get(), 0);
@@ -606,7 +606,7 @@ TEST_P(SensorProxies, WifiTellsItsLinks) {
   EXPECT_THAT(printed(wifi), HasSubstr("hall\t10.1.0.1\t-31"));
 }
 
-TEST_P(SensorProxies, ADeviceThatTheRobotLacksIsNamedWithThoseThereAre) {
+TEST_P(SensorProxies, MissingDevice_ErrorListsExisting) {
   const auto client = open(room("{}"));
   try {
     SonarProxy sonar(client.get(), 0);

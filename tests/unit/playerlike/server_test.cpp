@@ -220,7 +220,7 @@ class ServerTest : public testing::Test {
   std::unique_ptr<ServerHub> hub;
 };
 
-TEST_F(ServerTest, AnswersEachConnectionFromItsOwnHandler) {
+TEST_F(ServerTest, Connections_HaveOwnHandlers) {
   start();
   EXPECT_GT(hub->port(), 0);
   RawClient one = connect();
@@ -233,7 +233,7 @@ TEST_F(ServerTest, AnswersEachConnectionFromItsOwnHandler) {
   EXPECT_EQ(handlers, 2);
 }
 
-TEST_F(ServerTest, TakesMessagesApartHoweverTheyCome) {
+TEST_F(ServerTest, Messages_SplitInAnyPieces) {
   start();
   RawClient client = connect();
   client.send("echo 1\necho 2\r\nec");
@@ -247,7 +247,7 @@ TEST_F(ServerTest, TakesMessagesApartHoweverTheyCome) {
   for (int i = 0; i < 5000; ++i) ASSERT_EQ(client.line(), "echo " + std::to_string(i));
 }
 
-TEST_F(ServerTest, WhatWasAskedBeforeTheClientStoppedSendingIsAnswered) {
+TEST_F(ServerTest, HalfClosedConnection_PendingRequestsAnswered) {
   start();
   RawClient client = connect();
   client.send("echo 1\necho 2\nec");
@@ -258,7 +258,7 @@ TEST_F(ServerTest, WhatWasAskedBeforeTheClientStoppedSendingIsAnswered) {
   wait_until_empty();
 }
 
-TEST_F(ServerTest, WhatClientsCallThemselvesStaysInItsLineOfTheLog) {
+TEST_F(ServerTest, ClientNames_EscapedInLog) {
   start();
   RawClient client = connect();
   client.send("name\n");
@@ -269,7 +269,7 @@ TEST_F(ServerTest, WhatClientsCallThemselvesStaysInItsLineOfTheLog) {
   EXPECT_LT(line.size(), 400U);
 }
 
-TEST_F(ServerTest, HandsAConnectionOverAndChangesItsEncodingBetweenMessages) {
+TEST_F(ServerTest, Handover_MayChangeEncoding) {
   start();
   RawClient client = connect();
   // Two handlers are never in charge of one connection: input held by the first one is discarded.
@@ -283,7 +283,7 @@ TEST_F(ServerTest, HandsAConnectionOverAndChangesItsEncodingBetweenMessages) {
   EXPECT_EQ(client.line(), "echo 5");
 }
 
-TEST_F(ServerTest, ClosesWithAFarewellWhenTheHandlerSaysSo) {
+TEST_F(ServerTest, Handler_ClosesWithFarewell) {
   start();
   RawClient client = connect();
   client.send("echo 1\nbye\necho 2\n");
@@ -291,7 +291,7 @@ TEST_F(ServerTest, ClosesWithAFarewellWhenTheHandlerSaysSo) {
   wait_until_empty();
 }
 
-TEST_F(ServerTest, AFaultOfAHandlerEndsItsConnectionOnly) {
+TEST_F(ServerTest, FaultyHandler_EndsItsConnectionOnly) {
   start();
   RawClient other = connect();
   RawClient broken = connect();
@@ -304,7 +304,7 @@ TEST_F(ServerTest, AFaultOfAHandlerEndsItsConnectionOnly) {
   EXPECT_EQ(other.line(), "echo 1");
 }
 
-TEST_F(ServerTest, SpeaksIPv6AndNamesOfTheMachine) {
+TEST_F(ServerTest, Ipv6AndHostNames_Accepted) {
   if (!RawClient::has_ipv6()) GTEST_SKIP() << "no IPv6 here";
   settings.bind = "::1";
   start();
@@ -332,7 +332,7 @@ std::vector<sim::ConfigIssue> issues_of(const std::function<void()>& action) {
   return {};
 }
 
-TEST_F(ServerTest, APortThatIsTakenIsAClearError) {
+TEST_F(ServerTest, PortInUse_ErrorNamesIt) {
   start();
   settings.port = hub->port();
   const auto issues = issues_of([&] { ServerHub second(make_host(), settings, {}, {}); });
@@ -343,7 +343,7 @@ TEST_F(ServerTest, APortThatIsTakenIsAClearError) {
   expect_alive();
 }
 
-TEST_F(ServerTest, APortIsFreeAgainAtOnce) {
+TEST_F(ServerTest, ClosedPort_FreeAtOnce) {
   start();
   RawClient client = connect();
   client.send("echo 1\n");
@@ -354,7 +354,7 @@ TEST_F(ServerTest, APortIsFreeAgainAtOnce) {
   expect_alive();
 }
 
-TEST_F(ServerTest, AnAddressThatIsNotThisMachinesIsAClearError) {
+TEST_F(ServerTest, ForeignAddress_ErrorNamesIt) {
   settings.open = true;
   for (const char* address : {"203.0.113.7", "no.such.name.invalid", "", "1.2.3"}) {
     settings.bind = address;
@@ -364,7 +364,7 @@ TEST_F(ServerTest, AnAddressThatIsNotThisMachinesIsAClearError) {
   }
 }
 
-TEST_F(ServerTest, OtherMachinesNeedAToken) {
+TEST_F(ServerTest, OtherMachines_NeedToken) {
   settings.bind = "0.0.0.0";
   const auto issues = issues_of([&] { start(); });
   ASSERT_THAT(issues, SizeIs(1));
@@ -379,7 +379,7 @@ TEST_F(ServerTest, OtherMachinesNeedAToken) {
   expect_alive();
 }
 
-TEST_F(ServerTest, FurtherPortsAreOpenedFromTheirFirstOneUp) {
+TEST_F(ServerTest, FurtherPorts_CountUpFromFirst) {
   start();
   RawClient client = connect();
   client.send("open 0\n");
@@ -391,7 +391,7 @@ TEST_F(ServerTest, FurtherPortsAreOpenedFromTheirFirstOneUp) {
   EXPECT_GT(std::stoi(client.line().substr(5)), first);
 }
 
-TEST_F(ServerTest, ClockSynchronisationLetsAStepPassForEachMessage) {
+TEST_F(ServerTest, ClockSynchronisation_StepsPerMessage) {
   settings.sync_port = 0;
   start();
   ASSERT_GT(hub->sync_port(), 0);
@@ -411,7 +411,7 @@ TEST_F(ServerTest, ClockSynchronisationLetsAStepPassForEachMessage) {
 
 // --- Time
 
-TEST_F(ServerTest, LockstepTimeGoesOnWhenAClientWaits) {
+TEST_F(ServerTest, Lockstep_AdvancesWhenClientWaits) {
   start();
   RawClient client = connect();
   client.send("join\n");
@@ -423,7 +423,7 @@ TEST_F(ServerTest, LockstepTimeGoesOnWhenAClientWaits) {
   EXPECT_EQ(host->time().steps, 500U);
 }
 
-TEST_F(ServerTest, ClientsWaitForOneAnotherAndNotForOneThatIsGone) {
+TEST_F(ServerTest, Lockstep_AwaitsEachConnectedClient) {
   start(make_host(R"({"clients": 2})"));
   RawClient one = connect();
   RawClient two = connect();
@@ -438,7 +438,7 @@ TEST_F(ServerTest, ClientsWaitForOneAnotherAndNotForOneThatIsGone) {
   EXPECT_EQ(one.line(), "200 ms, 1");
 }
 
-TEST_F(ServerTest, ClientsThatWaitAreToldOfTheEnd) {
+TEST_F(ServerTest, EndOfRun_SentToWaitingClients) {
   start(make_host(R"({"duration": 0.25})"));
   RawClient client = connect();
   client.send("join\nread\nread\nread\n");
@@ -452,7 +452,7 @@ TEST_F(ServerTest, ClientsThatWaitAreToldOfTheEnd) {
   EXPECT_TRUE(hub->done());
 }
 
-TEST_F(ServerTest, PacedTimeAnswersFromItsOwnThread) {
+TEST_F(ServerTest, PacedTime_AnswersFromItsThread) {
   start(make_host(R"({"time": "real"})"));
   RawClient client = connect();
   client.send("join\nread\nread\n");
@@ -460,7 +460,7 @@ TEST_F(ServerTest, PacedTimeAnswersFromItsOwnThread) {
   EXPECT_THAT(client.line(), HasSubstr(" ms, 1"));
 }
 
-TEST_F(ServerTest, QuitMeansDone) {
+TEST_F(ServerTest, Quit_EndsServer) {
   start();
   RawClient client = connect();
   EXPECT_FALSE(hub->done());
@@ -469,7 +469,7 @@ TEST_F(ServerTest, QuitMeansDone) {
   EXPECT_TRUE(hub->done());
 }
 
-TEST_F(ServerTest, SaysGoodByeWhenItStops) {
+TEST_F(ServerTest, Stop_SendsGoodbye) {
   start();
   RawClient client = connect();
   RawClient silent = connect();
@@ -484,7 +484,7 @@ TEST_F(ServerTest, SaysGoodByeWhenItStops) {
 
 // --- Limits
 
-TEST_F(ServerTest, AMessageThatIsTooLongClosesItsConnection) {
+TEST_F(ServerTest, LongMessage_ClosesItsConnection) {
   settings.limits.message_bytes = 1000;
   start();
   RawClient client = connect();
@@ -494,7 +494,7 @@ TEST_F(ServerTest, AMessageThatIsTooLongClosesItsConnection) {
   expect_alive();
 }
 
-TEST_F(ServerTest, FurtherConnectionsAreRefusedWithALine) {
+TEST_F(ServerTest, FurtherConnections_RefusedWithLine) {
   settings.limits.connections = 2;
   start();
   RawClient one = connect();
@@ -515,7 +515,7 @@ TEST_F(ServerTest, FurtherConnectionsAreRefusedWithALine) {
   }
 }
 
-TEST_F(ServerTest, NoMoreIsReadWhileTooManyRequestsAreInFlight) {
+TEST_F(ServerTest, RequestsInFlight_Limited) {
   settings.limits.requests_in_flight = 3;
   start();
   RawClient client = connect();
@@ -526,7 +526,7 @@ TEST_F(ServerTest, NoMoreIsReadWhileTooManyRequestsAreInFlight) {
   EXPECT_EQ(client.line(), "echo 1");
 }
 
-TEST_F(ServerTest, AClientThatLeavesWithItsRequestsInFlightIsNoticed) {
+TEST_F(ServerTest, ClientThatLeavesWithRequestsInFlight_Detected) {
   settings.limits.requests_in_flight = 1;
   start();
   RawClient client = connect();
@@ -536,7 +536,7 @@ TEST_F(ServerTest, AClientThatLeavesWithItsRequestsInFlightIsNoticed) {
   wait_until_empty();
 }
 
-TEST_F(ServerTest, TheFirstRequestMustComeInTime) {
+TEST_F(ServerTest, FirstRequest_HasTimeLimit) {
   settings.limits.first_request_s = 0.2;
   start();
   RawClient client = connect();
@@ -544,7 +544,7 @@ TEST_F(ServerTest, TheFirstRequestMustComeInTime) {
   wait_until_empty();
 }
 
-TEST_F(ServerTest, ARequestMustBeWholeInTime) {
+TEST_F(ServerTest, PartialRequest_HasTimeLimit) {
   settings.limits.partial_request_s = 0.2;
   start();
   RawClient client = connect();
@@ -554,7 +554,7 @@ TEST_F(ServerTest, ARequestMustBeWholeInTime) {
   wait_until_empty();
 }
 
-TEST_F(ServerTest, AByteNowAndThenDoesNotMakeARequestWhole) {
+TEST_F(ServerTest, SlowBytes_DoNotExtendTimeLimit) {
   settings.limits.partial_request_s = 0.3;
   start();
   RawClient client = connect();
@@ -564,7 +564,7 @@ TEST_F(ServerTest, AByteNowAndThenDoesNotMakeARequestWhole) {
   EXPECT_THAT(log.wait_for("closed"), HasSubstr("server/partial-request"));
 }
 
-TEST_F(ServerTest, IdleClientsAreClosedIfThatIsWanted) {
+TEST_F(ServerTest, IdleClients_ClosedIfRequested) {
   settings.limits.idle_s = 0.2;
   start();
   RawClient client = connect();
@@ -573,7 +573,7 @@ TEST_F(ServerTest, IdleClientsAreClosedIfThatIsWanted) {
   EXPECT_EQ(client.rest(), "closed: server/idle\n");
 }
 
-TEST_F(ServerTest, HandlersMayAllowSilence) {
+TEST_F(ServerTest, Handlers_MayAllowSilence) {
   settings.limits.first_request_s = 0.2;
   start();
   std::optional<RawClient> client;
@@ -590,7 +590,7 @@ TEST_F(ServerTest, HandlersMayAllowSilence) {
   EXPECT_EQ(stream.line(), "echo 1");
 }
 
-TEST_F(ServerTest, HandlersMayTakeBytesAsTheyCome) {
+TEST_F(ServerTest, Handlers_MayTakeRawBytes) {
   settings.limits.message_bytes = 10;
   settings.limits.partial_request_s = 0.1;
   start();
@@ -603,7 +603,7 @@ TEST_F(ServerTest, HandlersMayTakeBytesAsTheyCome) {
   }
 }
 
-TEST_F(ServerTest, ASlowReaderLosesRecords) {
+TEST_F(ServerTest, SlowReader_LosesRecords) {
   settings.limits.queued_bytes = 1 << 20;
   start();
   RawClient client = connect();
@@ -622,7 +622,7 @@ TEST_F(ServerTest, ASlowReaderLosesRecords) {
   EXPECT_THAT(log.wait_for("closed"), HasSubstr(std::to_string(500 - records) + " records lost"));
 }
 
-TEST_F(ServerTest, AnswersThatNobodyReadsCloseTheirConnection) {
+TEST_F(ServerTest, UnreadAnswers_CloseConnection) {
   settings.limits.queued_bytes = 1 << 20;
   start();
   RawClient client = connect();
@@ -632,7 +632,7 @@ TEST_F(ServerTest, AnswersThatNobodyReadsCloseTheirConnection) {
   expect_alive();
 }
 
-TEST_F(ServerTest, ASlowReaderIsAskedToReadBeforeMoreOfItsRequestsAreTaken) {
+TEST_F(ServerTest, SlowReader_RequestsHeldBack) {
   settings.limits.queued_bytes = 1 << 20;
   start();
   RawClient client = connect();
@@ -643,7 +643,7 @@ TEST_F(ServerTest, ASlowReaderIsAskedToReadBeforeMoreOfItsRequestsAreTaken) {
   for (int i = 0; i < 200; ++i) ASSERT_EQ(client.line().size(), 400'000U) << i;
 }
 
-TEST_F(ServerTest, OneAnswerMayBeLargerThanTheQueue) {
+TEST_F(ServerTest, SingleAnswer_MayExceedQueue) {
   settings.limits.queued_bytes = 1 << 16;
   start();
   RawClient client = connect();
@@ -651,7 +651,7 @@ TEST_F(ServerTest, OneAnswerMayBeLargerThanTheQueue) {
   EXPECT_EQ(client.line().size(), 20'000'000U);
 }
 
-TEST_F(ServerTest, AClientThatReadsNothingDoesNotHoldUpTheOthers) {
+TEST_F(ServerTest, ClientThatReadsNothing_BlocksNobody) {
   start();
   RawClient stuck = connect();
   stuck.send("flood 100\n");
@@ -661,7 +661,7 @@ TEST_F(ServerTest, AClientThatReadsNothingDoesNotHoldUpTheOthers) {
   EXPECT_EQ(other.line(), "100 ms, 1");
 }
 
-TEST_F(ServerTest, JunkIsAnsweredOrClosedAndTheOthersNoticeNothing) {
+TEST_F(ServerTest, RandomBytes_AnsweredOrClosedWithoutEffectOnOthers) {
   settings.limits.message_bytes = 4096;
   start();
   RawClient other = connect();
@@ -682,7 +682,7 @@ TEST_F(ServerTest, JunkIsAnsweredOrClosedAndTheOthersNoticeNothing) {
 }
 
 // When descriptors run out, new connections wait: none is lost, and the server does not spin.
-TEST_F(ServerTest, WaitsUntilTheSystemHasDescriptorsAgain) {
+TEST_F(ServerTest, NoDescriptors_WaitsForFreeOnes) {
   start();
   RawClient before = connect();
   before.send("echo 0\n");
@@ -704,7 +704,7 @@ TEST_F(ServerTest, WaitsUntilTheSystemHasDescriptorsAgain) {
   EXPECT_EQ(late.line(), "echo 2");
 }
 
-TEST_F(ServerTest, ManyConnectionsComeAndGoWithoutLeavingAnything) {
+TEST_F(ServerTest, ManyConnections_LeaveNothing) {
   settings.limits.connections = 300;
   start(make_host(R"({"time": "real"})"));
   expect_alive();
@@ -748,7 +748,7 @@ RobotInfo robot(const std::string& name) {
   return info;
 }
 
-TEST(Access, WithoutTokensEverythingIsAllowed) {
+TEST(Access, NoTokens_AllowsEverything) {
   const Rights rights = Access({}, {robot("r1"), robot("r2")}).rights({});
   EXPECT_TRUE(rights.connect);
   EXPECT_TRUE(rights.watch);
@@ -756,7 +756,7 @@ TEST(Access, WithoutTokensEverythingIsAllowed) {
   EXPECT_TRUE(rights.command_all());
 }
 
-TEST(Access, TheServersTokenIsForRobotsThatHaveNone) {
+TEST(Access, ServerToken_CoversRobotsWithoutToken) {
   AccessSettings settings;
   settings.server_token = "the server's";
   settings.robot_tokens = {{"r2", "the robot's"}};
@@ -780,7 +780,7 @@ TEST(Access, TheServersTokenIsForRobotsThatHaveNone) {
   EXPECT_TRUE(access.rights({"the robot's", "the server's"}).command_all());
 }
 
-TEST(Access, WatchingMayBeOpen) {
+TEST(Access, Watching_MayBeOpen) {
   AccessSettings settings;
   settings.server_token = "the server's";
   settings.open_watching = true;
@@ -790,7 +790,7 @@ TEST(Access, WatchingMayBeOpen) {
   EXPECT_FALSE(rights.command_all());
 }
 
-TEST(Access, ALongListOfTokensIsNotReadToItsEnd) {
+TEST(Access, LongTokenList_NotReadToEnd) {
   AccessSettings settings;
   settings.server_token = "the server's";
   std::vector<std::string> tokens(1000, "a guess..");
@@ -798,7 +798,7 @@ TEST(Access, ALongListOfTokensIsNotReadToItsEnd) {
   EXPECT_FALSE(Access(settings, {robot("r1")}).rights(tokens).connect);
 }
 
-TEST(Access, RobotsThatAreNotThereAreAnError) {
+TEST(Access, UnknownRobots_Error) {
   AccessSettings settings;
   settings.file = "tokens.json";
   settings.robot_tokens = {{"r1", "12345678"}, {"R2", "12345678"}};
@@ -810,7 +810,7 @@ TEST(Access, RobotsThatAreNotThereAreAnError) {
   EXPECT_THAT(issues[0].expected, HasSubstr("r1, r2"));
 }
 
-TEST(TokenFile, IsRead) {
+TEST(TokenFile, Read) {
   const TemporaryFolder folder;
   const AccessSettings settings = read_token_file(folder.write(
       "tokens.json",
@@ -820,7 +820,7 @@ TEST(TokenFile, IsRead) {
   EXPECT_TRUE(settings.open_watching);
 }
 
-TEST(TokenFile, AllThatIsWrongIsToldWithoutShowingTokens) {
+TEST(TokenFile, Faults_ReportedWithoutTokens) {
   const TemporaryFolder folder;
   const std::string file = folder.write("tokens.json", R"({"server": "short",
     "robots": {"r1": "with blank", "r2": 12345678}, "open_watching": 1, "sever": "x"})");
@@ -839,7 +839,7 @@ TEST(TokenFile, AllThatIsWrongIsToldWithoutShowingTokens) {
             "file/missing");
 }
 
-TEST(TokenFile, WarnsOfShortTokensWithoutShowingThem) {
+TEST(TokenFile, ShortTokens_WarnWithoutShowingThem) {
   const TemporaryFolder folder;
   const std::string file = folder.write(
       "tokens.json",
@@ -853,7 +853,7 @@ TEST(TokenFile, WarnsOfShortTokensWithoutShowingThem) {
                           HasSubstr("the robot r2 has 15 characters")));
 }
 
-TEST(TokenFile, MadeTokensAreLongAndDiffer) {
+TEST(TokenFile, GeneratedTokens_LongAndDistinct) {
   std::set<std::string> tokens;
   for (int i = 0; i < 100; ++i) tokens.insert(make_token());
   EXPECT_THAT(tokens, SizeIs(100));
@@ -863,7 +863,7 @@ TEST(TokenFile, MadeTokensAreLongAndDiffer) {
   }
 }
 
-TEST(TokenGuards, SlowDownWrongTokensAndThenRightOnesToo) {
+TEST(TokenGuards, WrongTokens_DelayLaterTries) {
   using std::chrono::milliseconds;
   TokenThrottle guard;
   auto now = TokenThrottle::Clock::now();
@@ -891,7 +891,7 @@ TEST(TokenGuards, SlowDownWrongTokensAndThenRightOnesToo) {
   EXPECT_EQ(guard.note_wrong("10.0.0.7:99", now).count, 1);
 }
 
-TEST(TokenGuards, RememberSoManyAddressesOnly) {
+TEST(TokenGuards, Addresses_Limited) {
   TokenThrottle guard;
   auto now = TokenThrottle::Clock::now();
   for (std::size_t i = 0; i <= TokenThrottle::kMostAddresses; ++i) {
@@ -902,7 +902,7 @@ TEST(TokenGuards, RememberSoManyAddressesOnly) {
   EXPECT_EQ(guard.note_wrong("0:1", now).count, 1) << "the oldest one has made room";
 }
 
-TEST(TokenFile, WarnsIfOthersMayReadIt) {
+TEST(TokenFile, ReadableByOthers_Warns) {
   const TemporaryFolder folder;
   const std::string file = folder.write("tokens.json", R"({"server": "1234567890abcdef"})");
   Log log;

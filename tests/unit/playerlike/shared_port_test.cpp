@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, SharedPort,
                          testing::Values(Transport::kInProcess, Transport::kCbor),
                          [](const auto& instance) { return transport_name(instance.param); });
 
-TEST_P(SharedPort, NumbersTheFirstDeviceOfEachRobot) {
+TEST_P(SharedPort, FirstDevices_NumberedByRobot) {
   PlayerClient client(host.connect(7000));
   std::vector<double> x;
   Position2dProxy r0(&client, 0);
@@ -70,7 +70,7 @@ TEST_P(SharedPort, NumbersTheFirstDeviceOfEachRobot) {
   EXPECT_THAT(error.GetErrorStr(), Not(HasSubstr("odometry")));
 }
 
-TEST_P(SharedPort, FurtherDevicesFollowTheIndexInProxies) {
+TEST_P(SharedPort, FurtherDevices_FollowIndexInProxies) {
   PlayerClient client(host.connect(7000));
   EXPECT_EQ(RangerProxy(&client, 1).GetDriverName(), "laser");
   EXPECT_EQ(RangerProxy(&client, 2).GetDriverName(), "sonar");
@@ -83,7 +83,7 @@ TEST_P(SharedPort, FurtherDevicesFollowTheIndexInProxies) {
   EXPECT_THAT(error.GetErrorStr(), HasSubstr("laser:0 (r0.laser), laser:1 (r1.laser), laser:7"));
 }
 
-TEST(SharedPortWorld, ADeviceNeedsAnIndexOfItsOwn) {
+TEST(SharedPortWorld, DuplicateIndex_Refused) {
   try {
     static_cast<void>(playerlike::Host::create(sim::load_world_text(world("2"))));
     FAIL() << "taken";
@@ -96,7 +96,7 @@ TEST(SharedPortWorld, ADeviceNeedsAnIndexOfItsOwn) {
   }
 }
 
-TEST(SharedPortWorld, RobotsWithoutAPortShareItAndOthersKeepTheirs) {
+TEST(SharedPortWorld, RobotsWithoutPort_ShareIt) {
   const sim::WorldDescription shared = sim::load_world_text(world("3"));
   std::vector<int> ports;
   for (const sim::RobotDescription& robot : shared.robots) ports.push_back(robot.port);

@@ -18,7 +18,7 @@ using test::kPi;
 using test::scan_at;
 using test::Segment;
 
-TEST(SmoothNearnessDiagram, WithoutAGoalStandsStill) {
+TEST(SmoothNearnessDiagram, NoGoal_StandsStill) {
   SmoothNearnessDiagram navigation({});
   EXPECT_EQ(navigation.state(), GoalState::kIdle);
   const sim::Twist twist = navigation.step(0.1, {}, scan_at({}, {}));
@@ -26,7 +26,7 @@ TEST(SmoothNearnessDiagram, WithoutAGoalStandsStill) {
   EXPECT_EQ(twist.omega_radps, 0.0);
 }
 
-TEST(SmoothNearnessDiagram, InTheOpenDrivesStraightAtFullSpeed) {
+TEST(SmoothNearnessDiagram, OpenSpace_DrivesStraightAtFullSpeed) {
   SmoothNearnessDiagram navigation({});
   navigation.start({{2.0, 0.0}, {}});
   const sim::Twist twist = navigation.step(0.1, {}, scan_at({}, {}));
@@ -40,7 +40,7 @@ TEST(SmoothNearnessDiagram, InTheOpenDrivesStraightAtFullSpeed) {
   EXPECT_LT(drive.time_s, 8.0);
 }
 
-TEST(SmoothNearnessDiagram, TurnsOnTheSpotToAGoalBehind) {
+TEST(SmoothNearnessDiagram, GoalBehind_TurnsOnSpot) {
   SmoothNearnessDiagram navigation({});
   navigation.start({{-1.0, 0.1}, {}});
   const sim::Twist twist = navigation.step(0.1, {}, scan_at({}, {}));
@@ -48,7 +48,7 @@ TEST(SmoothNearnessDiagram, TurnsOnTheSpotToAGoalBehind) {
   EXPECT_DOUBLE_EQ(twist.omega_radps, 1.5);  // the shorter turn, to the left
 }
 
-TEST(SmoothNearnessDiagram, TurnsToTheGoalsHeadingWhenThere) {
+TEST(SmoothNearnessDiagram, GoalReached_TurnsToHeading) {
   SmoothNearnessDiagram navigation({});
   navigation.start({{1.0, 0.5}, -2.0});
   Drive drive;
@@ -57,7 +57,7 @@ TEST(SmoothNearnessDiagram, TurnsToTheGoalsHeadingWhenThere) {
   EXPECT_NEAR(drive.X_WB.yaw_rad, -2.0, 0.1);
 }
 
-TEST(SmoothNearnessDiagram, DeflectsFromAWallBesideItAndSlowsDown) {
+TEST(SmoothNearnessDiagram, WallBeside_DeflectsAndSlowsDown) {
   // A wall along the path, 0.15 m to the left of the centre: within 0.1 + 0.15.
   const std::vector<Segment> wall{{{-3.0, 0.15}, {5.0, 0.15}}};
   SmoothNearnessDiagram navigation({});
@@ -71,7 +71,7 @@ TEST(SmoothNearnessDiagram, DeflectsFromAWallBesideItAndSlowsDown) {
   EXPECT_GT(twist.v_mps, 0.0);
 }
 
-TEST(SmoothNearnessDiagram, MirrorImagesGiveMirroredTwists) {
+TEST(SmoothNearnessDiagram, MirroredScans_GiveMirroredTwists) {
   const std::vector<Segment> left = box(0.5, -0.05, 0.8, 0.4);
   const std::vector<Segment> right = box(0.5, -0.4, 0.8, 0.05);
   SmoothNearnessDiagram one({});
@@ -86,7 +86,7 @@ TEST(SmoothNearnessDiagram, MirrorImagesGiveMirroredTwists) {
   EXPECT_NEAR(a.v_mps, b.v_mps, 0.3 * 0.018);
 }
 
-TEST(SmoothNearnessDiagram, GoesRoundABlockWithoutTouchingIt) {
+TEST(SmoothNearnessDiagram, Block_PassedWithoutContact) {
   const std::vector<Segment> block = box(0.9, -0.3, 1.1, 0.2);
   SmoothNearnessDiagram navigation({});
   navigation.start({{2.0, 0.0}, {}});
@@ -98,7 +98,7 @@ TEST(SmoothNearnessDiagram, GoesRoundABlockWithoutTouchingIt) {
   EXPECT_LT(drive.turned_rad, kPi);
 }
 
-TEST(SmoothNearnessDiagram, PassesADoorThatIsWideEnough) {
+TEST(SmoothNearnessDiagram, WideDoor_Passed) {
   // The gap is 0.3 m wide, the disc 0.2 m.
   const std::vector<Segment> walls{{{1.0, -3.0}, {1.0, 0.2}}, {{1.0, 0.5}, {1.0, 3.0}}};
   SmoothNearnessDiagram navigation({});
@@ -109,7 +109,7 @@ TEST(SmoothNearnessDiagram, PassesADoorThatIsWideEnough) {
   EXPECT_GT(drive.least_m, 0.1);
 }
 
-TEST(SmoothNearnessDiagram, DoesNotTryADoorThatIsTooNarrow) {
+TEST(SmoothNearnessDiagram, NarrowDoor_NotTried) {
   // The gap is 0.18 m wide, in an otherwise closed room.
   std::vector<Segment> walls = box(-1.0, -1.0, 3.0, 1.0);
   walls.push_back({{1.0, -1.0}, {1.0, -0.09}});
@@ -124,7 +124,7 @@ TEST(SmoothNearnessDiagram, DoesNotTryADoorThatIsTooNarrow) {
   EXPECT_GT(drive.least_m, 0.09);
 }
 
-TEST(SmoothNearnessDiagram, GivesUpInAClosedRoomWhenItsPatienceIsOver) {
+TEST(SmoothNearnessDiagram, ClosedRoom_GivesUpAfterTimeout) {
   const std::vector<Segment> room = box(-0.5, -0.5, 0.5, 0.5);
   SndSettings settings;
   settings.patience_s = 3.0;
@@ -141,7 +141,7 @@ TEST(SmoothNearnessDiagram, GivesUpInAClosedRoomWhenItsPatienceIsOver) {
   EXPECT_EQ(twist.omega_radps, 0.0);
 }
 
-TEST(SmoothNearnessDiagram, ReachesAGoalCloseToAWall) {
+TEST(SmoothNearnessDiagram, GoalNearWall_Reached) {
   // 0.148 m from the centre to the wall behind the goal: 5 cm between body and wall.
   const std::vector<Segment> wall{{{1.0, -3.0}, {1.0, 3.0}}};
   SmoothNearnessDiagram navigation({});
@@ -152,7 +152,7 @@ TEST(SmoothNearnessDiagram, ReachesAGoalCloseToAWall) {
   EXPECT_GT(drive.least_m, 0.1);
 }
 
-TEST(SmoothNearnessDiagram, CancelledIsIdle) {
+TEST(SmoothNearnessDiagram, Cancel_Idles) {
   SmoothNearnessDiagram navigation({});
   navigation.start({{2.0, 0.0}, {}});
   navigation.cancel();
@@ -160,7 +160,7 @@ TEST(SmoothNearnessDiagram, CancelledIsIdle) {
   EXPECT_EQ(navigation.step(0.1, {}, scan_at({}, {})).v_mps, 0.0);
 }
 
-TEST(SndSettings, FollowTheRobotsSizeAndSpeeds) {
+TEST(SndSettings, FollowSizeAndSpeedsOfRobot) {
   // The S1R: hypot(0.087, 0.045) = 0.0979 m.
   const SndSettings s1r = snd_settings_for(0.0979, 0.5, 3.0);
   const SndSettings defaults;
@@ -176,7 +176,7 @@ TEST(SndSettings, FollowTheRobotsSizeAndSpeeds) {
   EXPECT_EQ(fault_of(snd_settings_for(100.0, 100.0, 1000.0)), "");  // within the ranges
 }
 
-TEST(SndSettings, FaultsAreNamedWithTheirRange) {
+TEST(SndSettings, InvalidSettings_NamedWithRange) {
   EXPECT_EQ(fault_of(SndSettings{}), "");
   for (const sim::Field& field : sim::fields_of<SndSettings>().fields) {
     for (const double bad : {0.0, -1.0, 1e9, std::nan("")}) {

@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, SndDriverTest,
                          testing::Values(Transport::kInProcess, Transport::kCbor),
                          [](const auto& instance) { return transport_name(instance.param); });
 
-TEST_P(SndDriverTest, DrivesRoundABlockToAHeadingAndStandsThere) {
+TEST_P(SndDriverTest, Block_PassedToPoseWithHeading) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -87,7 +87,7 @@ TEST_P(SndDriverTest, DrivesRoundABlockToAHeadingAndStandsThere) {
   EXPECT_GT(host->statistics(0).least_clearance_m, 0.0);
 }
 
-TEST_P(SndDriverTest, GoalInsideABlockEndsAsBlockedWithTheRobotStanding) {
+TEST_P(SndDriverTest, GoalInsideBlock_BlockedAndRobotStands) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -103,7 +103,7 @@ TEST_P(SndDriverTest, GoalInsideABlockEndsAsBlockedWithTheRobotStanding) {
   EXPECT_EQ(host->statistics(0).collisions, 0);
 }
 
-TEST_P(SndDriverTest, CancelStopsTheRobotAndIsIdle) {
+TEST_P(SndDriverTest, Cancel_StopsRobotAndIdles) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -120,7 +120,7 @@ TEST_P(SndDriverTest, CancelStopsTheRobotAndIsIdle) {
   EXPECT_EQ(driver.WaitForGoal(), SndDriver::IDLE);
 }
 
-TEST_P(SndDriverTest, NewGoalReplacesTheOldOne) {
+TEST_P(SndDriverTest, NewGoal_ReplacesOld) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -132,7 +132,7 @@ TEST_P(SndDriverTest, NewGoalReplacesTheOldOne) {
   EXPECT_LE(std::hypot(position.GetXPos() - 0.5, position.GetYPos() - 0.5), 0.05);
 }
 
-TEST_P(SndDriverTest, SettingsOutOfRangeAreRefusedByName) {
+TEST_P(SndDriverTest, InvalidSettings_RefusedByName) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   SndDriver driver(&client);
@@ -165,7 +165,7 @@ TEST_P(SndDriverTest, SettingsOutOfRangeAreRefusedByName) {
   EXPECT_EQ(driver.GetSettings().robot_radius, 0.1);
 }
 
-TEST_P(SndDriverTest, TakesSizeAndSpeedsFromTheRobotsModel) {
+TEST_P(SndDriverTest, SizeAndSpeeds_FromModelOfRobot) {
   // The farthest corner of the Pioneer 2-DX is hypot(0.26, 0.1) = 0.2786 m from the middle of the
   // axle, which is rounded up to 0.28 m. The limits of the drive are 1.6 m/s and 300 degrees/s.
   start(R"({"arena": {"size": [8, 6]}, "robots": [
@@ -195,7 +195,7 @@ TEST_P(SndDriverTest, TakesSizeAndSpeedsFromTheRobotsModel) {
   EXPECT_DOUBLE_EQ(of_world.max_speed_mps, 0.4);
 }
 
-TEST_P(SndDriverTest, APioneerDrivesRoundABlockWithoutTouchingIt) {
+TEST_P(SndDriverTest, Pioneer_PassesBlockWithoutContact) {
   start(R"({"arena": {"size": [8, 6], "obstacles": [{"center": [4, 2.9], "size": [0.5, 0.5],
                                                "height": 0.5}]},
     "robots": [{"name": "r1", "model": "pioneer2dx", "pose": {"x": 1, "y": 3},
@@ -208,7 +208,7 @@ TEST_P(SndDriverTest, APioneerDrivesRoundABlockWithoutTouchingIt) {
   EXPECT_GT(host->statistics(0).least_clearance_m, 0.01);
 }
 
-TEST_P(SndDriverTest, KeepsItsSpeedLimit) {
+TEST_P(SndDriverTest, SpeedLimit_Kept) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -228,13 +228,13 @@ TEST_P(SndDriverTest, KeepsItsSpeedLimit) {
   EXPECT_LE(sharpest, 1.0 + 1e-9);
 }
 
-TEST_P(SndDriverTest, ARobotWithoutMotorsIsRefused) {
+TEST_P(SndDriverTest, RobotWithoutMotors_Refused) {
   start(R"({"robots": [{"devices": {"motion": null}}]})");
   PlayerClient client(host->connect(6665));
   EXPECT_EQ(error_code_of([&] { SndDriver driver(&client); }), PlayerError::kNotAvailable);
 }
 
-TEST_P(SndDriverTest, EndsAtOnceWithoutTimeGoingOn) {
+TEST_P(SndDriverTest, Destruction_StopsRobotWithoutAdvancingTime) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -257,7 +257,7 @@ TEST_P(SndDriverTest, EndsAtOnceWithoutTimeGoingOn) {
   EXPECT_EQ(position.GetXSpeed(), 0.0);  // stopped by its end
 }
 
-TEST_P(SndDriverTest, AloneLetsNoTimePass) {
+TEST_P(SndDriverTest, BeforeFirstRead_TimeStands) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   SndDriver driver(&client);
@@ -271,7 +271,7 @@ TEST_P(SndDriverTest, AloneLetsNoTimePass) {
   EXPECT_EQ(host->time().sim_time_ns, 100'000'000);
 }
 
-TEST_P(SndDriverTest, DoesNotOpenTheStartGateForPrograms) {
+TEST_P(SndDriverTest, StartGate_NotOpenedByDriver) {
   start(room("[]", R"({"clients": 2})"));
   PlayerClient client(host->connect(6665));
   SndDriver driver(&client);
@@ -290,7 +290,7 @@ TEST_P(SndDriverTest, DoesNotOpenTheStartGateForPrograms) {
   EXPECT_EQ(host->time().sim_time_ns, 100'000'000);
 }
 
-TEST_P(SndDriverTest, EndOfTheRunEndsWaiting) {
+TEST_P(SndDriverTest, EndOfRun_EndsWait) {
   start(room("[]", R"({"duration": 1})"));
   PlayerClient client(host->connect(6665));
   SndDriver driver(&client);
@@ -298,7 +298,7 @@ TEST_P(SndDriverTest, EndOfTheRunEndsWaiting) {
   EXPECT_EQ(error_code_of([&] { driver.WaitForGoal(); }), PlayerError::kRunIsOver);
 }
 
-TEST_P(SndDriverTest, OutlivesItsClientWithoutHarm) {
+TEST_P(SndDriverTest, Driver_OutlivesClient) {
   start(room("[]"));
   auto client = std::make_unique<PlayerClient>(host->connect(6665));
   SndDriver driver(client.get());
@@ -351,7 +351,7 @@ std::string two_threads_run(Transport transport) {
   return trace.str();
 }
 
-TEST_P(SndDriverTest, ProgramsOfSeveralThreadsRunTheSameEveryTime) {
+TEST_P(SndDriverTest, ThreadedPrograms_Repeatable) {
   const std::string first = two_threads_run(Transport::kInProcess);
   EXPECT_THAT(first, HasSubstr(" 1\n"));  // something was on its way
   for (int i = 0; i < 4; ++i) EXPECT_EQ(two_threads_run(GetParam()), first) << "run " << i + 2;
@@ -359,7 +359,7 @@ TEST_P(SndDriverTest, ProgramsOfSeveralThreadsRunTheSameEveryTime) {
 
 // --- The world's drivers table
 
-TEST_P(SndDriverTest, WorldGivesItAPositionIndexWhoseGoToDrivesRoundObstacles) {
+TEST_P(SndDriverTest, PositionIndexOfWorld_GoToAvoidsObstacles) {
   start(room(R"([{"type": "snd", "max_speed": 0.25}])"));
   PlayerClient client(host->connect(6665));
   Position2dProxy plain(&client, 0);
@@ -381,7 +381,7 @@ TEST_P(SndDriverTest, WorldGivesItAPositionIndexWhoseGoToDrivesRoundObstacles) {
   EXPECT_EQ(host->statistics(0).collisions, 0);
 }
 
-TEST_P(SndDriverTest, GoToTakesSpeedsOfItsOwn) {
+TEST_P(SndDriverTest, GoTo_AcceptsSpeeds) {
   start(room(R"([{"type": "snd"}])"));
   PlayerClient client(host->connect(6665));
   Position2dProxy snd(&client, 2);
@@ -394,7 +394,7 @@ TEST_P(SndDriverTest, GoToTakesSpeedsOfItsOwn) {
   EXPECT_NEAR(fastest, 0.1, 1e-9);
 }
 
-TEST_P(SndDriverTest, OtherCommandsGoStraightToTheMotorsAndDropTheGoal) {
+TEST_P(SndDriverTest, OtherCommands_DriveMotorsAndCancelGoal) {
   start(room(R"([{"type": "snd", "index": 7}])"));
   PlayerClient client(host->connect(6665));
   Position2dProxy snd(&client, 7);
@@ -418,7 +418,7 @@ TEST_P(SndDriverTest, OtherCommandsGoStraightToTheMotorsAndDropTheGoal) {
   }
 }
 
-TEST_P(SndDriverTest, OneDriverServesAllProxiesThatNameIt) {
+TEST_P(SndDriverTest, Proxies_ShareDriver) {
   start(room(R"([{"type": "snd"}])"));
   PlayerClient client(host->connect(6665));
   PlayerClient second(host->connect(6665));
@@ -436,7 +436,7 @@ TEST_P(SndDriverTest, OneDriverServesAllProxiesThatNameIt) {
   EXPECT_EQ(b.GetXSpeed(), 0.0);
 }
 
-TEST_P(SndDriverTest, ListsAndMessagesNameTheDriversAddress) {
+TEST_P(SndDriverTest, ListsAndMessages_NameAddressOfDriver) {
   start(room(R"([{"type": "snd"}, {"type": "snd", "index": 5}])"));
   PlayerClient client(host->connect(6665));
   std::ostringstream out;
@@ -465,7 +465,7 @@ std::string fault(const std::string& drivers, const std::string& devices = "{}")
   return "";
 }
 
-TEST(SndDriversTable, SettingsAreCheckedWhenTheWorldIsOpened) {
+TEST(SndDriversTable, Settings_CheckedWhenWorldOpens) {
   EXPECT_EQ(fault(R"([{"type": "snd", "robot_radius": 0.2, "safety_distance": 0.3,
                        "max_speed": 0.2, "max_turn_rate_deg": 60, "goal_distance": 0.1,
                        "goal_angle_deg": 10, "patience": 5, "index": 4, "position": 1,
@@ -488,7 +488,7 @@ TEST(SndDriversTable, SettingsAreCheckedWhenTheWorldIsOpened) {
                     HasSubstr("world/unknown-driver")));
 }
 
-TEST(DriversTable, OptionsOfPlayerHintAtTheSettingThatTakesTheirPlace) {
+TEST(DriversTable, PlayerOptions_ErrorSuggestsSetting) {
   EXPECT_THAT(fault(R"([{"type": "snd", "goal_position_tol": 0.1}])"),
               AllOf(HasSubstr("world/unknown-key"),
                     HasSubstr("Player's \"goal_position_tol\" is \"goal_distance\" here")));
@@ -513,7 +513,7 @@ TEST(DriversTable, OptionsOfPlayerHintAtTheSettingThatTakesTheirPlace) {
               AllOf(HasSubstr("\"amcl\""), HasSubstr("not needed: map:0 is the map")));
 }
 
-TEST(SndDriversTable, IndicesMustBeFreeAndDevicesMustBeThere) {
+TEST(SndDriversTable, UsedIndicesAndMissingDevices_Refused) {
   EXPECT_THAT(fault(R"([{"type": "snd", "index": 1}])"), HasSubstr("world/driver-index"));
   EXPECT_THAT(fault(R"([{"type": "snd", "index": 3}, {"type": "snd", "index": 3}])"),
               HasSubstr("world/driver-index"));
@@ -524,7 +524,7 @@ TEST(SndDriversTable, IndicesMustBeFreeAndDevicesMustBeThere) {
   EXPECT_THAT(fault(R"([{"type": "snd"}])", R"({"motion": null})"), HasSubstr("motors"));
 }
 
-TEST(SndDriversTable, DriversTakeTheFirstFreeIndex) {
+TEST(SndDriversTable, DefaultIndex_FirstFree) {
   const sim::WorldDescription world = sim::load_world_text(
       R"({"robots": [{"drivers": [{"type": "snd"}, {"type": "snd", "index": 2}, {"type": "snd"}]}]})");
   const sim::Simulation simulation(world);
@@ -535,7 +535,7 @@ TEST(SndDriversTable, DriversTakeTheFirstFreeIndex) {
   EXPECT_EQ(drivers[2].index, 4);
 }
 
-TEST(SndDriversTable, AHostRefusesAWorldWithABadDriver) {
+TEST(SndDriversTable, InvalidDriver_RefusedByHost) {
   EXPECT_THROW(static_cast<void>(test::patient_host(
                    sim::load_world_text(R"({"robots": [{"drivers": [{"type": "teapot"}]}]})"))),
                sim::ConfigError);

@@ -117,7 +117,7 @@ std::unique_ptr<SocketSession> connect(int tcp_port, int port = 6665) {
 
 // --- Names
 
-TEST(ServerAddresses, AreReadInTheirForms) {
+TEST(ServerAddresses, ParsedInTheirForms) {
   struct Case {
     const char* text;
     const char* host;
@@ -134,7 +134,7 @@ TEST(ServerAddresses, AreReadInTheirForms) {
   EXPECT_EQ((ServerAddress{"::1", 4000}.text()), "[::1]:4000");
 }
 
-TEST(ServerAddresses, ThatAreNoneAreRefusedByWhatIsWrong) {
+TEST(ServerAddresses, InvalidAddresses_RefusedWithReason) {
   struct Case {
     const char* text;
     const char* why;
@@ -153,7 +153,7 @@ TEST(ServerAddresses, ThatAreNoneAreRefusedByWhatIsWrong) {
   }
 }
 
-TEST(SocketSettingsTest, ComeFromTheEnvironment) {
+TEST(SocketSettingsTest, ReadFromEnvironment) {
   setenv("PLAYPEN_TOKEN", "first-token,,second-token", 1);
   setenv("PLAYPEN_ENCODING", "json", 1);
   const SocketSettings settings = SocketSettings::from_environment({"lab", 1}, 6666);
@@ -174,7 +174,7 @@ TEST(SocketSettingsTest, ComeFromTheEnvironment) {
 
 // --- Connecting
 
-TEST(SocketSessions, ARefusedConnectionNamesHostPortAndReason) {
+TEST(SocketSessions, RefusedConnection_NamesHostPortAndReason) {
   int port = 0;
   {
     const ListeningSocket socket;
@@ -194,7 +194,7 @@ TEST(SocketSessions, ARefusedConnectionNamesHostPortAndReason) {
   }
 }
 
-TEST(SocketSessions, AHostThatDoesNotExistIsNamed) {
+TEST(SocketSessions, UnknownHost_Named) {
   SocketSettings settings = settings_for(4000);
   settings.server.host = "no-such-host.invalid";
   settings.connect_timeout_s = 5.0;
@@ -203,7 +203,7 @@ TEST(SocketSessions, AHostThatDoesNotExistIsNamed) {
   EXPECT_THAT(error.what(), HasSubstr("no-such-host.invalid:4000"));
 }
 
-TEST(SocketSessions, AServerThatDoesNotAnswerIsGivenUp) {
+TEST(SocketSessions, UnresponsiveServer_TimesOut) {
   const ListeningSocket silent;
   SocketSettings settings = settings_for(silent.port());
   settings.connect_timeout_s = 0.1;
@@ -212,7 +212,7 @@ TEST(SocketSessions, AServerThatDoesNotAnswerIsGivenUp) {
   EXPECT_THAT(error.what(), HasSubstr("it does not answer"));
 }
 
-TEST(SocketSessions, OtherServersAreToldFromPlaypens) {
+TEST(SocketSessions, OtherServers_Recognised) {
   for (const char* text :
        {"HTTP/1.1 400 Bad Request\r\n\r\n", "1 FAILED \"no such component\"\n", "1 SUCCESS {}\n",
         "1 SUCCESS [[[[\n", "1 SUCCESS {\"encoding\": \"xml\"}\n",
@@ -224,14 +224,14 @@ TEST(SocketSessions, OtherServersAreToldFromPlaypens) {
   }
 }
 
-TEST(SocketSessions, WhatTheServerHasAgainstAClientIsTold) {
+TEST(SocketSessions, RefusalByServer_Reported) {
   const Served served;
   const SessionError error = error_of([&] { connect(served.port(), 7000); });
   EXPECT_EQ(error.code(), SessionError::Code::kNoSuchDevice);
   EXPECT_THAT(error.what(), AllOf(HasSubstr("7000"), HasSubstr("6666 (r2)")));
 }
 
-TEST(SocketSessions, TokensOpenServersAndRobots) {
+TEST(SocketSessions, Tokens_OpenServersAndRobots) {
   ServerSettings settings;
   settings.access.server_token = "open-sesame";
   settings.access.robot_tokens["r2"] = "second-robot";
@@ -253,7 +253,7 @@ TEST(SocketSessions, TokensOpenServersAndRobots) {
   EXPECT_GT(read(holder).x_m, 1.0);
 }
 
-TEST(SocketSessions, ReachServersByIpv6AndByName) {
+TEST(SocketSessions, Servers_ReachedByIpv6AndName) {
   try {
     const ListeningSocket probe(/*v6=*/true);
   } catch (const std::exception&) {
@@ -267,13 +267,13 @@ TEST(SocketSessions, ReachServersByIpv6AndByName) {
   EXPECT_EQ(read(*session).times_ns.front(), 100'000'000);
 }
 
-TEST(SocketSessions, ANamesAddressesAreTriedInTurn) {
+TEST(SocketSessions, SeveralAddresses_TriedInTurn) {
   const Served served;  // on 127.0.0.1 only, while localhost may be ::1 first
   const auto session = open_session("localhost:" + std::to_string(served.port()), 6665);
   EXPECT_TRUE(session->connected());
 }
 
-TEST(SocketSessions, LocalhostIsTheServerThatPlaypenWorldNames) {
+TEST(SocketSessions, Localhost_IsServerOfPlaypenWorld) {
   const Served served;
   setenv("PLAYPEN_WORLD", ("tcp://127.0.0.1:" + std::to_string(served.port())).c_str(), 1);
   const auto session = open_session("localhost", 6666);
@@ -282,7 +282,7 @@ TEST(SocketSessions, LocalhostIsTheServerThatPlaypenWorldNames) {
   EXPECT_EQ(session->port(), 6666);
 }
 
-TEST(SocketSessions, KnowWhatTheyHaveInCommon) {
+TEST(SocketSessions, SimulationIdentity_SameForSameServer) {
   const Served one;
   const Served other;
   const auto a = connect(one.port());
@@ -294,7 +294,7 @@ TEST(SocketSessions, KnowWhatTheyHaveInCommon) {
 
 // --- Servers that go away
 
-TEST(SocketSessions, AServerThatEndsDuringAWaitEndsIt) {
+TEST(SocketSessions, ServerEndDuringWait_EndsWait) {
   Served served(R"({"clients": 2})");  // the gate never opens
   const auto session = connect(served.port());
   subscribe_position(*session);
@@ -320,7 +320,7 @@ TEST(SocketSessions, AServerThatEndsDuringAWaitEndsIt) {
             kDisconnected);
 }
 
-TEST(SocketSessions, AConnectionCutInTheMiddleOfAMessageIsLost) {
+TEST(SocketSessions, CutMessage_ConnectionLost) {
   const Served served;
   Relay relay(served.port());
   const auto session = connect(relay.port());
@@ -332,7 +332,7 @@ TEST(SocketSessions, AConnectionCutInTheMiddleOfAMessageIsLost) {
   EXPECT_THAT(error.what(), HasSubstr("127.0.0.1:" + std::to_string(relay.port())));
 }
 
-TEST(SocketSessions, AServerThatFallsSilentIsGivenUpDuringAWait) {
+TEST(SocketSessions, SilentServerDuringWait_TimesOut) {
   const Served served;
   Relay relay(served.port());
   const auto session = connect(relay.port());
@@ -345,7 +345,7 @@ TEST(SocketSessions, AServerThatFallsSilentIsGivenUpDuringAWait) {
             kDisconnected);
 }
 
-TEST(SocketSessions, AWaitMayTakeLongerThanARequestIfTheServerLives) {
+TEST(SocketSessions, LongWait_ContinuesWhileServerLives) {
   const Served served(R"({"clients": 2})");
   const auto session = connect(served.port());
   session->request(AnswerTimeoutRequest{4.0});
@@ -360,7 +360,7 @@ TEST(SocketSessions, AWaitMayTakeLongerThanARequestIfTheServerLives) {
   late.join();
 }
 
-TEST(SocketSessions, ClosingWakesWhoWaits) {
+TEST(SocketSessions, Close_WakesWaiter) {
   const Served served(R"({"clients": 2})");
   const auto session = connect(served.port());
   std::vector<std::thread> waiters;
@@ -377,7 +377,7 @@ TEST(SocketSessions, ClosingWakesWhoWaits) {
 
 // --- Coming back
 
-TEST(SocketSessions, ALostConnectionIsMadeAgainIfRetriesAreSet) {
+TEST(SocketSessions, LostConnection_ReconnectsWithRetries) {
   auto served = std::make_unique<Served>();
   Relay relay(served->port());
   const auto session = connect(relay.port());
@@ -403,7 +403,7 @@ TEST(SocketSessions, ALostConnectionIsMadeAgainIfRetriesAreSet) {
   EXPECT_GT(read(*session).x_m, 1.0);
 }
 
-TEST(SocketSessions, RetriesComeToAnEnd) {
+TEST(SocketSessions, Retries_Limited) {
   auto served = std::make_unique<Served>();
   Relay relay(served->port());
   PlayerCc::PlayerClient client("tcp://127.0.0.1:" + std::to_string(relay.port()), 6665);
@@ -422,7 +422,7 @@ TEST(SocketSessions, RetriesComeToAnEnd) {
   EXPECT_EQ(relay.connections(), 1 + 3);
 }
 
-TEST(SocketSessions, ClosingEndsRetries) {
+TEST(SocketSessions, Close_EndsRetries) {
   auto served = std::make_unique<Served>();
   const auto session = connect(served->port());
   session->request(RetriesRequest{-1, 3600.0});
@@ -435,7 +435,7 @@ TEST(SocketSessions, ClosingEndsRetries) {
   closer.join();
 }
 
-TEST(SocketSessions, AnotherWorldIsNotTakenForTheOldOne) {
+TEST(SocketSessions, OtherWorldAfterReconnect_Refused) {
   auto served = std::make_unique<Served>();
   Relay relay(served->port());
   const auto session = connect(relay.port());
@@ -452,7 +452,7 @@ TEST(SocketSessions, AnotherWorldIsNotTakenForTheOldOne) {
 
 // --- Threads
 
-TEST(SocketSessions, SeveralThreadsShareOne) {
+TEST(SocketSessions, Threads_ShareSession) {
   const Served served(R"({"duration": 20})");
   const auto session = connect(served.port());
   const DeviceId motion = subscribe_position(*session);
@@ -487,7 +487,7 @@ TEST(SocketSessions, SeveralThreadsShareOne) {
   EXPECT_TRUE(served.host->finished());
 }
 
-TEST(SocketSessions, AFollowerHoldsTheClockAndNeverLetsItGoOn) {
+TEST(SocketSessions, Follower_HoldsClock) {
   const Served served;
   const auto session = connect(served.port());
   subscribe_position(*session);
@@ -518,7 +518,7 @@ TEST(SocketSessions, AFollowerHoldsTheClockAndNeverLetsItGoOn) {
   EXPECT_EQ(served.host->time().steps, 50U);
 }
 
-TEST(SocketSessions, CommandsOfOneSessionArriveBeforeAnotherLetsTimeGoOn) {
+TEST(SocketSessions, CommandsOfSession_ArriveBeforeOtherAdvances) {
   const Served served;
   const auto first = connect(served.port(), 6665);
   const auto second = connect(served.port(), 6666);
@@ -566,7 +566,7 @@ std::vector<std::uint8_t> picture_of(Session& session) {
   return session.request(CanvasImageRequest{}).rgba;
 }
 
-TEST(SocketSessions, DrawTheSameAsInProcess) {
+TEST(SocketSessions, Drawings_SameAsInProcess) {
   const auto host = test::patient_host(two_robots());
   const std::vector<std::uint8_t> expected = picture_of(*host->connect(6665));
   ServerSettings small;
@@ -582,7 +582,7 @@ TEST(SocketSessions, DrawTheSameAsInProcess) {
   }
 }
 
-TEST(SocketSessions, DrawingsInAPacedSimulationArriveWithoutAFurtherCall) {
+TEST(SocketSessions, PacedDrawings_SentWithoutFurtherCall) {
   const Served served(R"({"time": "real"})");
   const auto session = connect(served.port());
   sim::DrawOperation dot;
@@ -594,7 +594,7 @@ TEST(SocketSessions, DrawingsInAPacedSimulationArriveWithoutAFurtherCall) {
   }
 }
 
-TEST(SocketSessions, SleepInAPacedSimulationLetsOthersReadMeanwhile) {
+TEST(SocketSessions, PacedSleep_OtherThreadsRead) {
   const Served served(R"({"time": 20})");
   const auto session = connect(served.port());
   subscribe_position(*session);
@@ -715,7 +715,7 @@ void find_places(const nlohmann::json& value, const nlohmann::json::json_pointer
   for (const auto& [key, member] : value.items()) find_places(member, at / key, places);
 }
 
-TEST(LyingServers, AreToldByTheirEventsWithoutAForeignException) {
+TEST(LyingServers, FalseEvents_Explained) {
   const Served served;
   const nlohmann::json welcome = welcome_of(served);
   for (const std::string event : {R"({"event":"bye","message":5})",
@@ -756,7 +756,7 @@ TEST(LyingServers, AreToldByTheirEventsWithoutAForeignException) {
   }
 }
 
-TEST(LyingServers, AreToldByTheirWelcomeWithoutAForeignException) {
+TEST(LyingServers, FalseWelcome_Explained) {
   const Served served;
   const nlohmann::json welcome = welcome_of(served);
   std::vector<nlohmann::json::json_pointer> places;
@@ -790,7 +790,7 @@ TEST(LyingServers, AreToldByTheirWelcomeWithoutAForeignException) {
 // A thread that has its answer may record it late. This one must first destroy a hundred thousand
 // lists. Meanwhile the other thread, which reads the connection, finds it closed and opens the next
 // one.
-TEST(SocketSessions, ASubscriptionAnsweredWhileAnotherThreadReconnectsIsKept) {
+TEST(SocketSessions, SubscriptionDuringReconnect_Kept) {
   const Served served;
   const nlohmann::json welcome = welcome_of(served);
   std::string chaff = ",\"chaff\":[[]";
@@ -833,7 +833,7 @@ TEST(SocketSessions, ASubscriptionAnsweredWhileAnotherThreadReconnectsIsKept) {
   EXPECT_EQ(std::count(told.begin(), told.end(), "subscribe"), 1);
 }
 
-TEST(SocketSessions, AnAnswerThatLiesThereIsReadHoweverLate) {
+TEST(SocketSessions, EarlyAnswer_ReadDespiteZeroTimeout) {
   const Served served;
   const nlohmann::json welcome = welcome_of(served);
   const nlohmann::json answer = {{"id", 1}, {"time", welcome["time"]}};

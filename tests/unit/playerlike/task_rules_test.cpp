@@ -13,11 +13,11 @@
 #include <string_view>
 #include <vector>
 
-#include "host/command_book.h"
-#include "host/permissions.h"
-#include "host/refusal_book.h"
-#include "host/seen_floor.h"
-#include "host/travel_meter.h"
+#include "host/requests/permissions.h"
+#include "host/results/refusal_book.h"
+#include "host/results/seen_floor.h"
+#include "host/results/travel_meter.h"
+#include "host/stepping/command_book.h"
 #include "patient_host.h"
 #include "run_files.h"
 #include "temporary_folder.h"
@@ -31,7 +31,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(TaskRulesText, KeepsEverything) {
+TEST(TaskRulesText, RoundTrips) {
   EXPECT_EQ(to_text({}), "");
   EXPECT_EQ(parse_task_rules(""), TaskRules{});
   TaskRules rules;
@@ -89,7 +89,7 @@ class PermissionsTest : public testing::Test {
   std::shared_ptr<Host> host_;
 };
 
-TEST_F(PermissionsTest, WithoutRulesEverythingIsAllowed) {
+TEST_F(PermissionsTest, NoRules_EverythingAllowed) {
   begin(Results::kReport);
   const auto session = host_->connect(kMorsePort);
   session->request(SubscribeRequest{device(1, "laser")});
@@ -105,7 +105,7 @@ TEST_F(PermissionsTest, WithoutRulesEverythingIsAllowed) {
             json({{"first", 0.0}, {"commands", 1}, {"ports", {kMorsePort}}}));
 }
 
-TEST_F(PermissionsTest, OtherRobotsAreRefusedOnEveryPort) {
+TEST_F(PermissionsTest, OtherRobots_RefusedOnEveryPort) {
   may_use({{"r1"}, {}, {}});
   begin(Results::kReport);
   for (const int port : {kMorsePort, 6666}) {
@@ -137,7 +137,7 @@ TEST_F(PermissionsTest, OtherRobotsAreRefusedOnEveryPort) {
 }
 
 // A log holds the readings of all sensors of its port.
-TEST_F(PermissionsTest, LogsOfForbiddenSensorsAreRefused) {
+TEST_F(PermissionsTest, LogsOfForbiddenSensors_Refused) {
   may_use({{"r1"}, {}, {}});
   begin(Results::kReport);
   LogRequest start;
@@ -149,7 +149,7 @@ TEST_F(PermissionsTest, LogsOfForbiddenSensorsAreRefused) {
   static_cast<void>(host_->connect(6665)->request(start));
 }
 
-TEST_F(PermissionsTest, DataOfTheWorldAreRefusedUnlessNamed) {
+TEST_F(PermissionsTest, WorldData_RefusedUnlessNamed) {
   struct Case {
     const char* word;
     const char* what;
@@ -193,7 +193,7 @@ TEST_F(PermissionsTest, DataOfTheWorldAreRefusedUnlessNamed) {
 }
 
 // A program that may not measure its pose gets it in no other way either.
-TEST_F(PermissionsTest, WithoutAPoseDeviceThePoseIsUnknown) {
+TEST_F(PermissionsTest, NoPoseDevice_PoseUnknown) {
   may_use({{"r1"}, {{"laser", "odometry", "motion"}}, {"map"}});
   begin();
   EXPECT_EQ(host_->robots()[0].initial_pose, sim::Pose{});
@@ -218,7 +218,7 @@ TEST_F(PermissionsTest, WithoutAPoseDeviceThePoseIsUnknown) {
   EXPECT_THAT(error_of([&] { session->send(motion, by_odometry); }), HasSubstr("the device pose"));
 }
 
-TEST_F(PermissionsTest, WithAPoseDeviceTheFrameOfTheWorldIsKnown) {
+TEST_F(PermissionsTest, PoseDevice_WorldFrameKnown) {
   may_use({{"r1"}, {}, {}});
   begin();
   EXPECT_EQ(host_->robots()[0].initial_pose.x_m, 1.0);
@@ -242,14 +242,14 @@ class TravelMeterTest : public testing::Test {
   double path_m_ = 0.0;
 };
 
-TEST_F(TravelMeterTest, AStraightWayCountsInFull) {
+TEST_F(TravelMeterTest, StraightPath_CountsFully) {
   for (int i = 0; i <= 200; ++i) go_to(0.01 * i, 0.1);
   EXPECT_NEAR(meter_.distance_m(), 2.0, 0.02);  // the last move may be incomplete
   EXPECT_EQ(meter_.visited_area_m2(), 9 * 0.0625)
       << "x from 0 to 2 m, and the square that begins there";
 }
 
-TEST_F(TravelMeterTest, MovementsOnTheSpotAreNoDistance) {
+TEST_F(TravelMeterTest, MovementsOnSpot_DoNotCount) {
   for (int i = 0; i < 1000; ++i) go_to(0.1 + (i % 2 == 0 ? 0.0 : 0.2), 0.1);  // wiggles
   for (int i = 0; i < 1000; ++i) {  // turns in a circle with a diameter of 0.24 m
     const double angle = 0.1 * i;
@@ -259,13 +259,13 @@ TEST_F(TravelMeterTest, MovementsOnTheSpotAreNoDistance) {
   EXPECT_LE(meter_.visited_area_m2(), 4 * 0.0625);
 }
 
-TEST_F(TravelMeterTest, ToAndFroIsADistanceButNoFloor) {
+TEST_F(TravelMeterTest, BackAndForth_CountsAsDistanceButNotFloor) {
   for (int i = 0; i <= 600; ++i) go_to(0.005 * std::abs(i % 200 - 100), 0.1);  // 6 times 0.5 m
   EXPECT_NEAR(meter_.distance_m(), 3.0, 0.3);
   EXPECT_LE(meter_.visited_area_m2(), 3 * 0.0625);
 }
 
-TEST_F(TravelMeterTest, AJumpIsNoDistance) {
+TEST_F(TravelMeterTest, Jump_DoesNotCount) {
   go_to(0.1, 0.1);
   meter_.observe({3.0, 3.0}, path_m_);  // the path does not grow
   EXPECT_EQ(meter_.distance_m(), 0.0);
@@ -281,7 +281,7 @@ bool seen_at(const SeenFloor& seen, double x, double y) {
   return (seen.bits()[cell / 8] & (0x80U >> (cell % 8))) != 0;
 }
 
-TEST(SeenFloorTest, IsWhatTheLaserSeesAndWhatTheRobotStandsOn) {
+TEST(SeenFloorTest, VisibleToLaserAndUnderRobot) {
   sim::Simulation simulation(two_robots());
   SeenFloor seen(simulation, 0);
   EXPECT_EQ(seen.width(), 200);
@@ -313,7 +313,7 @@ TEST(SeenFloorTest, IsWhatTheLaserSeesAndWhatTheRobotStandsOn) {
   EXPECT_EQ(seen.area_m2(), before) << "nothing more from the same place";
 }
 
-TEST(SeenFloorTest, ConesOfSonarsSeeAsFarAsTheirRange) {
+TEST(SeenFloorTest, SonarCones_SeeUpToTheirRange) {
   sim::Simulation simulation(sim::load_world_text(R"({
     "arena": {"size": [4, 4], "obstacles": [{"name": "wall", "center": [2.5, 2], "size": [0.2, 4]}]},
     "robots": [{"name": "r1", "pose": {"x": 1, "y": 2},
@@ -329,7 +329,7 @@ TEST(SeenFloorTest, ConesOfSonarsSeeAsFarAsTheirRange) {
   EXPECT_FALSE(seen_at(seen, 3.0, 2.0)) << "behind the wall";
 }
 
-TEST_F(PermissionsTest, TheReportHasTheSeenFloorOnlyIfItIsAskedFor) {
+TEST_F(PermissionsTest, Report_HasSeenFloorOnRequestOnly) {
   begin(Results::kReport);
   EXPECT_FALSE(report().at("robots").at(0).contains("seen"));
   settings_.grading.rules.seen_by = "r2";
@@ -347,7 +347,7 @@ TEST_F(PermissionsTest, TheReportHasTheSeenFloorOnlyIfItIsAskedFor) {
 
 // --- Commands
 
-TEST(CommandBookTest, NotesWhoMovesWhom) {
+TEST(CommandBookTest, RecordsCommandersOfRobots) {
   CommandBook book(2);
   book.note(1, 6666, sim::MotorEnableCommand{true}, 1);
   book.note(1, 6666, sim::SetPoseCommand{}, 2);

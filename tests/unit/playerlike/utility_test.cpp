@@ -14,7 +14,7 @@ double limit_in_a_program_with_its_own(double value);
 
 namespace {
 
-TEST(Utility, ConvertsBetweenDegreesAndRadians) {
+TEST(Utility, DegreesAndRadians_Converted) {
   EXPECT_DOUBLE_EQ(dtor(180.0), M_PI);
   EXPECT_DOUBLE_EQ(rtod(M_PI / 2.0), 90.0);
   EXPECT_DOUBLE_EQ(DTOR(90), M_PI / 2.0);
@@ -22,7 +22,7 @@ TEST(Utility, ConvertsBetweenDegreesAndRadians) {
   EXPECT_DOUBLE_EQ(PI, M_PI);
 }
 
-TEST(Utility, NormalizesAnglesToHalfATurnEachWay) {
+TEST(Utility, Angles_WrappedToHalfTurn) {
   EXPECT_DOUBLE_EQ(normalize(0.5), 0.5);
   EXPECT_NEAR(normalize(2.0 * M_PI + 0.5), 0.5, 1e-15);  // one rounding of 2 pi + 0.5
   EXPECT_NEAR(normalize(-3.0 * M_PI + 0.1), -M_PI + 0.1, 1e-14);
@@ -30,14 +30,14 @@ TEST(Utility, NormalizesAnglesToHalfATurnEachWay) {
   EXPECT_LE(abs(normalize(1e6)), M_PI);
 }
 
-TEST(Utility, LimitKeepsValuesInRange) {
+TEST(Utility, Limit_KeepsValuesInRange) {
   EXPECT_EQ(limit(5, 0, 3), 3);
   EXPECT_EQ(limit(-5, 0, 3), 0);
   EXPECT_EQ(limit(2, 0, 3), 2);
   EXPECT_DOUBLE_EQ(limit(0.7, -0.5, 0.5), 0.5);
 }
 
-TEST(Utility, MinAndMaxAreNotAmbiguousBesideTheStandardOnes) {
+TEST(Utility, MinAndMax_UnambiguousBesideStandard) {
   EXPECT_EQ(min(1, 2), 1);
   EXPECT_EQ(max(1.5, 0.5), 1.5);
   EXPECT_EQ(PlayerCc::min(3, 2), 2);
@@ -46,12 +46,12 @@ TEST(Utility, MinAndMaxAreNotAmbiguousBesideTheStandardOnes) {
   EXPECT_EQ(MAX(3, 2), 3);
 }
 
-TEST(Utility, OwnFunctionsOfAProgramWin) {
+TEST(Utility, ProgramFunctions_Preferred) {
   EXPECT_DOUBLE_EQ(normalize_in_a_program_with_its_own(1.0), 42.0);
   EXPECT_DOUBLE_EQ(limit_in_a_program_with_its_own(1.0), 43.0);
 }
 
-TEST(Utility, ConstantsAreThoseOfPlayer) {
+TEST(Utility, Constants_MatchPlayer) {
   EXPECT_EQ(PLAYER_PORTNUM, 6665);
   EXPECT_EQ(PLAYER_HOSTNAME, "localhost");
   EXPECT_EQ(PLAYER_LASER_CODE, 6);
@@ -62,7 +62,7 @@ TEST(Utility, ConstantsAreThoseOfPlayer) {
   EXPECT_EQ(unsigned_number, 7U);
 }
 
-TEST(Utility, StructsAreKnownByTheirTagsAndTakeBraces) {
+TEST(Utility, Structs_HaveTagsAndAggregateInitialisation) {
   struct player_pose2d pose = {1.0, 2.0, 3.0};
   player_point_2d point = {4.0, 5.0};
   player_color_t colour = {255, 1, 2, 3};

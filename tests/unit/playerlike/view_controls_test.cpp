@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Keys of the live window, and steering by hand.
-#include "host/view_controls.h"
+#include "host/window/view_controls.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 constexpr std::uint32_t kUp = 0xff52;
 constexpr std::uint32_t kDown = 0xff54;
 
-TEST(ViewAction, CtrlTellsViewModesFromDriving) {
+TEST(ViewAction, Ctrl_SelectsViewModeNotDriving) {
   EXPECT_EQ(view_action(kUp, false), ViewAction::kForward);
   EXPECT_EQ(view_action(kUp, true), ViewAction::kPreviousMode);
   EXPECT_EQ(view_action(kDown, false), ViewAction::kBackward);
@@ -23,7 +23,7 @@ TEST(ViewAction, CtrlTellsViewModesFromDriving) {
   EXPECT_EQ(view_action('q', true), std::nullopt);
 }
 
-TEST(ViewAction, LettersMeanTheSameWithCapsLock) {
+TEST(ViewAction, CapsLock_SameLetters) {
   for (const char letter : std::string("wxadshq")) {
     const auto lower = static_cast<std::uint32_t>(letter);
     EXPECT_TRUE(view_action(lower, false)) << letter;
@@ -34,7 +34,7 @@ TEST(ViewAction, LettersMeanTheSameWithCapsLock) {
   EXPECT_EQ(view_action('x', false), ViewAction::kBackward);
 }
 
-TEST(ViewAction, KeysWithoutAMeaningHaveNone) {
+TEST(ViewAction, OtherKeys_NoAction) {
   for (const std::uint32_t keysym : {0U, 0xffe3U, 0x7aU, 0xffffffffU}) {
     EXPECT_EQ(view_action(keysym, false), std::nullopt) << keysym;
   }
@@ -49,7 +49,7 @@ TEST(ViewHelp, NamesEveryKindOfKey) {
   }
 }
 
-TEST(TimeFactor, DoublesAndHalvesWithinItsRange) {
+TEST(TimeFactor, DoublesAndHalvesWithinRange) {
   EXPECT_EQ(next_time_factor(1.0, true), 2.0);
   EXPECT_EQ(next_time_factor(1.0, false), 0.5);
   EXPECT_EQ(next_time_factor(64.0, true), 64.0);
@@ -95,14 +95,14 @@ class HandDriveTest : public testing::Test {
   HandDrive hand{robots};
 };
 
-TEST_F(HandDriveTest, LeavesRobotsAloneWhileNoKeyIsHeld) {
+TEST_F(HandDriveTest, NoKeys_RobotsUnaffected) {
   command(0, 0.2);
   step(100);
   EXPECT_FALSE(hand.active());
   EXPECT_NEAR(x_m(0), 5.2, 1e-9);  // 1 s at 0.2 m/s
 }
 
-TEST_F(HandDriveTest, OverridesTheProgramAndGivesItsLastCommandBack) {
+TEST_F(HandDriveTest, Keys_OverrideProgramUntilReleased) {
   command(0, -0.2);
   hand.hold(ViewAction::kForward, true);
   step(50);
@@ -123,7 +123,7 @@ TEST_F(HandDriveTest, OverridesTheProgramAndGivesItsLastCommandBack) {
   EXPECT_EQ(motion(0).commanded().v_mps, -0.3);
 }
 
-TEST_F(HandDriveTest, SpeedGrowsStepByStep) {
+TEST_F(HandDriveTest, Speed_GrowsStepByStep) {
   hand.hold(ViewAction::kForward, true);
   step();
   // Full speed of 0.5 m/s after 50 steps of 10 ms.
@@ -132,7 +132,7 @@ TEST_F(HandDriveTest, SpeedGrowsStepByStep) {
   EXPECT_NEAR(motion(0).commanded().v_mps, 0.25, 1e-12);
 }
 
-TEST_F(HandDriveTest, TurnsLeftWithTheLeftKeyAlsoBackwards) {
+TEST_F(HandDriveTest, LeftKey_TurnsLeftAlsoBackwards) {
   hand.hold(ViewAction::kLeft, true);
   hand.hold(ViewAction::kBackward, true);
   step(60);
@@ -143,7 +143,7 @@ TEST_F(HandDriveTest, TurnsLeftWithTheLeftKeyAlsoBackwards) {
   EXPECT_EQ(motion(0).commanded().omega_radps, 0.0);
 }
 
-TEST_F(HandDriveTest, AnotherRobotIsChosenInTurnAndTheFirstGoesBackToItsProgram) {
+TEST_F(HandDriveTest, NextRobot_SelectedAndFirstReturnsToProgram) {
   command(0, 0.1);
   hand.hold(ViewAction::kForward, true);
   step(50);
@@ -160,7 +160,7 @@ TEST_F(HandDriveTest, AnotherRobotIsChosenInTurnAndTheFirstGoesBackToItsProgram)
   EXPECT_EQ(hand.chosen(), 0);
 }
 
-TEST_F(HandDriveTest, LosingTheKeyboardStopsTheRobot) {
+TEST_F(HandDriveTest, LostFocus_StopsRobot) {
   hand.hold(ViewAction::kForward, true);
   step(50);
   hand.release_all();
@@ -168,7 +168,7 @@ TEST_F(HandDriveTest, LosingTheKeyboardStopsTheRobot) {
   EXPECT_EQ(motion(0).commanded().v_mps, 0.0);
 }
 
-TEST(HandDrive, OfAWorldWithoutRobotsDoesNothing) {
+TEST(HandDrive, NoRobots_NoEffect) {
   sim::Simulation simulation(
       sim::load_world_text(R"({"name": "none", "arena": {"size": [2, 2]}, "robots": []})"));
   HandDrive hand(describe_robots(simulation));

@@ -111,7 +111,7 @@ TEST_F(ViewedHostTest, ShowsRobotTimeSpeedAndMode) {
   }
 }
 
-TEST_F(ViewedHostTest, SpaceStopsTimeAndLetsItGoOn) {
+TEST_F(ViewedHostTest, Space_PausesAndContinues) {
   start();
   read();
   viewer.press(' ');
@@ -127,7 +127,7 @@ TEST_F(ViewedHostTest, SpaceStopsTimeAndLetsItGoOn) {
   EXPECT_GT(now_ns(), stopped_ns);
 }
 
-TEST_F(ViewedHostTest, TimeDoesNotRushAfterAPause) {
+TEST_F(ViewedHostTest, Pause_NotCaughtUp) {
   start();
   read();
   viewer.press(' ');
@@ -146,7 +146,7 @@ TEST_F(ViewedHostTest, TimeDoesNotRushAfterAPause) {
   EXPECT_LE(simulated_s, wall_s + 0.02);
 }
 
-TEST_F(ViewedHostTest, ChangesOfSpeedNeverLetTimeRunAheadOfWhatTheyAllow) {
+TEST_F(ViewedHostTest, SpeedChanges_NeverRunAhead) {
   start();
   read();
   const auto begin = Clock::now();
@@ -164,13 +164,13 @@ TEST_F(ViewedHostTest, ChangesOfSpeedNeverLetTimeRunAheadOfWhatTheyAllow) {
   EXPECT_GT(simulated_s, 0.0);
 }
 
-TEST_F(ViewedHostTest, SpeedHasItsBounds) {
+TEST_F(ViewedHostTest, Speed_Bounded) {
   start(world("{}", 64.0));
   viewer.press('+');
   static_cast<void>(show_until("no faster than x 64"));
 }
 
-TEST_F(ViewedHostTest, ARobotIsDrivenByHandAgainstItsProgram) {
+TEST_F(ViewedHostTest, Keys_DriveRobotAgainstProgram) {
   start(world("{}", 8.0));
   const auto stand_still = [&] {
     session->send(position.motion.value(), sim::TwistCommand{{0.0, 0.0, 0.0}});
@@ -188,7 +188,7 @@ TEST_F(ViewedHostTest, ARobotIsDrivenByHandAgainstItsProgram) {
   SUCCEED();
 }
 
-TEST_F(ViewedHostTest, TabChoosesTheNextRobot) {
+TEST_F(ViewedHostTest, Tab_SelectsNextRobot) {
   start();
   viewer.press(kTab);
   static_cast<void>(show_until("r2"));
@@ -196,7 +196,7 @@ TEST_F(ViewedHostTest, TabChoosesTheNextRobot) {
   static_cast<void>(show_until("r1"));
 }
 
-TEST_F(ViewedHostTest, CtrlAndArrowsChangeTheViewMode) {
+TEST_F(ViewedHostTest, CtrlArrows_ChangeViewMode) {
   start();
   const FakeViewer::Frame ground = show_until("ground");
   viewer.press(kDown, true);
@@ -209,7 +209,7 @@ TEST_F(ViewedHostTest, CtrlAndArrowsChangeTheViewMode) {
   static_cast<void>(show_until("full-screen"));
 }
 
-TEST_F(ViewedHostTest, ALockedViewModeStaysAndTheWindowSaysWhy) {
+TEST_F(ViewedHostTest, LockedViewMode_StaysWithMessage) {
   start(world(R"({"view_mode": "full-screen", "lock_view_mode": true})"));
   viewer.press(kDown, true);
   const FakeViewer::Frame frame = show_until("lock");
@@ -217,7 +217,7 @@ TEST_F(ViewedHostTest, ALockedViewModeStaysAndTheWindowSaysWhy) {
   EXPECT_THAT(frame.text, Not(HasSubstr("ground\n")));
 }
 
-TEST_F(ViewedHostTest, PicturesAreNumberedAndDoNotReplaceOthers) {
+TEST_F(ViewedHostTest, Pictures_NumberedWithoutReplacingOthers) {
   start();
   static_cast<void>(show_until("r1"));
   folder.write("out/view_000001.png", "of somebody else");
@@ -229,7 +229,7 @@ TEST_F(ViewedHostTest, PicturesAreNumberedAndDoNotReplaceOthers) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/view_000003.png"));
 }
 
-TEST_F(ViewedHostTest, ClosingTheWindowEndsTheRunWithItsResults) {
+TEST_F(ViewedHostTest, ClosedWindow_EndsRunWithResults) {
   start();
   read();
   viewer.say(ViewerMessageKind::kClosed);
@@ -242,7 +242,7 @@ TEST_F(ViewedHostTest, ClosingTheWindowEndsTheRunWithItsResults) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/report.json"));
 }
 
-TEST_F(ViewedHostTest, QEndsTheRunAlsoWhileItIsPausedAndTheWindowCloses) {
+TEST_F(ViewedHostTest, Q_EndsRunAlsoDuringPause) {
   start();
   viewer.press(' ');
   static_cast<void>(show_until("paused"));
@@ -252,19 +252,19 @@ TEST_F(ViewedHostTest, QEndsTheRunAlsoWhileItIsPausedAndTheWindowCloses) {
   EXPECT_TRUE(host->finished());
 }
 
-TEST_F(ViewedHostTest, TheRunGoesOnWithoutAViewerThatDied) {
+TEST_F(ViewedHostTest, DeadViewer_RunContinues) {
   start();
   viewer.press(' ');
   static_cast<void>(show_until("paused"));
   viewer.die();
-  EXPECT_THAT(wait_for_log("goes on"), HasSubstr("no window any more"));
+  EXPECT_THAT(wait_for_log("continues"), HasSubstr("the window is lost"));
   const sim::SimTime before_ns = now_ns();
   read();
   read();
   EXPECT_GT(now_ns(), before_ns);
 }
 
-TEST_F(ViewedHostTest, TheRunGoesOnWithAViewerThatHangs) {
+TEST_F(ViewedHostTest, HangingViewer_RunContinues) {
   start();
   viewer.hello(800);
   const sim::SimTime before_ns = now_ns();
@@ -272,10 +272,10 @@ TEST_F(ViewedHostTest, TheRunGoesOnWithAViewerThatHangs) {
   EXPECT_GE(now_ns() - before_ns, 4 * sim::kNanosecondsPerSecond / 10);
 }
 
-TEST_F(ViewedHostTest, TheRunGoesOnAfterGarbage) {
+TEST_F(ViewedHostTest, InvalidMessage_RunContinues) {
   start();
   viewer.send_bytes("this is no message of a viewer");
-  EXPECT_THAT(wait_for_log("goes on"), HasSubstr("no message"));
+  EXPECT_THAT(wait_for_log("continues"), HasSubstr("invalid message"));
   read();
   read();
 }
@@ -321,7 +321,7 @@ class WatchedLockstep : public testing::Test {
   DeviceId motors;
 };
 
-TEST_F(WatchedLockstep, IsTheSameRunAndNoFasterThanItsViewers) {
+TEST_F(WatchedLockstep, SameRunAtSpeedOfViewers) {
   start({});
   drive(5);
   const std::uint64_t hash = host->state_hash();
@@ -340,14 +340,14 @@ TEST_F(WatchedLockstep, IsTheSameRunAndNoFasterThanItsViewers) {
   EXPECT_THAT(shown_with("lockstep"), HasSubstr("x 1 "));
 }
 
-TEST_F(WatchedLockstep, RunsAtFullSpeedUntilTheViewBegins) {
+TEST_F(WatchedLockstep, BeforeView_FullSpeed) {
   // Ten minutes, in which a run at the viewers' speed would exceed all patience.
   start_watched(600.0);
   drive(100);
   EXPECT_THAT(shown_with("lockstep"), HasSubstr("full speed"));
 }
 
-TEST_F(WatchedLockstep, CanBePausedAndItsSpeedChanged) {
+TEST_F(WatchedLockstep, PauseAndSpeed_Work) {
   start_watched();
   viewer.press(' ');
   static_cast<void>(shown_with("paused"));
@@ -360,7 +360,7 @@ TEST_F(WatchedLockstep, CanBePausedAndItsSpeedChanged) {
   EXPECT_GT(host->now_ns(), paused_ns);
 }
 
-TEST_F(WatchedLockstep, GoesOnAtFullSpeedWithoutItsWindow) {
+TEST_F(WatchedLockstep, ClosedWindow_FullSpeed) {
   start_watched();
   for (int i = 0; i < 4; ++i) viewer.press('-');
   static_cast<void>(shown_with("x 0.0625"));
@@ -371,7 +371,7 @@ TEST_F(WatchedLockstep, GoesOnAtFullSpeedWithoutItsWindow) {
   EXPECT_GE(host->now_ns(), 59 * sim::kNanosecondsPerSecond);
 }
 
-TEST(ViewedHost, OfAProgramKeepsTheWindowFromThoseItStarts) {
+TEST(ViewedHost, ChildPrograms_DoNotInheritWindow) {
   const FakeViewer viewer;
   setenv("PLAYPEN_VIEW", std::to_string(viewer.socket_for_run()).c_str(), 1);
   {
@@ -383,7 +383,7 @@ TEST(ViewedHost, OfAProgramKeepsTheWindowFromThoseItStarts) {
   close_embedded_hosts();
 }
 
-TEST(ViewedHost, RefusesADescriptorThatCannotBeMeant) {
+TEST(ViewedHost, InvalidDescriptor_Refused) {
   for (const char* text : {"two", "-1", "2", "7x"}) {
     setenv("PLAYPEN_VIEW", text, 1);
     EXPECT_THROW(static_cast<void>(RunSettings::from_environment()), sim::ConfigError) << text;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // The connection to a window; the test acts as the viewer.
-#include "host/viewer_link.h"
+#include "host/window/viewer_link.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -92,7 +92,7 @@ class ViewerLinkTest : public testing::Test {
   std::unique_ptr<ViewerLink> link = std::make_unique<ViewerLink>(viewer.socket_for_run(), run);
 };
 
-TEST_F(ViewerLinkTest, SendsThePictureOfTheSceneInTheSizeAskedFor) {
+TEST_F(ViewerLinkTest, Scene_SentInRequestedSize) {
   viewer.hello(300);
   const auto frame = viewer.show();
   ASSERT_TRUE(frame);
@@ -106,7 +106,7 @@ TEST_F(ViewerLinkTest, SendsThePictureOfTheSceneInTheSizeAskedFor) {
   EXPECT_EQ(frame->header.paused, 0U);
 }
 
-TEST_F(ViewerLinkTest, DrawsTheNextPictureOnlyWhenTheLastOneIsShown) {
+TEST_F(ViewerLinkTest, NextPicture_DrawnAfterLastIsShown) {
   viewer.hello();
   const auto first = viewer.receive();
   ASSERT_TRUE(first);
@@ -123,20 +123,20 @@ TEST_F(ViewerLinkTest, DrawsTheNextPictureOnlyWhenTheLastOneIsShown) {
   EXPECT_EQ(second->header.number, 2U);
 }
 
-TEST_F(ViewerLinkTest, DrawsNothingBeforeTheWindowIsOpen) {
+TEST_F(ViewerLinkTest, BeforeWindowOpens_DrawsNothing) {
   viewer.press('k');
   EXPECT_THAT(run.told(1), ElementsAre("kv"));
   EXPECT_EQ(run.scenes(), 0);
 }
 
-TEST_F(ViewerLinkTest, TakesSizesThatCannotBeWithinTheirBounds) {
+TEST_F(ViewerLinkTest, InvalidSizes_Clamped) {
   viewer.hello(0);
   const auto frame = viewer.show();
   ASSERT_TRUE(frame);
   EXPECT_EQ(std::max(frame->header.width, frame->header.height), view::kLeastSide_px);
 }
 
-TEST_F(ViewerLinkTest, PutsMessagesTogetherThatComeInPieces) {
+TEST_F(ViewerLinkTest, Messages_JoinedFromPieces) {
   const std::string bytes =
       FakeViewer::bytes_of(
           {.kind = ViewerMessageKind::kKey, .a = 'a', .b = view::kPressed | view::kControl}) +
@@ -146,22 +146,22 @@ TEST_F(ViewerLinkTest, PutsMessagesTogetherThatComeInPieces) {
   EXPECT_THAT(run.told(3), ElementsAre("ctrl+av", "a^", "released"));
 }
 
-TEST_F(ViewerLinkTest, LeavesAViewerThatSendsGarbage) {
+TEST_F(ViewerLinkTest, InvalidMessage_ClosesLink) {
   viewer.hello();
   ASSERT_TRUE(viewer.show());
   viewer.send_bytes(std::string(1000, 'x'));
-  EXPECT_THAT(run.told(1), ElementsAre(HasSubstr("no message")));
+  EXPECT_THAT(run.told(1), ElementsAre(HasSubstr("invalid message")));
   while (viewer.receive()) {
   }
   SUCCEED() << "the connection was closed";
 }
 
-TEST_F(ViewerLinkTest, LeavesAViewerThatSendsAnUnknownKindOfMessage) {
+TEST_F(ViewerLinkTest, UnknownMessage_ClosesLink) {
   viewer.say(static_cast<ViewerMessageKind>(99));
-  EXPECT_THAT(run.told(1), ElementsAre(HasSubstr("no message")));
+  EXPECT_THAT(run.told(1), ElementsAre(HasSubstr("invalid message")));
 }
 
-TEST_F(ViewerLinkTest, NoticesThatTheViewerDied) {
+TEST_F(ViewerLinkTest, DeadViewer_Detected) {
   viewer.hello();
   ASSERT_TRUE(viewer.show());
   viewer.die();
@@ -170,13 +170,13 @@ TEST_F(ViewerLinkTest, NoticesThatTheViewerDied) {
   EXPECT_EQ(run.told(1).size(), 1U);
 }
 
-TEST_F(ViewerLinkTest, NoticesAViewerThatDiesInTheMiddleOfAMessage) {
+TEST_F(ViewerLinkTest, ViewerThatDiesInMessage_Detected) {
   viewer.send_bytes("PPV1");
   viewer.die();
   EXPECT_THAT(run.told(1), ElementsAre(HasSubstr("lost: ")));
 }
 
-TEST_F(ViewerLinkTest, TellsAWindowThatTheUserClosedFromOneThatDied) {
+TEST_F(ViewerLinkTest, ClosedWindow_DistinguishedFromDeadViewer) {
   viewer.say(ViewerMessageKind::kClosed);
   viewer.die();
   EXPECT_THAT(run.told(1), ElementsAre("closed"));
@@ -184,7 +184,7 @@ TEST_F(ViewerLinkTest, TellsAWindowThatTheUserClosedFromOneThatDied) {
   EXPECT_EQ(run.told(1).size(), 1U);
 }
 
-TEST_F(ViewerLinkTest, EndsThoughTheViewerReadsNothing) {
+TEST_F(ViewerLinkTest, ViewerThatReadsNothing_DoesNotBlockEnd) {
   // 800 x 870 x 3 bytes exceed a socket's buffer: the frame is sent only in part.
   viewer.hello(800);
   viewer.press('k');
@@ -193,7 +193,7 @@ TEST_F(ViewerLinkTest, EndsThoughTheViewerReadsNothing) {
   EXPECT_LE(run.scenes(), 1);
 }
 
-TEST_F(ViewerLinkTest, ShowsTheLastPictureAndClosesTheWindowWhenTheRunIsOver) {
+TEST_F(ViewerLinkTest, EndOfRun_ShowsLastPictureAndCloses) {
   viewer.hello();
   ASSERT_TRUE(viewer.show());
   run.finish();
@@ -204,7 +204,7 @@ TEST_F(ViewerLinkTest, ShowsTheLastPictureAndClosesTheWindowWhenTheRunIsOver) {
   EXPECT_THAT(run.told(0), IsEmpty());
 }
 
-TEST_F(ViewerLinkTest, SavesThePictureOnTheScreen) {
+TEST_F(ViewerLinkTest, Picture_SavedAsShown) {
   const test_support::TemporaryFolder folder;
   run.save_to = folder / "view.png";
   viewer.hello();
@@ -220,7 +220,7 @@ TEST_F(ViewerLinkTest, SavesThePictureOnTheScreen) {
               test_support::read_bytes(folder / "expected.png"));
 }
 
-TEST_F(ViewerLinkTest, TellsWhyAPictureCannotBeSaved) {
+TEST_F(ViewerLinkTest, UnwritablePicture_Explained) {
   run.save_to = "/no/such/folder/view.png";
   viewer.press('s');
   EXPECT_THAT(run.told(2), ElementsAre("sv", HasSubstr("nothing is shown")));
@@ -230,7 +230,7 @@ TEST_F(ViewerLinkTest, TellsWhyAPictureCannotBeSaved) {
   EXPECT_THAT(run.told(4), ElementsAre("sv", HasSubstr("nothing"), "sv", HasSubstr("/no/such")));
 }
 
-TEST(ViewerLinkSocket, IsNotHandedOnToProgramsThatAreStarted) {
+TEST(ViewerLinkSocket, NotInheritedByChildren) {
   FakeViewer viewer;
   const int socket = viewer.socket_for_run();
   fcntl(socket, F_SETFD, 0);
@@ -239,7 +239,7 @@ TEST(ViewerLinkSocket, IsNotHandedOnToProgramsThatAreStarted) {
   EXPECT_NE(fcntl(socket, F_GETFD) & FD_CLOEXEC, 0);
 }
 
-TEST(ViewerLinkSocket, MustBeOne) {
+TEST(ViewerLinkSocket, OtherDescriptors_Refused) {
   FakeRun run;
   EXPECT_THROW(ViewerLink(-1, run), std::runtime_error);
   EXPECT_THROW(ViewerLink(STDERR_FILENO, run), std::runtime_error);

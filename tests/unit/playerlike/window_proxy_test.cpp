@@ -35,13 +35,13 @@ class Window : public testing::Test {
   WindowProxy& window = WindowProxy::GetInstance(&client, 172, 186);
 };
 
-TEST(WindowInstances, ThereIsNoneUntilMade) {
+TEST(WindowInstances, NoneUntilMade) {
   EXPECT_EQ(error_code_of([] { WindowProxy::GetInstance(); }), PlayerError::kNotAvailable);
   EXPECT_EQ(error_code_of([] { WindowProxy::GetInstance(nullptr, 172, 186); }),
             PlayerError::kBadArgument);
 }
 
-TEST(WindowInstances, DeletedOnesAreMadeAnew) {
+TEST(WindowInstances, Deleted_MadeAnew) {
   auto world = make_fake_world();
   PlayerClient client(fake_session(world));
   WindowProxy& first = WindowProxy::GetInstance(&client, 172, 186);
@@ -54,7 +54,7 @@ TEST(WindowInstances, DeletedOnesAreMadeAnew) {
   delete &WindowProxy::GetInstance();
 }
 
-TEST(WindowInstances, ShowTheWholeGridMapWhateverSizeIsAskedFor) {
+TEST(WindowInstances, AnySize_ShowsWholeGridMap) {
   auto world = make_fake_world();
   PlayerClient client(fake_session(world));
   WindowProxy& window = WindowProxy::GetInstance(&client, 100, 200);
@@ -67,7 +67,7 @@ TEST(WindowInstances, ShowTheWholeGridMapWhateverSizeIsAskedFor) {
   }
 }
 
-TEST(WindowInstances, EachClientMayHaveOneAndTheNewestIsFound) {
+TEST(WindowInstances, EachClient_NewestIsFound) {
   auto world = make_fake_world();
   auto other_world = make_fake_world();
   PlayerClient client(fake_session(world));
@@ -83,7 +83,7 @@ TEST(WindowInstances, EachClientMayHaveOneAndTheNewestIsFound) {
   delete &first;
 }
 
-TEST_F(Window, ColumnsAndRowsFollowTheCanvas) {
+TEST_F(Window, ColumnsAndRows_FollowCanvas) {
   EXPECT_EQ(window.GetWidth(), 172);
   EXPECT_EQ(window.GetHeight(), 186);
   EXPECT_DOUBLE_EQ(window.GetCellSize(), 0.02);
@@ -99,7 +99,7 @@ TEST_F(Window, ColumnsAndRowsFollowTheCanvas) {
   EXPECT_GT(window.GetX(1e300), 1000000);
 }
 
-TEST_F(Window, ColoursMayBeWrittenInManyWays) {
+TEST_F(Window, Colours_AcceptedInSeveralForms) {
   int x = 0;
   const auto next = [&] { return x++; };
   const auto drawn = [&] { return window.GetPixel(x - 1, 7); };
@@ -141,7 +141,7 @@ TEST_F(Window, ColoursMayBeWrittenInManyWays) {
   EXPECT_EQ(drawn(), ImageColour_t(2, 2, 2));
 }
 
-TEST_F(Window, BadColoursAreRefused) {
+TEST_F(Window, InvalidColours_Refused) {
   EXPECT_EQ(error_code_of([&] { window.SetPixel(1, 1, std::nan(""), 0.0, 0.0); }),
             PlayerError::kBadArgument);
   EXPECT_EQ(error_code_of([&] { window.SetPixel(1, 1, "green"); }), PlayerError::kBadArgument);
@@ -149,7 +149,7 @@ TEST_F(Window, BadColoursAreRefused) {
   EXPECT_EQ(world->drawn, 0U);
 }
 
-TEST_F(Window, AlphaBlendsOverWhatIsThere) {
+TEST_F(Window, Alpha_BlendsOverExistingCells) {
   window.Clear(0, 0, 0);
   window.SetPixel(3, 3, 255, 255, 255, 128);
   // Source-over: 255 * 128/255 + 0.
@@ -158,7 +158,7 @@ TEST_F(Window, AlphaBlendsOverWhatIsThere) {
   EXPECT_NEAR(window.GetPixel(3, 3).r, 128, 1);
 }
 
-TEST_F(Window, LinesDrawBothEnds) {
+TEST_F(Window, Lines_DrawBothEnds) {
   window.SetLine(1, 2, 4, 2, 0, 255, 0);
   for (int x = 1; x <= 4; ++x) EXPECT_EQ(window.GetPixel(x, 2), ImageColour_t(0, 255, 0)) << x;
   EXPECT_EQ(window.GetPixel(0, 2).a, 0);
@@ -176,7 +176,7 @@ TEST_F(Window, LinesDrawBothEnds) {
   EXPECT_EQ(window.GetPixel(171, 11), ImageColour_t(1, 2, 3));
 }
 
-TEST_F(Window, ClearFillsEveryCell) {
+TEST_F(Window, Clear_FillsEveryCell) {
   window.Clear("#102030");
   EXPECT_EQ(window.GetPixel(171, 185), ImageColour_t(0x10, 0x20, 0x30));
   window.Clear(0.0, 0.0, 1.0, 0.5);
@@ -185,7 +185,7 @@ TEST_F(Window, ClearFillsEveryCell) {
   EXPECT_EQ(window.GetPixel(0, 0), ImageColour_t(0, 0, 0, 0));
 }
 
-TEST_F(Window, PixelsAreReadInManyWays) {
+TEST_F(Window, Pixels_ReadInSeveralForms) {
   window.SetPixel(5, 5, 255, 51, 0);
   uchar r = 1, g = 1, b = 1;
   window.GetPixel(5, 5, r, g, b);
@@ -206,7 +206,7 @@ TEST_F(Window, PixelsAreReadInManyWays) {
   EXPECT_EQ(error_code_of([&] { window.GetPixel(0, -1); }), PlayerError::kBadArgument);
 }
 
-TEST_F(Window, PositionsInMetresAreDrawnInTheirCells) {
+TEST_F(Window, Positions_DrawnInTheirCells) {
   // Column floor(x / 0.02), row 185 - floor(y / 0.02).
   window.SetPixelMetres(0.05, 0.03, 255, 0, 0);
   EXPECT_EQ(window.GetPixel(2, 184), ImageColour_t(255, 0, 0));
@@ -230,7 +230,7 @@ TEST_F(Window, PositionsInMetresAreDrawnInTheirCells) {
             PlayerError::kBadArgument);
 }
 
-TEST_F(Window, DiscsHoldTheCellsWhoseMiddlesAreWithinTheRadius) {
+TEST_F(Window, Discs_HoldCellsWithCentreInRadius) {
   constexpr double kX = 1.003, kY = 2.008, kRadius = 0.11;
   window.SetDiscMetres(kX, kY, kRadius, 255, 0, 0, 100);
   int drawn = 0;
@@ -256,7 +256,7 @@ TEST_F(Window, DiscsHoldTheCellsWhoseMiddlesAreWithinTheRadius) {
             PlayerError::kBadArgument);
 }
 
-TEST_F(Window, PolygonsHoldTheCellsWhoseMiddlesLieInside) {
+TEST_F(Window, Polygons_HoldCellsWithCentreInside) {
   // A square of 0.2 m with a square hole: both outlines in one polygon, by the even-odd rule.
   window.SetPolygonMetres({{1.0, 1.0},
                            {1.2, 1.0},
@@ -283,7 +283,7 @@ TEST_F(Window, PolygonsHoldTheCellsWhoseMiddlesLieInside) {
   EXPECT_EQ(window.GetPixel(0, 0), ImageColour_t(9, 9, 9));
 }
 
-TEST_F(Window, WholeImagesAreSetAndRead) {
+TEST_F(Window, WholeImages_SetAndRead) {
   std::vector<std::uint8_t> rgb(172 * 186 * 3);
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<std::uint8_t>(i % 251);
   window.SetImage(rgb);
@@ -305,7 +305,7 @@ TEST_F(Window, WholeImagesAreSetAndRead) {
   EXPECT_EQ(error_code_of([&] { window.GetImage(2); }), PlayerError::kBadArgument);
 }
 
-TEST_F(Window, ImagesKeepTheirPlaceAmongDrawings) {
+TEST_F(Window, Images_KeepOrderAmongDrawings) {
   window.SetPixel(1, 1, 1, 1, 1);
   window.SetImage(std::vector<std::uint8_t>(172 * 186 * 4, 7));
   window.SetPixel(2, 2, 2, 2, 2);
@@ -313,14 +313,14 @@ TEST_F(Window, ImagesKeepTheirPlaceAmongDrawings) {
   EXPECT_EQ(window.GetPixel(2, 2), ImageColour_t(2, 2, 2));
 }
 
-TEST_F(Window, ListsOfPixelsAreDrawn) {
+TEST_F(Window, PixelLists_Drawn) {
   window.UpdateImage(
       {{1, 1, 255, 0, 0}, {2, 1, ImageColour_t(0, 255, 0, 10)}, {-5, 9999, 1, 1, 1}});
   EXPECT_EQ(window.GetPixel(1, 1), ImageColour_t(255, 0, 0));
   EXPECT_EQ(window.GetPixel(2, 1).a, 10);
 }
 
-TEST_F(Window, ResizingKeepsWhatIsDrawnInItsPlace) {
+TEST_F(Window, Resize_KeepsDrawingsInPlace) {
   window.SetPixelMetres(0.05, 0.05, 255, 0, 0);
   window.Resize(100, 50);
   EXPECT_EQ(window.GetWidth(), 100);
@@ -339,7 +339,7 @@ TEST_F(Window, ResizingKeepsWhatIsDrawnInItsPlace) {
             PlayerError::kNotAvailable);
 }
 
-TEST_F(Window, ViewModesGoToTheWorld) {
+TEST_F(Window, ViewModes_SentToWorld) {
   EXPECT_EQ(window.GetViewMode(), CCMorse::GROUND);
   window.SetViewMode(CCMorse::FULL_SCREEN);
   EXPECT_EQ(world->view_mode, sim::ViewMode::kFullScreen);
@@ -353,14 +353,14 @@ TEST_F(Window, ViewModesGoToTheWorld) {
             PlayerError::kBadArgument);
 }
 
-TEST_F(Window, PicturesAreSavedByTheWorld) {
+TEST_F(Window, Pictures_SavedByWorld) {
   window.SaveImage("map");
   window.SaveImage("big.png", 4);
   EXPECT_THAT(world->saved, ElementsAre(FieldsAre("map", 1, std::nullopt),
                                         FieldsAre("big.png", 4, std::nullopt)));
 }
 
-TEST_F(Window, SeveralThreadsMayDraw) {
+TEST_F(Window, Threads_MayDraw) {
   constexpr int kThreads = 4;
   constexpr int kRounds = 20000;  // more than the queue holds
   std::vector<std::thread> threads;
@@ -377,7 +377,7 @@ TEST_F(Window, SeveralThreadsMayDraw) {
     EXPECT_EQ(window.GetPixel(0, t), ImageColour_t(uchar(t), 240, 0));
 }
 
-TEST_F(Window, PrintsItsSizeAndLayers) {
+TEST_F(Window, Prints_SizeAndLayers) {
   std::ostringstream out;
   out << window;
   EXPECT_THAT(out.str(), HasSubstr("172\t186\t0.02"));

@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, WorldProxies,
 
 // --- simulation
 
-TEST_P(WorldProxies, PutsRobotsAndObstaclesWhereTold) {
+TEST_P(WorldProxies, RobotsAndObstacles_Placed) {
   const auto robot = client();
   SimulationProxy simulation(robot.get(), 0);
   Position2dProxy position(robot.get(), 0);
@@ -111,7 +111,7 @@ TEST_P(WorldProxies, PutsRobotsAndObstaclesWhereTold) {
   EXPECT_DOUBLE_EQ(time, 0.1);
 }
 
-TEST_P(WorldProxies, FollowAndPutAMovingObstacle) {
+TEST_P(WorldProxies, MovingObstacle_FollowedAndPlaced) {
   const test::ReachableHost host(playerlike::Host::create(sim::load_world_text(R"({
       "arena": {"size": [4, 2], "obstacles": [{"name": "cart", "center": [1, 0.5],
         "motion": {"type": "path", "speed": 0.5, "points": [[3, 0.5]]}}]},
@@ -140,7 +140,7 @@ TEST_P(WorldProxies, FollowAndPutAMovingObstacle) {
               HasSubstr("robot r1 stands there"));
 }
 
-TEST_P(WorldProxies, SayWhatIsAgainstAPose) {
+TEST_P(WorldProxies, InvalidPose_Explained) {
   const auto robot = client(6666);
   SimulationProxy simulation(robot.get(), 0);
   const auto warning = [&](const char* name, double x, double y) {
@@ -174,7 +174,7 @@ TEST_P(WorldProxies, SayWhatIsAgainstAPose) {
   EXPECT_EQ(x, 0.0);  // the heading is checked last: r1 did not move
 }
 
-TEST_P(WorldProxies, TellAndChangeProperties) {
+TEST_P(WorldProxies, Properties_ReadAndChanged) {
   const auto robot = client();
   SimulationProxy simulation(robot.get(), 0);
   std::uint32_t green = 0xff00;
@@ -241,7 +241,7 @@ TEST_P(WorldProxies, TellAndChangeProperties) {
   EXPECT_EQ(dynamics, 0.0);
 }
 
-TEST_P(WorldProxies, GiveThingsNumbersThatFiducialFindersRead) {
+TEST_P(WorldProxies, FiducialNumbers_SetForFinders) {
   const auto robot = client();
   SimulationProxy simulation(robot.get(), 0);
   FiducialProxy finder(robot.get(), 0);
@@ -268,7 +268,7 @@ TEST_P(WorldProxies, GiveThingsNumbersThatFiducialFindersRead) {
   EXPECT_EQ(finder.GetFiducialItem(0).id, 300);
 }
 
-TEST_P(WorldProxies, SayWhichPropertiesThereAreAndHowLong) {
+TEST_P(WorldProxies, UnknownProperty_ErrorListsExistingWithLengths) {
   const auto robot = client();
   SimulationProxy simulation(robot.get(), 0);
   char value[64] = {};
@@ -311,7 +311,7 @@ TEST_P(WorldProxies, SayWhichPropertiesThereAreAndHowLong) {
             PlayerError::kBadArgument);
 }
 
-TEST_P(WorldProxies, LetTheWorldGoBackWhileTimeGoesOn) {
+TEST_P(WorldProxies, RestoredWorld_TimeContinues) {
   const auto robot = client();
   SimulationProxy simulation(robot.get(), 0);
   PlayerCc::Position2dProxy motors(robot.get(), 0);
@@ -354,7 +354,7 @@ TEST_P(WorldProxies, LetTheWorldGoBackWhileTimeGoesOn) {
   EXPECT_THAT(warning_of([&] { simulation.SaveState("64"); }), HasSubstr("64 states are saved"));
 }
 
-TEST_P(WorldProxies, OnlyLookWhereTheWorldIsLocked) {
+TEST_P(WorldProxies, LockedWorld_ReadOnly) {
   const test::ReachableHost locked(
       playerlike::Host::create(sim::load_world_text(
           R"({"simulation": {"lock_objects": true}, "robots": [{"name": "r1"}]})")),
@@ -377,7 +377,7 @@ TEST_P(WorldProxies, OnlyLookWhereTheWorldIsLocked) {
 
 // With tokens, only a client that may command a robot may move it, and only a client that may
 // command all robots may move what belongs to no robot.
-TEST(WorldProxiesOfAServer, ChangeOnlyWhatTheirTokensAllow) {
+TEST(WorldProxiesOfAServer, Changes_NeedTokens) {
   const test::TokenServer server(kWorld);
   const auto refused = [](auto action) {
     EXPECT_THAT(warning_of(action), AnyOf(HasSubstr("token"), HasSubstr("all robots")));
@@ -407,7 +407,7 @@ TEST(WorldProxiesOfAServer, ChangeOnlyWhatTheirTokensAllow) {
 
 // --- the map in tiles
 
-TEST_P(WorldProxies, FetchMapsThatAreLargerThanATile) {
+TEST_P(WorldProxies, LargeMaps_FetchedInTiles) {
   const test::ReachableHost host(playerlike::Host::create(sim::load_world_text(R"({
         "arena": {"origin": [-1, 2], "size": [12.9, 10.4], "obstacles": [
           {"name": "b", "center": [5.5, 8], "size": [9, 0.4], "yaw_deg": 30}]},
@@ -442,7 +442,7 @@ TEST_P(WorldProxies, FetchMapsThatAreLargerThanATile) {
 
 // --- voices, lights, lines, messages
 
-TEST_P(WorldProxies, SayThings) {
+TEST_P(WorldProxies, Speech_Spoken) {
   const auto robot = client();
   SpeechProxy speech(robot.get(), 0);
   EXPECT_EQ(speech.GetInterfaceStr(), "speech");
@@ -450,7 +450,7 @@ TEST_P(WorldProxies, SayThings) {
   speech.Say(std::string(254, 'x') + "\xc5\x99");  // there is no room for the last character
   robot->Read();
   std::vector<std::string> said;
-  host_->host().with_simulation([&](sim::Simulation& simulation) {
+  host_->host().with_simulation([&](const sim::Simulation& simulation) {
     for (const sim::SpokenText& u : simulation.spoken_texts()) said.push_back(u.text);
   });
   EXPECT_THAT(said, testing::ElementsAre("here \xc5\x99 ?!", std::string(254, 'x')));
@@ -462,7 +462,7 @@ TEST_P(WorldProxies, SayThings) {
                                 HasSubstr("\"robot\": \"r1\"")));
 }
 
-TEST_P(WorldProxies, ReadAndSetLines) {
+TEST_P(WorldProxies, Lines_ReadAndSet) {
   const auto first = client();
   const auto second = client(6666);
   DioProxy dio(first.get(), 0);
@@ -498,7 +498,7 @@ constexpr const char* kCanWorld = R"({
   "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}, "devices": {"gripper": {
     "length": 0.1, "opening": 0.08, "thickness": 0.01, "travel_time": 0.6, "capacity": 1}}}]})";
 
-TEST_P(WorldProxies, GripAndCarry) {
+TEST_P(WorldProxies, Gripper_GripsAndCarries) {
   test::ReachableHost host(playerlike::Host::create(sim::load_world_text(kCanWorld)), GetParam());
   PlayerClient robot(host.connect(6665));
   GripperProxy gripper(&robot, 0);
@@ -557,7 +557,7 @@ TEST_P(WorldProxies, GripAndCarry) {
   EXPECT_EQ(error_of([&] { gripper.SetGrip(99); }).GetErrorCode(), PlayerError::kBadArgument);
 }
 
-TEST_P(WorldProxies, GripInTheWayOfMorse) {
+TEST_P(WorldProxies, MorseGripper_Grips) {
   test::ReachableHost host(playerlike::Host::create(sim::load_world_text(kCanWorld)), GetParam());
   CCMorse::MorseClient client(host.connect(4000));
   CCMorse::MorseGripper gripper(client.GetRobot("r1"));
@@ -592,7 +592,7 @@ TEST_P(WorldProxies, GripInTheWayOfMorse) {
   EXPECT_EQ(gripper.GetStatus(), "moving");
 }
 
-TEST_P(WorldProxies, PutPortableThingsAway) {
+TEST_P(WorldProxies, PortableObjects_StoredAndReleased) {
   test::ReachableHost host(playerlike::Host::create(sim::load_world_text(kCanWorld)), GetParam());
   PlayerClient robot(host.connect(6665));
   GripperProxy gripper(&robot, 0);
@@ -611,7 +611,7 @@ TEST_P(WorldProxies, PutPortableThingsAway) {
   EXPECT_EQ(x, -10.0);
 }
 
-TEST_P(WorldProxies, SwitchLights) {
+TEST_P(WorldProxies, Lights_Switched) {
   const auto robot = client();
   BlinkenLightProxy light(robot.get(), 0);
   robot->Read();
@@ -641,7 +641,7 @@ TEST_P(WorldProxies, SwitchLights) {
             PlayerError::kBadArgument);
 }
 
-TEST_P(WorldProxies, SendMessages) {
+TEST_P(WorldProxies, Messages_Sent) {
   const auto first = client();
   const auto second = client(6666);
   OpaqueProxy hears(first.get(), 0);
@@ -673,7 +673,7 @@ TEST_P(WorldProxies, SendMessages) {
   EXPECT_EQ(error_of([&] { sends.SendCmd(nullptr); }).GetErrorCode(), PlayerError::kBadArgument);
 }
 
-TEST_P(WorldProxies, AreFreshOnlyByAMessage) {
+TEST_P(WorldProxies, Freshness_SetByMessageOnly) {
   const auto robot = client(6666);  // hears itself
   OpaqueProxy opaque(robot.get(), 0);
   robot->Read();
@@ -693,7 +693,7 @@ TEST_P(WorldProxies, AreFreshOnlyByAMessage) {
 
 // --- the log
 
-TEST_P(WorldProxies, WriteARunAndMeetItOnceMore) {
+TEST_P(WorldProxies, Log_WrittenAndReplayed) {
   const auto robot = client();
   Position2dProxy position(robot.get(), 0);
   LaserProxy laser(robot.get(), 0);
@@ -746,7 +746,7 @@ TEST_P(WorldProxies, WriteARunAndMeetItOnceMore) {
   while (std::getline(file, line)) EXPECT_THAT(line, HasSubstr(R"("robot":"r1")"));
 }
 
-TEST_P(WorldProxies, RefuseWhatIsNoLog) {
+TEST_P(WorldProxies, InvalidLog_Refused) {
   const auto robot = client();
   LogProxy log(robot.get(), 0);
   const auto code = [](auto action) { return error_of(action).GetErrorCode(); };

@@ -51,7 +51,7 @@ JointMotion on_trapezoid(double distance, double speed, double acceleration, dou
   return {0.5 * acceleration * t_s * t_s, acceleration * t_s};
 }
 
-TEST(AdvanceToGoal, FollowsTheTrapezoidInAnySteps) {
+TEST(AdvanceToGoal, TrapezoidalSpeed_IndependentOfStepSize) {
   // 0.7 m at most 0.5 m/s and 1 m/s^2: 0.5 s up, 0.9 s at full speed, 0.5 s down. 0.1 m: a triangle
   // of 2 sqrt(0.1) s, whose peak is 0.316 m/s.
   for (const double distance : {0.7, 0.1}) {
@@ -73,7 +73,7 @@ TEST(AdvanceToGoal, FollowsTheTrapezoidInAnySteps) {
   }
 }
 
-TEST(AdvanceToGoal, BrakesFirstWhenItMovesAway) {
+TEST(AdvanceToGoal, OppositeMovement_BrakesFirst) {
   // At -0.4 m/s and 1 m/s^2 it stops after 0.4 s at -0.08 m; from there 0.58 m to 0.5 m.
   for (const double t_s : {0.2, 0.4, 0.7, 1.2, 3.0}) {
     const JointMotion made = advance_to_goal({0.0, -0.4}, 0.5, 0.5, 1.0, t_s);
@@ -83,14 +83,14 @@ TEST(AdvanceToGoal, BrakesFirstWhenItMovesAway) {
   }
 }
 
-TEST(AdvanceToGoal, BrakesWhenItIsTooFast) {
+TEST(AdvanceToGoal, TooFast_Brakes) {
   // From 1 m/s to 0.5 m/s in 0.5 s over 0.375 m, then 0.5 s at 0.5 m/s.
   const JointMotion made = advance_to_goal({0.0, 1.0}, 2.0, 0.5, 1.0, 1.0);
   EXPECT_NEAR(made.position, 0.375 + 0.25, kRounding);
   EXPECT_NEAR(made.speed, 0.5, kRounding);
 }
 
-TEST(AdvanceToGoal, ReturnsWhenItCannotStopInTime) {
+TEST(AdvanceToGoal, TooLateToStop_Returns) {
   // At 1 m/s and 1 m/s^2 it stops after 1 s at 0.5 m. Back to 0.1 m: 0.5 s up and 0.15 m left.
   EXPECT_NEAR(advance_to_goal({0.0, 1.0}, 0.1, 0.5, 1.0, 1.0).position, 0.5, kRounding);
   const JointMotion back = advance_to_goal({0.0, 1.0}, 0.1, 0.5, 1.0, 1.5);
@@ -98,13 +98,13 @@ TEST(AdvanceToGoal, ReturnsWhenItCannotStopInTime) {
   EXPECT_EQ(advance_to_goal({0.0, 1.0}, 0.1, 0.5, 1.0, 9.0).position, 0.1);
 }
 
-TEST(AdvanceToGoal, StaysAtItsGoal) {
+TEST(AdvanceToGoal, AtGoal_Stays) {
   const JointMotion made = advance_to_goal({0.3, 0.0}, 0.3, 0.5, 1.0, 1.0);
   EXPECT_EQ(made.position, 0.3);
   EXPECT_EQ(made.speed, 0.0);
 }
 
-TEST(AdvanceWithCurrent, ApproachesTheProportionalSpeed) {
+TEST(AdvanceWithCurrent, SpeedApproachesProportionalValue) {
   const JointTravel travel{-9.0, 0.0, 9.0, 0.0, 1.0, 2.0, 4.0, 4.0};
   // Half of the current: 1 rad/s with a time constant of 0.5 s. Speed 1 - exp(-2 t), position
   // t - (1 - exp(-2 t)) / 2.
@@ -207,7 +207,7 @@ TEST(ActArray, StartsAtHomeWithPower) {
   EXPECT_EQ(rig.joint(2).acceleration_setting, 0.1);
 }
 
-TEST(ActArray, MovesToPositionsOnTheTrapezoid) {
+TEST(ActArray, PositionCommand_FollowsTrapezoid) {
   Rig rig;
   ASSERT_EQ(rig.move(Mode::kPosition, 0, {kPi / 4}), std::nullopt);
   // 45 degrees at 30 degrees/s and 60 degrees/s^2: 2 s in all.
@@ -226,7 +226,7 @@ TEST(ActArray, MovesToPositionsOnTheTrapezoid) {
   EXPECT_EQ(rig.joint(1).position, 0.0);  // the others have not moved
 }
 
-TEST(ActArray, ClampsGoalsToTheLimits) {
+TEST(ActArray, GoalBeyondLimit_Clamped) {
   Rig rig;
   ASSERT_EQ(rig.move(Mode::kPosition, 0, {9.0, -9.0, 9.0}), std::nullopt);
   rig.run(1000);
@@ -236,7 +236,7 @@ TEST(ActArray, ClampsGoalsToTheLimits) {
   for (const JointReading& joint : rig.reading().joints) EXPECT_EQ(joint.state, JointState::kIdle);
 }
 
-TEST(ActArray, MovesAtSpeedsToALimitAndStallsThere) {
+TEST(ActArray, SpeedCommand_StallsAtLimit) {
   Rig rig;
   ASSERT_EQ(rig.move(Mode::kSpeed, 0, {-0.2, 0.0, 0.03}), std::nullopt);
   rig.run(100);
@@ -258,7 +258,7 @@ TEST(ActArray, MovesAtSpeedsToALimitAndStallsThere) {
   EXPECT_EQ(rig.joint(0).state, JointState::kMoving);
 }
 
-TEST(ActArray, BrakesToRestAtSpeedZero) {
+TEST(ActArray, SpeedZero_BrakesToRest) {
   Rig rig;
   ASSERT_EQ(rig.move(Mode::kSpeed, 0, {0.5}), std::nullopt);
   rig.run(100);
@@ -270,7 +270,7 @@ TEST(ActArray, BrakesToRestAtSpeedZero) {
   EXPECT_EQ(rig.joint(0).state, JointState::kIdle);
 }
 
-TEST(ActArray, GoesHomeJointByJointOrAsAWhole) {
+TEST(ActArray, Home_ByJointOrWhole) {
   Rig rig;
   ASSERT_EQ(rig.move(Mode::kPosition, 0, {0.3, 0.3, 0.15}), std::nullopt);
   rig.run(500);
@@ -284,14 +284,14 @@ TEST(ActArray, GoesHomeJointByJointOrAsAWhole) {
   EXPECT_EQ(rig.joint(1).position, 0.0);
 }
 
-TEST(ActArray, MovesAllJointsWithOneValue) {
+TEST(ActArray, OneValue_MovesAllJoints) {
   Rig rig;
   ASSERT_EQ(rig.move(Mode::kPosition, -1, {0.1}), std::nullopt);
   rig.run(500);
   for (const JointReading& joint : rig.reading().joints) EXPECT_EQ(joint.position, 0.1);
 }
 
-TEST(ActArray, PushesWithACurrent) {
+TEST(ActArray, Current_Pushes) {
   Rig rig;
   // Half of 2 A: towards half of 60 degrees/s, with a time constant of 60/120 s.
   ASSERT_EQ(rig.move(Mode::kCurrent, 0, {1.0}), std::nullopt);
@@ -313,7 +313,7 @@ TEST(ActArray, PushesWithACurrent) {
   EXPECT_NEAR(rig.joint(0).speed, 0.0, kRounding);
 }
 
-TEST(ActArray, TakesSpeedsAndAccelerationsForLaterMovements) {
+TEST(ActArray, SpeedAndAcceleration_ApplyToLaterMovements) {
   Rig rig;
   ASSERT_EQ(rig.move(Mode::kPosition, 0, {1.0}), std::nullopt);
   ASSERT_EQ(rig.set(Setting::kSpeed, -0.2, 0), std::nullopt);  // the sign is ignored
@@ -330,7 +330,7 @@ TEST(ActArray, TakesSpeedsAndAccelerationsForLaterMovements) {
   EXPECT_EQ(rig.joint(2).speed_setting, 0.1);
 }
 
-TEST(ActArray, StaysWithinLimitsWhenBrakingBecomesWeaker) {
+TEST(ActArray, WeakerBraking_StaysWithinLimits) {
   Rig rig;
   ASSERT_EQ(rig.move(Mode::kSpeed, 2, {0.1}), std::nullopt);
   rig.run(190);
@@ -345,7 +345,7 @@ TEST(ActArray, StaysWithinLimitsWhenBrakingBecomesWeaker) {
   EXPECT_LT(rig.joint(2).position, 0.2);
 }
 
-TEST(ActArray, StandsStillWithoutPower) {
+TEST(ActArray, NoPower_StandsStill) {
   Rig rig;
   ASSERT_EQ(rig.move(Mode::kPosition, 0, {1.0}), std::nullopt);
   rig.run(50);
@@ -364,7 +364,7 @@ TEST(ActArray, StandsStillWithoutPower) {
   EXPECT_EQ(rig.joint(0).position, 0.0);
 }
 
-TEST(ActArray, HoldsOnlyJointsWithABrake) {
+TEST(ActArray, NoPower_HoldsJointsWithBrake) {
   Rig rig;
   ASSERT_EQ(rig.move(Mode::kPosition, 0, {1.0, 0.4, 0.1}), std::nullopt);
   rig.run(50);
@@ -384,7 +384,7 @@ TEST(ActArray, HoldsOnlyJointsWithABrake) {
   EXPECT_EQ(rig.joint(0).position, 0.0);
 }
 
-TEST(ActArray, RefusesCommandsThatNoJointCanFollow) {
+TEST(ActArray, InvalidCommands_Refused) {
   Rig rig;
   const std::string no_joint = "device actarray has 3 joints, counted from 0; there is no joint ";
   EXPECT_EQ(rig.move(Mode::kPosition, 3, {0.1}), no_joint + "3");
@@ -406,7 +406,7 @@ TEST(ActArray, RefusesCommandsThatNoJointCanFollow) {
   EXPECT_EQ(plain.set(Setting::kBrakes, 0.0), std::nullopt);
 }
 
-TEST(ActArray, ContinuesFromASnapshot) {
+TEST(ActArray, Snapshot_Continues) {
   Rig rig;
   ASSERT_EQ(rig.set(Setting::kSpeed, 0.3, 0), std::nullopt);
   ASSERT_EQ(rig.move(Mode::kPosition, 0, {1.0}), std::nullopt);
@@ -432,13 +432,13 @@ TEST(ActArray, ContinuesFromASnapshot) {
   EXPECT_EQ(rig.simulation.state_hash(), other.simulation.state_hash());
 }
 
-TEST(ActArray, RefusesASnapshotOfOtherLimits) {
+TEST(ActArray, SnapshotOfOtherLimits_Refused) {
   Rig rig(R"("joints": [{"max_deg": 80}])");
   Rig other(R"("joints": [{"max_deg": 81}])");
   EXPECT_THROW(other.simulation.restore(rig.simulation.save()), SnapshotError);
 }
 
-TEST(ActArray, ShowsItsLinksFromAbove) {
+TEST(ActArray, Scene_ShowsLinksFromAbove) {
   Rig rig(R"("pose": {"x": 0.05}, "joints": [{"length": 0.2}, {"length": 0.1, "axis": "-y"}])");
   ASSERT_EQ(rig.move(Mode::kPosition, 0, {kPi / 2, kPi / 2}), std::nullopt);
   rig.run(500);
@@ -469,7 +469,7 @@ TEST(ActArraySettings, HaveDefaults) {
   EXPECT_EQ(linear.acceleration, 0.1);
 }
 
-TEST(ActArraySettings, AreClientsProperties) {
+TEST(ActArraySettings, ListedAsProperties) {
   const WorldDescription world = world_with(kJoints);
   const DeviceKind* kind = find_device_kind("actarray");
   const auto& devices = world.robots[0].devices;
@@ -486,7 +486,7 @@ TEST(ActArraySettings, AreClientsProperties) {
   EXPECT_EQ(kind->model_properties({}, RobotModel{}).at("count"), 5.0);
 }
 
-TEST(ActArraySettings, OfJointsAreOnThePage) {
+TEST(ActArraySettings, JointSettings_OnPage) {
   const std::string page = test_support::read_bytes(PLAYPEN_SOURCE_DIR "/docs/devices/actarray.md");
   for (const Field& field : fields_of<JointParams>().fields) {
     EXPECT_THAT(page, HasSubstr('`' + std::string(field.name) + '`'));
@@ -500,7 +500,7 @@ struct Wrong {
   const char* expected;
 };
 
-TEST(ActArraySettings, AreRefusedWithAReason) {
+TEST(ActArraySettings, InvalidSettings_RefusedWithReason) {
   const std::string device = "/robots/0/devices/actarray";
   const Wrong cases[] = {
       {R"("joints": [{}, {"min": 0}])", "device/joint-unit", "/joints/1",

@@ -29,7 +29,7 @@ void command(Simulation& simulation, const char* device, const Command& what) {
   ASSERT_EQ(simulation.apply({0, *simulation.find_device(0, device)}, what), std::nullopt);
 }
 
-TEST(Amcl, TracksTheRobotWithNoisyOdometry) {
+TEST(Amcl, NoisyOdometry_Tracked) {
   Simulation simulation(arena_with(
       R"("odometry": {"noise": 0.005, "wheel_ratio": 1.02},
          "amcl": {"init_pose": {"x": 0.5, "y": 0.4, "yaw_deg": 90}, "init_pose_var": [0.1, 0.1],
@@ -50,7 +50,7 @@ TEST(Amcl, TracksTheRobotWithNoisyOdometry) {
   EXPECT_EQ(reading.pending, 0U);
 }
 
-TEST(Amcl, ReadingsFollowTheOdometryBetweenUpdates) {
+TEST(Amcl, BetweenUpdates_FollowsOdometry) {
   Simulation simulation(arena_with(
       R"("amcl": {"init_pose": {"x": 0.5, "y": 0.4, "yaw_deg": 90}, "init_pose_var": [0, 0],
                   "init_pose_var_yaw_deg": 0, "update_thresh": 100})"));
@@ -66,7 +66,7 @@ TEST(Amcl, ReadingsFollowTheOdometryBetweenUpdates) {
   EXPECT_NEAR(reading.hypotheses[0].mean.yaw_rad, truth.yaw_rad, 1e-9);
 }
 
-TEST(Amcl, TakesPosesWithAndWithoutCovariance) {
+TEST(Amcl, Pose_AcceptedWithAndWithoutCovariance) {
   Simulation simulation(arena_with(
       R"("amcl": {"init_pose_var": [0.2, 0.3], "init_pose_var_yaw_deg": 0, "pf_max_samples": 5000})"));
   command(simulation, "amcl", SetPoseCommand{{1.0, 2.0, 0.5}});
@@ -89,7 +89,7 @@ TEST(Amcl, TakesPosesWithAndWithoutCovariance) {
   refused(TwistCommand{}, "takes no such command");
 }
 
-TEST(Amcl, LeavesOutOfTheMapWhatCanMove) {
+TEST(Amcl, Map_LeavesOutMovableObjects) {
   const WorldDescription world = load_world_text(R"({"arena": {"size": [2, 1], "border": false,
       "obstacles": [{"center": [0.5, 0.5], "size": [0.2, 0.2]},
                     {"center": [1.5, 0.5], "size": [0.2, 0.2], "mass": 1}]}, "robots": []})");
@@ -114,7 +114,7 @@ void expect_issue(const std::string& devices, const char* id, const char* pointe
   }
 }
 
-TEST(Amcl, RefusesWhatIsMissingOrImpossible) {
+TEST(Amcl, MissingOrInvalidSettings_Refused) {
   expect_issue(R"("amcl": {"laser": "eyes"})", "device/wiring", "/robots/0/devices/amcl",
                "a laser device \"eyes\"");
   expect_issue(R"("amcl": {"odometry": "laser"})", "device/wiring", "/robots/0/devices/amcl",

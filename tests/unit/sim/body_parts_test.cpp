@@ -76,7 +76,7 @@ double fork_overlap_m(const PhysicsWorld& world, const Polygon& other) {
 
 // The block covers x = 1.27 to 1.37 and y = 0.95 to 1.05. The arms are 0.05 m beside it, the middle
 // of the robot, which ends at x = 1.2, is 0.07 m behind it.
-TEST(BodyParts, AnObjectStandsBetweenTheArmsAndStopsTheMiddle) {
+TEST(BodyParts, ObjectBetweenArms_StopsMiddle) {
   ArenaDescription arena = fork_floor();
   arena.obstacles = {block_at(1.32, 1.0, 0.1, 0.1)};
   PhysicsWorld world(arena);
@@ -97,7 +97,7 @@ TEST(BodyParts, AnObjectStandsBetweenTheArmsAndStopsTheMiddle) {
   EXPECT_LT(world.body(0).X_WB.x_m, 0.7) << "it drives away backwards";
 }
 
-TEST(BodyParts, ARoundObjectStandsBetweenTheArms) {
+TEST(BodyParts, RoundObject_FitsBetweenArms) {
   ArenaDescription arena = fork_floor();
   ObstacleDescription puck;
   puck.center = {1.32, 1.0};
@@ -110,7 +110,7 @@ TEST(BodyParts, ARoundObjectStandsBetweenTheArms) {
 }
 
 // The gap is 0.2 m wide, an S1R 0.162 m.
-TEST(BodyParts, ARobotDrivesIntoTheGapOfAnother) {
+TEST(BodyParts, RobotFitsIntoGapOfOther) {
   PhysicsWorld world(fork_floor());
   world.add_robot(fork_model(), {1.0, 1.0, 0.0});
   const int small = world.add_robot(s1r_model(), {2.0, 1.0, kPartsPi});
@@ -149,7 +149,7 @@ class BodyPartsSlide : public testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(BodyPartsSlide, PassesTheJoint) {
+TEST_P(BodyPartsSlide, PassesJoint) {
   PhysicsWorld world(floor_with(GetParam()));
   world.add_robot(fork_model(), {1.2, 1.0, 0.0});
   // Forwards 0.5 m in 2.5 s, and backwards 0.4 m in 2 s.
@@ -161,7 +161,7 @@ TEST_P(BodyPartsSlide, PassesTheJoint) {
 }
 
 // A rectangle that is divided into parts slides along a solid as fast as a whole one: 0.2 m/s.
-TEST_P(BodyPartsSlide, IsAsFastAsAWholeBody) {
+TEST_P(BodyPartsSlide, SameSpeedAsSingleBody) {
   RobotModel divided = fork_model();
   divided.parts = {{{-0.2, -0.2}, {0.2, -0.2}, {0.2, 0.2}, {-0.2, 0.2}},
                    {{0.2, -0.2}, {0.4, -0.2}, {0.4, 0.2}, {0.2, 0.2}}};
@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(Solids, BodyPartsSlide,
 // A sensor at (2, y) that looks along -x meets the middle's front at x = 1.2 through the gap and an
 // arm's front at x = 1.4 beside it. One at (1.3, 0.5) that looks along +y meets the right arm at y
 // = 0.8, and one in the gap, at (1.3, 1), the left arm at y = 1.1.
-TEST(BodyParts, BeamsPassThroughTheGap) {
+TEST(BodyParts, Beams_PassThroughGap) {
   PhysicsWorld world(fork_floor());
   world.add_robot(fork_model(), {1.0, 1.0, 0.0});
   scan::ScanGeometry beam;
@@ -233,7 +233,7 @@ class BodyPartsWorld : public testing::Test {
   test_support::TemporaryFolder folder_;
 };
 
-TEST_F(BodyPartsWorld, StartsAroundAnObjectAndHoldsIt) {
+TEST_F(BodyPartsWorld, RobotStartsAroundObjectAndGripsIt) {
   const WorldDescription world = read(kForkFile, R"({"x": 1, "y": 1})");
   const RobotModel& model = *find_robot_model(world, world.robots[0].model);
   EXPECT_THAT(model.parts, SizeIs(3));
@@ -251,7 +251,7 @@ TEST_F(BodyPartsWorld, StartsAroundAnObjectAndHoldsIt) {
   EXPECT_NEAR(simulation.find_object("can").value().pose.x_m, x_m + 0.32, 1e-9);
 }
 
-TEST_F(BodyPartsWorld, OverlapsWhatIsInAnArm) {
+TEST_F(BodyPartsWorld, ObjectInArm_Overlaps) {
   try {
     static_cast<void>(read(kForkFile, R"({"x": 1, "y": 0.9})"));
     FAIL() << "accepted";
@@ -262,7 +262,7 @@ TEST_F(BodyPartsWorld, OverlapsWhatIsInAnArm) {
   }
 }
 
-TEST_F(BodyPartsWorld, ContinuesFromASavedStateExactly) {
+TEST_F(BodyPartsWorld, RestoredState_ContinuesExactly) {
   const WorldDescription world = read(kForkFile, R"({"x": 0.8, "y": 1})");
   const auto drive = [](Simulation& simulation, int steps) {
     const int motion = simulation.find_device(0, "motion").value();
@@ -279,7 +279,7 @@ TEST_F(BodyPartsWorld, ContinuesFromASavedStateExactly) {
   EXPECT_EQ(rest.state_hash(), whole.state_hash());
 }
 
-TEST_F(BodyPartsWorld, APartMustBeConvex) {
+TEST_F(BodyPartsWorld, ConcavePart_Refused) {
   const std::string bad = R"({"name": "bad", "footprint": [
     [[-0.2, -0.2], [0.2, -0.2], [0.2, 0.2], [-0.2, 0.2]],
     [[0.2, 0], [0.4, 0.2], [0.3, 0], [0.4, -0.2]]]})";
@@ -293,7 +293,7 @@ TEST_F(BodyPartsWorld, APartMustBeConvex) {
 }
 
 // An L of 2 x 2 without its upper right quarter: two convex parts, with the area of the whole.
-TEST(ConvexParts, CoverAConcaveOutline) {
+TEST(ConvexParts, CoverConcaveOutline) {
   const Polygon ell{{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}, {1.0, 2.0}, {0.0, 2.0}};
   const std::vector<Polygon> parts = convex_parts_of(ell, 8);
   ASSERT_THAT(parts, SizeIs(2));
@@ -305,7 +305,7 @@ TEST(ConvexParts, CoverAConcaveOutline) {
   EXPECT_NEAR(sum_m2, 3.0, 1e-12);
 }
 
-TEST(ConvexParts, HaveAtMostSoManyCorners) {
+TEST(ConvexParts, NumberOfCorners_Limited) {
   Polygon round;
   for (int i = 0; i < 20; ++i) {
     round.emplace_back(std::cos(0.1 * i * kPartsPi), std::sin(0.1 * i * kPartsPi));

@@ -64,12 +64,12 @@ std::set<Cell> unclipped_line(int x0, int y0, int x1, int y1) {
   return cells;
 }
 
-TEST(Canvas, IsTransparentBlackAtFirst) {
+TEST(Canvas, InitiallyTransparentBlack) {
   const Canvas canvas = canvas_of(3, 2);
   EXPECT_EQ(canvas.data(), std::vector<std::uint8_t>(3 * 2 * 4, 0));
 }
 
-TEST(Canvas, CountsColumnsFromTheLeftAndRowsFromTheTop) {
+TEST(Canvas, Cells_CountedFromTopLeft) {
   // Cells of 0.5 m with the origin (-1, 2); 4 rows, so that row 0 covers y from 3.5 to 4.
   const Canvas canvas = canvas_of(6, 4);
   EXPECT_EQ(canvas.column(-1.0), 0);
@@ -83,7 +83,7 @@ TEST(Canvas, CountsColumnsFromTheLeftAndRowsFromTheTop) {
   EXPECT_EQ(canvas.row(1.99), 4);
 }
 
-TEST(Canvas, CoordinatesSaturateFarAway) {
+TEST(Canvas, FarCoordinates_Saturate) {
   const Canvas canvas = canvas_of(6, 4);
   constexpr int kLimit = 1 << 30;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -94,7 +94,7 @@ TEST(Canvas, CoordinatesSaturateFarAway) {
   EXPECT_FALSE(canvas.contains(canvas.column(std::numeric_limits<double>::quiet_NaN()), 0));
 }
 
-TEST(Canvas, SetsOnePixelAndLeavesTheOthers) {
+TEST(Canvas, SetPixel_ChangesNoOther) {
   Canvas canvas = canvas_of(5, 4);
   canvas.set_pixel(4, 0, kRed);
   EXPECT_EQ(drawn_cells(canvas), (std::set<Cell>{{4, 0}}));
@@ -104,7 +104,7 @@ TEST(Canvas, SetsOnePixelAndLeavesTheOthers) {
   EXPECT_EQ(canvas.data()[19], 255);
 }
 
-TEST(Canvas, IgnoresAndDoesNotReadWhatLiesOutside) {
+TEST(Canvas, Outside_IgnoredAndNotRead) {
   Canvas canvas = canvas_of(5, 4);
   for (const auto& [column, row] :
        {Cell{-1, 0}, {5, 0}, {0, -1}, {0, 4}, {kLeastInt, kGreatestInt}}) {
@@ -114,7 +114,7 @@ TEST(Canvas, IgnoresAndDoesNotReadWhatLiesOutside) {
   EXPECT_TRUE(drawn_cells(canvas).empty());
 }
 
-TEST(Canvas, BlendsTranslucentColoursOverWhatIsThere) {
+TEST(Canvas, TranslucentColours_Blended) {
   Canvas canvas = canvas_of(3, 1);
   canvas.set_pixel(0, 0, {200, 100, 0, 255});
   canvas.set_pixel(0, 0, {0, 0, 255, 51});
@@ -131,7 +131,7 @@ TEST(Canvas, BlendsTranslucentColoursOverWhatIsThere) {
   EXPECT_EQ(canvas.pixel(2, 0), (Colour{113, 0, 142, 92}));
 }
 
-TEST(Canvas, AlphaZeroChangesNothing) {
+TEST(Canvas, AlphaZero_ChangesNothing) {
   Canvas canvas = canvas_of(2, 1);
   canvas.set_pixel(0, 0, {1, 2, 3, 4});
   canvas.set_pixel(0, 0, {255, 255, 255, 0});
@@ -140,7 +140,7 @@ TEST(Canvas, AlphaZeroChangesNothing) {
   EXPECT_EQ(canvas.pixel(1, 0), (Colour{0, 0, 0, 0}));
 }
 
-TEST(Canvas, ClearReplacesEveryCell) {
+TEST(Canvas, Clear_ReplacesEveryCell) {
   Canvas canvas = canvas_of(7, 3);
   canvas.draw_line(0, 0, 6, 2, kRed);
   canvas.clear({9, 8, 7, 6});
@@ -153,21 +153,21 @@ TEST(Canvas, ClearReplacesEveryCell) {
   EXPECT_TRUE(drawn_cells(canvas).empty());
 }
 
-TEST(CanvasLine, DrawsBothEndsOfAShallowLine) {
+TEST(CanvasLine, ShallowLine_DrawsBothEnds) {
   Canvas canvas = canvas_of(6, 4);
   canvas.draw_line(0, 0, 5, 2, kRed);
   // y = 0.4 x, rounded: 0, 0.4, 0.8, 1.2, 1.6, 2.
   EXPECT_EQ(drawn_cells(canvas), (std::set<Cell>{{0, 0}, {1, 0}, {2, 1}, {3, 1}, {4, 2}, {5, 2}}));
 }
 
-TEST(CanvasLine, OfOnePointIsAPixel) {
+TEST(CanvasLine, OnePoint_OnePixel) {
   Canvas canvas = canvas_of(6, 4);
   canvas.draw_line(2, 3, 2, 3, kBlue);
   canvas.draw_line(-2, 3, -2, 3, kBlue);
   EXPECT_EQ(drawn_cells(canvas), (std::set<Cell>{{2, 3}}));
 }
 
-TEST(CanvasLine, ClippedCellsAreThoseOfTheUnclippedLine) {
+TEST(CanvasLine, ClippedLine_SameCellsAsUnclipped) {
   std::mt19937 random(7);  // its output is the same everywhere, unlike distributions'
   const auto coordinate = [&] { return static_cast<int>(random() % 121) - 50; };
   for (int i = 0; i < 20000; ++i) {
@@ -190,7 +190,7 @@ TEST(CanvasLine, ClippedCellsAreThoseOfTheUnclippedLine) {
   }
 }
 
-TEST(CanvasLine, TouchesEachCellOnce) {
+TEST(CanvasLine, EachCell_TouchedOnce) {
   Canvas canvas = canvas_of(20, 20);
   canvas.draw_line(-7, 3, 31, 17, {255, 0, 0, 100});
   for (const auto& [column, row] : drawn_cells(canvas)) {
@@ -198,7 +198,7 @@ TEST(CanvasLine, TouchesEachCellOnce) {
   }
 }
 
-TEST(CanvasLine, TakesTheGreatestCoordinatesThereAre) {
+TEST(CanvasLine, ExtremeCoordinates_Accepted) {
   // From corner to corner of all ints, 2^32 - 1 steps each way: the diagonal y = x.
   Canvas diagonal = canvas_of(4, 4);
   diagonal.draw_line(kLeastInt, kLeastInt, kGreatestInt, kGreatestInt, kRed);
@@ -220,7 +220,7 @@ TEST(CanvasLine, TakesTheGreatestCoordinatesThereAre) {
   EXPECT_EQ(drawn_cells(upright), (std::set<Cell>{{1, 0}, {1, 1}, {1, 2}}));
 }
 
-TEST(Canvas, StateTellsContentsAndShapesApart) {
+TEST(Canvas, State_DistinguishesContentsAndShapes) {
   const auto state_of = [](Canvas canvas) {
     StateArchive archive;
     canvas.archive(archive);
@@ -240,20 +240,20 @@ TEST(Canvas, StateTellsContentsAndShapesApart) {
   EXPECT_EQ(state_of(canvas), bare);
 }
 
-TEST(ColourText, ReadsThreeForms) {
+TEST(ColourText, ThreeForms_Read) {
   EXPECT_EQ(parse_colour("#f80"), (Colour{0xff, 0x88, 0x00, 255}));
   EXPECT_EQ(parse_colour("#34AAff"), (Colour{0x34, 0xaa, 0xff, 255}));
   EXPECT_EQ(parse_colour("#01020304"), (Colour{1, 2, 3, 4}));
 }
 
-TEST(ColourText, RefusesEverythingElse) {
+TEST(ColourText, OtherTexts_Refused) {
   for (const char* text : {"", "#", "f80", "#f8", "#ff88", "#ff880", "#gg0000", "#ff88001", "red",
                            "#ff88 0", "0ff8800", "#ff880011f"}) {
     EXPECT_EQ(parse_colour(text), std::nullopt) << text;
   }
 }
 
-TEST(ColourText, WritesWhatItReads) {
+TEST(ColourText, RoundTrips) {
   EXPECT_EQ(to_string(Colour{0x34, 0xaa, 0xff, 255}), "#34aaff");
   EXPECT_EQ(to_string(Colour{1, 2, 3, 4}), "#01020304");
 }

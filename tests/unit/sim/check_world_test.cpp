@@ -49,9 +49,9 @@ std::vector<std::string> ids(const WorldDescription& world) {
   return found;
 }
 
-TEST(CheckWorld, SoundWorldHasNoIssues) { EXPECT_THAT(check_world(room()), SizeIs(0)); }
+TEST(CheckWorld, ValidWorld_NoIssues) { EXPECT_THAT(check_world(room()), SizeIs(0)); }
 
-TEST(CheckWorld, SyrotekArenaIsSound) {
+TEST(CheckWorld, SyrotekArena_NoIssues) {
   WorldDescription world;
   world.arena = syrotek_arena();
   EXPECT_THAT(check_world(world), SizeIs(0));
@@ -62,7 +62,7 @@ TEST(CheckWorld, SyrotekArenaIsSound) {
   EXPECT_THAT(check_world(world), SizeIs(0));
 }
 
-TEST(CheckWorld, RobotTouchingIsFineAndReachingInIsNot) {
+TEST(CheckWorld, TouchingRobots_AcceptedAndOverlapRefused) {
   // The S1R covers x = 2 - 0.087 to 2 + 0.087; the box begins at the robot's edge.
   WorldDescription world = room();
   world.arena.obstacles = {box("a", {2.087 + 0.1, 2}, {0.2, 0.2})};
@@ -75,7 +75,7 @@ TEST(CheckWorld, RobotTouchingIsFineAndReachingInIsNot) {
   EXPECT_THAT(issues[0].found, HasSubstr("0.01 m"));
 }
 
-TEST(CheckWorld, TurnedBoxesAreTestedAsTheyStand) {
+TEST(CheckWorld, RotatedBoxes_TestedAsPlaced) {
   // A square of 0.2 m rotated by 45 degrees extends 0.1414 m along the axes instead of 0.1 m.
   WorldDescription world = room();
   world.arena.obstacles = {box("a", {2.087 + 0.12, 2}, {0.2, 0.2})};
@@ -84,7 +84,7 @@ TEST(CheckWorld, TurnedBoxesAreTestedAsTheyStand) {
   EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-obstacle"));
 }
 
-TEST(CheckWorld, RetractedObstaclesAreNotInTheWay) {
+TEST(CheckWorld, RetractedObstacles_DoNotOverlap) {
   WorldDescription world = room();
   world.arena.obstacles = {box("d", {2, 2}, {0.5, 0.5})};
   world.arena.obstacles[0].type = ObstacleType::kDynamic;
@@ -94,13 +94,13 @@ TEST(CheckWorld, RetractedObstaclesAreNotInTheWay) {
   EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-obstacle"));
 }
 
-TEST(CheckWorld, RobotWithinALargeBoxOverlapsIt) {
+TEST(CheckWorld, RobotInsideLargeBox_Overlaps) {
   WorldDescription world = room();
   world.arena.obstacles = {box("a", {2, 2}, {3, 3})};
   EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-obstacle"));
 }
 
-TEST(CheckWorld, EachSideOfTheFloorIsNamed) {
+TEST(CheckWorld, EachSideOfFloor_Named) {
   WorldDescription world = room();
   const std::pair<Pose, const char*> cases[] = {{{0.05, 2, 0}, "left"},
                                                 {{3.95, 2, 0}, "right"},
@@ -115,7 +115,7 @@ TEST(CheckWorld, EachSideOfTheFloorIsNamed) {
   }
 }
 
-TEST(CheckWorld, RobotsSideBySideMayBeCloserThanTheirCircles) {
+TEST(CheckWorld, RobotsSideBySide_MayOverlapInCircles) {
   // Two parallel S1Rs side by side are 0.162 m apart when they touch.
   WorldDescription world = room();
   world.robots.push_back(second_robot({2, 2.163, 0}));
@@ -129,7 +129,7 @@ TEST(CheckWorld, RobotsSideBySideMayBeCloserThanTheirCircles) {
   EXPECT_THAT(issues[0].expected, HasSubstr("r1"));
 }
 
-TEST(CheckWorld, WallsAreSolidOnTheirLeft) {
+TEST(CheckWorld, Walls_SolidOnTheirLeft) {
   // A ring: solid between the squares of 4 m and 2 m, free inside.
   WorldDescription world = room();
   world.arena.walls = {{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}, {{{1, 1}, {1, 3}, {3, 3}, {3, 1}}}};
@@ -140,14 +140,14 @@ TEST(CheckWorld, WallsAreSolidOnTheirLeft) {
   EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-wall"));
 }
 
-TEST(CheckWorld, SmallPillarUnderARobotIsFound) {
+TEST(CheckWorld, SmallPillarUnderRobot_Found) {
   // 1 cm wide, between the robot's centre and its outline: it crosses no side of the outline.
   WorldDescription world = room();
   world.arena.walls = {{{{2.03, 2.0}, {2.04, 2.0}, {2.04, 2.01}, {2.03, 2.01}}}};
   EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-wall"));
 }
 
-TEST(CheckWorld, NamesAndPortsAreUnique) {
+TEST(CheckWorld, DuplicateNamesAndPorts_Reported) {
   WorldDescription world = room();
   world.robots.push_back(second_robot({1, 1, 0}));
   world.robots[1].name = "r1";
@@ -166,7 +166,7 @@ TEST(CheckWorld, NamesAndPortsAreUnique) {
                                             "world/duplicate-port /robots/1/port"));
 }
 
-TEST(CheckWorld, BlocksAndDocksStandOnTheFloor) {
+TEST(CheckWorld, BlocksAndDocksOffFloor_Reported) {
   WorldDescription world = room();
   world.arena.origin = {-1, -1};  // floor to (3, 3)
   world.arena.obstacles = {box("a", {2.9, 0}, {0.2, 0.2}), box("b", {2.95, 0}, {0.2, 0.2})};
@@ -179,7 +179,7 @@ TEST(CheckWorld, BlocksAndDocksStandOnTheFloor) {
                                            "world/obstacle-outside /arena/docks/0"));
 }
 
-TEST(CheckWorld, PointersLeaveOutWhatAPresetBrings) {
+TEST(CheckWorld, Pointers_LeaveOutPreset) {
   WorldDescription world;
   world.arena = syrotek_arena();
   world.arena.obstacles.push_back(box("mine", {3.5, 1}, {0.2, 0.2}));
@@ -188,7 +188,7 @@ TEST(CheckWorld, PointersLeaveOutWhatAPresetBrings) {
   EXPECT_EQ(issues[0].pointer, "/arena/obstacles/0");
 }
 
-TEST(CheckWorld, CanvasHasItsLimits) {
+TEST(CheckWorld, CanvasSize_Limited) {
   WorldDescription world = room();
   world.canvas.width = 0;
   world.canvas.cell_size_m = 0.0;
@@ -201,7 +201,7 @@ std::string first_issue(const WorldDescription& world) {
   return issues.empty() ? "" : issues.front().pointer + ": " + issues.front().message();
 }
 
-TEST(CheckWorld, RefusesSidesThatThePhysicsCannotBuild) {
+TEST(CheckWorld, RefusesSidesTooShortForPhysics) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();
   for (const double side_m : {1e-4, 1e-300, 9.99e-4, 0.0, -1.0, kNan, kInf, 2e4}) {
@@ -225,7 +225,7 @@ TEST(CheckWorld, RefusesSidesThatThePhysicsCannotBuild) {
   EXPECT_THAT(check_world(least), SizeIs(0));
 }
 
-TEST(CheckWorld, RefusesPlacesThatThePhysicsCannotTellApart) {
+TEST(CheckWorld, RefusesDistancesTooSmallForPhysics) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();
   for (const double x_m : {1e6, -1e9, 1e300, kNan, kInf}) {
@@ -249,7 +249,7 @@ TEST(CheckWorld, RefusesPlacesThatThePhysicsCannotTellApart) {
   EXPECT_THAT(check_world(world), SizeIs(0));
 }
 
-TEST(CheckWorld, RefusesModelsThatThePhysicsCannotBuild) {
+TEST(CheckWorld, RefusesModelsTooSmallForPhysics) {
   const auto issue_of = [](const auto& edit) {
     WorldDescription world = room();
     auto model = std::make_shared<RobotModel>(s1r_model());
@@ -276,7 +276,7 @@ TEST(CheckWorld, RefusesModelsThatThePhysicsCannotBuild) {
               HasSubstr("convex"));
 }
 
-TEST(CheckWorld, RefusesWallsThatThePhysicsCannotBuild) {
+TEST(CheckWorld, RefusesWallsTooThinForPhysics) {
   WorldDescription world = room();
   world.arena.walls = {{{{1, 1}, {1.0005, 1}, {1, 2}}}};
   EXPECT_THAT(first_issue(world), HasSubstr("/arena/map/resolution: "));
@@ -286,7 +286,7 @@ TEST(CheckWorld, RefusesWallsThatThePhysicsCannotBuild) {
   EXPECT_THAT(first_issue(world), HasSubstr("/arena/map/origin: "));
 }
 
-TEST(CheckWorld, ChecksShapesThatAProgramMakes) {
+TEST(CheckWorld, ShapesFromPrograms_Checked) {
   WorldDescription world = room();
   world.arena.obstacles = {circle("c", {1, 1}, 0.3),
                            polygon("p", {3, 3}, {{0, 0}, {0.5, 0}, {0, 0.5}})};
@@ -309,7 +309,7 @@ TEST(CheckWorld, ChecksShapesThatAProgramMakes) {
   EXPECT_THAT(first_issue(world), HasSubstr("3 to 64 points"));
 }
 
-TEST(CheckWorld, TouchingACircleIsNoOverlap) {
+TEST(CheckWorld, TouchingCircle_DoesNotOverlap) {
   // The S1R's front is 0.087 m ahead of (2, 2), its front left corner at (2.087, 2.045).
   WorldDescription world = room();
   world.arena.obstacles = {circle("c", {2.587, 2}, 0.5)};
@@ -326,7 +326,7 @@ TEST(CheckWorld, TouchingACircleIsNoOverlap) {
   EXPECT_THAT(first_issue(world), HasSubstr("obstacle c"));
 }
 
-TEST(CheckWorld, FindsPlacesBesideCirclesAndPolygons) {
+TEST(CheckWorld, FreePlaces_FoundBesideCirclesAndPolygons) {
   const WorldDescription world = load_world_text(
       R"({"arena": {"size": [4, 4], "obstacles": [
            {"shape": "circle", "center": [2, 2], "radius": 1},

@@ -27,7 +27,7 @@ using test::Random;
 
 constexpr double kPi = std::numbers::pi;
 
-TEST(Outline, NearestPointOfASegmentIsBesideItOrAnEnd) {
+TEST(Outline, NearestPointOfSegment_BesideItOrAtEnd) {
   const Vec2 a(1, 1);
   const Vec2 b(4, 5);  // 5 m from a; the normal is (-4, 3) / 5
   const Vec2 beside = a + 0.4 * (b - a) + Vec2(-1.6, 1.2);
@@ -41,20 +41,20 @@ TEST(Outline, NearestPointOfASegmentIsBesideItOrAnEnd) {
   EXPECT_DOUBLE_EQ(distance_to_segment_m({4, 5}, a, a), 5.0);
 }
 
-TEST(Outline, AreaIsSigned) {
+TEST(Outline, Area_Signed) {
   EXPECT_DOUBLE_EQ(area_m2({{0, 0}, {2, 0}, {2, 1}}), 1.0);
   EXPECT_DOUBLE_EQ(area_m2({{2, 1}, {2, 0}, {0, 0}}), -1.0);
   EXPECT_NEAR(area_m2(kNotch), 1.4 * 1.2 - 1.0, 1e-12);
 }
 
-TEST(Outline, CrossingSidesAreFound) {
+TEST(Outline, CrossingSides_Found) {
   EXPECT_EQ(crossing_sides(kNotch), std::nullopt);
   EXPECT_EQ(crossing_sides({{0, 0}, {1, 1}, {1, 0}, {0, 1}}), std::pair(0UL, 2UL)) << "a bow tie";
   EXPECT_TRUE(crossing_sides({{0, 0}, {2, 0}, {2, 2}, {1, 0}, {0, 2}})) << "a vertex on a side";
   EXPECT_TRUE(crossing_sides({{0, 0}, {2, 0}, {1, 0}, {1, 1}})) << "it folds back";
 }
 
-TEST(Outline, TrianglesCoverTheArea) {
+TEST(Outline, Triangles_CoverArea) {
   for (const Polygon& outline :
        {kNotch, Polygon{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 1}, {0, 2}},
         Polygon{{0, 0}, {0.5, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0.5, 1}, {0, 1}, {0, 0.5}}}) {
@@ -68,21 +68,21 @@ TEST(Outline, TrianglesCoverTheArea) {
   }
 }
 
-TEST(Outline, InsideFollowsTheNotch) {
+TEST(Outline, Notch_IsOutside) {
   EXPECT_TRUE(is_inside(kNotch, {0.1, 0.6}));
   EXPECT_FALSE(is_inside(kNotch, {0.7, 0.6})) << "within the notch";
   EXPECT_TRUE(is_inside(kNotch, {0.7, 0.1}));
   EXPECT_FALSE(is_inside(kNotch, {-0.1, 0.1}));
 }
 
-TEST(Outline, PolygonsRunCounterClockwiseWhateverTheirOrder) {
+TEST(Outline, AnyOrder_MadeCounterClockwise) {
   ObstacleDescription o;
   make_polygon(o, {{0, 0}, {0, 1}, {2, 0}});
   EXPECT_GT(area_m2(o.outline), 0.0);
   EXPECT_EQ(o.size, Vec2(2, 1));
 }
 
-TEST(Outline, OfACircleStaysWithinTheTolerance) {
+TEST(Outline, Circle_WithinTolerance) {
   ObstacleDescription o;
   o.center = {3, 4};
   make_circle(o, 0.5);
@@ -94,7 +94,7 @@ TEST(Outline, OfACircleStaysWithinTheTolerance) {
   }
 }
 
-TEST(CircleScan, RangesAreThoseOfTheFormula) {
+TEST(CircleScan, Ranges_MatchFormula) {
   Random random(1);
   for (const scan::ScanGeometry& geometry :
        {scan::ScanGeometry{682, 0.36 * kPi / 180.0, 5.0},
@@ -130,7 +130,7 @@ TEST(CircleScan, RangesAreThoseOfTheFormula) {
   }
 }
 
-TEST(CircleScan, IsTheSameWithAllInstructionSetsAndInParts) {
+TEST(CircleScan, InstructionSetsAndParts_SameRanges) {
   Random random(2);
   const scan::ScanGeometry geometry{682, 0.36 * kPi / 180.0, 5.0};
   const auto scan_with = [&](scan::InstructionSet set, const scan::EdgeBuffer& edges) {
@@ -170,7 +170,7 @@ TEST(CircleScan, IsTheSameWithAllInstructionSetsAndInParts) {
   }
 }
 
-TEST(CircleScan, InsideASolidEveryBeamReadsZero) {
+TEST(CircleScan, InsideSolid_ReadsZero) {
   scan::EdgeBuffer edges;
   edges.add(scan::Circle{0.1, 0.0, 0.5});
   edges.inside = true;
@@ -180,7 +180,7 @@ TEST(CircleScan, InsideASolidEveryBeamReadsZero) {
   EXPECT_THAT(ranges, testing::Each(0.0));
 }
 
-TEST(CircleCone, LeastRangeIsThatOfAThousandRays) {
+TEST(CircleCone, LeastRange_MatchesThousandRays) {
   Random random(3);
   for (int i = 0; i < 500; ++i) {
     const scan::Cone cone{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-4, 4),

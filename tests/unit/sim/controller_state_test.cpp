@@ -51,7 +51,7 @@ ObstacleState state_of(const Simulation& simulation) {
   return simulation.world().arena.obstacles[0].state;
 }
 
-TEST(RisingBlock, HasItsPresentHeight) {
+TEST(RisingBlock, Height_CurrentValue) {
   Simulation simulation(block_room(kSlow));
   ASSERT_FALSE(simulation.set_obstacle_state("b", ObstacleState::kExtended));
   EXPECT_EQ(state_of(simulation), ObstacleState::kExtended);
@@ -79,7 +79,7 @@ TEST(RisingBlock, HasItsPresentHeight) {
   EXPECT_EQ(events_of(simulation).back(), "1.10 block b is retracted");
 }
 
-TEST(RisingBlock, HasAnyShape) {
+TEST(RisingBlock, Shapes_AllRise) {
   for (
       const char* shape :
       {R"("shape": "circle", "radius": 0.3)",
@@ -110,7 +110,7 @@ TEST(RisingBlock, HasAnyShape) {
   }
 }
 
-TEST(RisingBlock, BlocksRobotsUntilItHasSunk) {
+TEST(RisingBlock, SinkingBlock_BlocksRobotsUntilDown) {
   Simulation simulation(block_room(R"("rise_speed": 0.01)"));  // 20 s
   ASSERT_FALSE(simulation.set_obstacle_state("b", ObstacleState::kExtended));
   drive(simulation, 0.5);
@@ -124,7 +124,7 @@ TEST(RisingBlock, BlocksRobotsUntilItHasSunk) {
   EXPECT_GT(simulation.body(0).X_WB.x_m, 2.2);
 }
 
-TEST(RisingBlock, ReversesItsMotion) {
+TEST(RisingBlock, Motion_Reversible) {
   Simulation simulation(block_room(kSlow));
   ASSERT_FALSE(simulation.set_obstacle_state("b", ObstacleState::kExtended));
   run(simulation, 0.3);
@@ -140,7 +140,7 @@ TEST(RisingBlock, ReversesItsMotion) {
                           "0.40 block b is rising", "0.70 block b is extended"));
 }
 
-TEST(RisingBlock, KeepsItsHeightWhenItIsMoved) {
+TEST(RisingBlock, MovedBlock_KeepsHeight) {
   Simulation simulation(block_room(kSlow));
   ASSERT_FALSE(simulation.set_obstacle_state("b", ObstacleState::kExtended));
   run(simulation, 0.3);
@@ -154,7 +154,7 @@ TEST(RisingBlock, KeepsItsHeightWhenItIsMoved) {
   EXPECT_THAT(simulation.moving_blocks(), IsEmpty());
 }
 
-TEST(BlockUnderARobot, RefusesByDefault) {
+TEST(BlockUnderARobot, Default_Refused) {
   Simulation simulation(block_room(kSlow));
   ASSERT_FALSE(simulation.place_object("r1", {2.2, 2.0, 0.0}));
   EXPECT_EQ(simulation.set_obstacle_state("b", ObstacleState::kExtended).value_or(""),
@@ -163,7 +163,7 @@ TEST(BlockUnderARobot, RefusesByDefault) {
               ElementsAre("0.00 refused: obstacle \"b\" cannot be extended: a robot stands on it"));
 }
 
-TEST(BlockUnderARobot, WaitsUntilItHasLeft) {
+TEST(BlockUnderARobot, Waiting_UntilRobotLeaves) {
   Simulation simulation(block_room(R"("when_blocked": "wait")"));
   ASSERT_FALSE(simulation.place_object("r1", {2.2, 2.0, 0.0}));
   EXPECT_FALSE(simulation.set_obstacle_state("b", ObstacleState::kExtended));
@@ -180,7 +180,7 @@ TEST(BlockUnderARobot, WaitsUntilItHasLeft) {
   EXPECT_THAT(simulation.moving_blocks(), IsEmpty());
 }
 
-TEST(BlockUnderARobot, WaitsNoLongerOnceItIsRetracted) {
+TEST(BlockUnderARobot, Waiting_EndsOnRetraction) {
   Simulation simulation(block_room(R"("when_blocked": "wait")"));
   ASSERT_FALSE(simulation.place_object("r1", {2.2, 2.0, 0.0}));
   EXPECT_FALSE(simulation.set_obstacle_state("b", ObstacleState::kExtended));
@@ -190,7 +190,7 @@ TEST(BlockUnderARobot, WaitsNoLongerOnceItIsRetracted) {
   EXPECT_EQ(state_of(simulation), ObstacleState::kRetracted);
 }
 
-TEST(BlockOfOtherWorlds, ChangesAtOnceAndKeepsTheHashOfTheWorld) {
+TEST(BlockOfOtherWorlds, WithoutController_ChangesAtOnceWithSameHash) {
   Simulation simulation(block_room(R"("rise_speed": 0)"));
   ASSERT_FALSE(simulation.set_obstacle_state("b", ObstacleState::kExtended));
   EXPECT_THAT(simulation.moving_blocks(), IsEmpty());
@@ -230,7 +230,7 @@ void go(Simulation& simulation, int from, int to) {
   }
 }
 
-TEST(LivingArena, RunsEquallyTwice) {
+TEST(LivingArena, TwoRuns_Equal) {
   Simulation a(living_arena());
   Simulation b(living_arena());
   test::expect_equal_runs(a, b, interfere, 4000);
@@ -243,7 +243,7 @@ TEST(LivingArena, RunsEquallyTwice) {
   }
 }
 
-TEST(LivingArena, DependsOnTheSeed) {
+TEST(LivingArena, Seed_ChangesRun) {
   const auto events = [](std::uint64_t seed) {
     WorldDescription world = living_arena();
     world.simulation.seed = seed;
@@ -255,7 +255,7 @@ TEST(LivingArena, DependsOnTheSeed) {
   EXPECT_NE(events(1), events(2));
 }
 
-TEST(LivingArena, GoesOnFromASnapshotAtAnyMoment) {
+TEST(LivingArena, Snapshot_ContinuesFromAnyMoment) {
   int while_moving = 0;
   test::expect_equal_after_snapshots(living_arena(), interfere, 3000, 37,
                                      [&while_moving](const Simulation& simulation) {
@@ -264,7 +264,7 @@ TEST(LivingArena, GoesOnFromASnapshotAtAnyMoment) {
   EXPECT_GT(while_moving, 3);
 }
 
-TEST(LivingArena, IsForkedInTheMiddleOfARise) {
+TEST(LivingArena, Fork_DuringRiseWorks) {
   Simulation simulation(living_arena());
   for (int i = 0; simulation.moving_blocks().empty(); ++i) go(simulation, i, i + 1);
   simulation.step();
@@ -278,7 +278,7 @@ TEST(LivingArena, IsForkedInTheMiddleOfARise) {
   EXPECT_EQ(simulation.state_hash(), fork.state_hash());
 }
 
-TEST(LivingArena, StartsAnewAfterAReset) {
+TEST(LivingArena, Reset_StartsAnew) {
   Simulation fresh(living_arena());
   run(fresh, 30.0);
   Simulation simulation(living_arena());
@@ -297,7 +297,7 @@ TEST(LivingArena, StartsAnewAfterAReset) {
   EXPECT_EQ(simulation.arena_events().newest[before].kind, ArenaEventKind::kReset);
 }
 
-TEST(LivingArena, GoesBackWhileTheClockGoesOn) {
+TEST(LivingArena, RestoredWorld_TimeContinues) {
   Simulation simulation(living_arena());
   run(simulation, 15.0);
   const Snapshot snapshot = simulation.save();
@@ -321,7 +321,7 @@ TEST(LivingArena, GoesBackWhileTheClockGoesOn) {
   EXPECT_EQ(again, first);
 }
 
-TEST(LivingArena, KeepsScoresAndVerdictInSnapshots) {
+TEST(LivingArena, Snapshot_KeepsScoresAndVerdict) {
   Simulation simulation(living_arena());
   run(simulation, 1.0);
   ASSERT_FALSE(simulation.place_object("runner", {3.6, 1.5, 0.0}));
@@ -337,7 +337,7 @@ TEST(LivingArena, KeepsScoresAndVerdictInSnapshots) {
   EXPECT_TRUE(fork.finished());
 }
 
-TEST(LivingArena, TellsItsStateAndKeepsItInSnapshots) {
+TEST(LivingArena, Snapshot_KeepsReportedState) {
   Simulation simulation(living_arena());
   ArenaState state = simulation.arena_state();
   EXPECT_EQ(state.configuration, "");
@@ -367,7 +367,7 @@ TEST(LivingArena, TellsItsStateAndKeepsItInSnapshots) {
   EXPECT_EQ(fork.arena_state().timers[0].count, 0U);
 }
 
-TEST(LivingArena, RefusesDamagedSnapshots) {
+TEST(LivingArena, DamagedSnapshot_Refused) {
   Simulation simulation(living_arena());
   for (int i = 0; simulation.moving_blocks().empty(); ++i) go(simulation, i, i + 1);
   const Snapshot good = simulation.save();

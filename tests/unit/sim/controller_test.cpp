@@ -91,7 +91,7 @@ TEST(ArenaTimer, ActsOnceAtItsTime) {
               ElementsAre("0.50 timer t", "0.50 message t now"));
 }
 
-TEST(ArenaTimer, ActsAtTheStartWithoutATime) {
+TEST(ArenaTimer, NoTime_ActsAtStart) {
   EXPECT_THAT(events_after(timer_room(R"("do": [])"), 0.01), ElementsAre("0.00 timer t"));
 }
 
@@ -102,11 +102,11 @@ TEST(ArenaTimer, ActsPeriodically) {
               ElementsAre("0.20 timer t", "0.70 timer t"));
 }
 
-TEST(ArenaTimer, ActsSeveralTimesInAStepThatIsLonger) {
+TEST(ArenaTimer, LongStep_ActsSeveralTimes) {
   EXPECT_THAT(events_after(timer_room(R"("at": 0.001, "every": 0.005)"), 0.01), SizeIs(2));
 }
 
-TEST(ArenaTimer, MovesTimesByJitter) {
+TEST(ArenaTimer, Jitter_ShiftsTimes) {
   Simulation simulation(timer_room(R"("every": 1, "jitter": 0.4)"));
   run(simulation, 400.0);
   const std::vector<double> times = times_of(simulation, ArenaEventKind::kTimer);
@@ -127,7 +127,7 @@ TEST(ArenaTimer, MovesTimesByJitter) {
   EXPECT_THAT(most_s, AllOf(Ge(0.36), Le(0.411)));
 }
 
-TEST(ArenaTimer, TakesARandomTimeByTheSeed) {
+TEST(ArenaTimer, RandomTime_FromSeed) {
   const auto first = [](const char* seed) {
     Simulation simulation(room(R"("timers": [{"name": "t", "within": [1, 9]}])",
                                R"(, "simulation": {"seed": )" + std::string(seed) + "}"));
@@ -140,7 +140,7 @@ TEST(ArenaTimer, TakesARandomTimeByTheSeed) {
   EXPECT_NE(first("1"), first("2"));
 }
 
-TEST(ArenaTimer, CountsItsTimesFromWhenItIsSwitchedOn) {
+TEST(ArenaTimer, Enabled_TimesCountFromThen) {
   Simulation simulation(timer_room(R"("at": 0.5, "enabled": false)"));
   run(simulation, 1.0);
   EXPECT_THAT(events_of(simulation), IsEmpty());
@@ -156,14 +156,14 @@ TEST(ArenaTimer, CountsItsTimesFromWhenItIsSwitchedOn) {
   EXPECT_EQ(times_of(simulation, ArenaEventKind::kTimer), std::vector<double>{1.5});
 }
 
-TEST(ArenaTimer, PassesWhenAConditionDoesNotHold) {
+TEST(ArenaTimer, FalseCondition_SkipsAction) {
   // It acts at the first second after 2.5 s, and then no more.
   EXPECT_THAT(
       events_after(timer_room(R"("every": 1, "times": 1, "if": [{"time": {"from": 2.5}}])"), 6.0),
       ElementsAre("3.00 timer t"));
 }
 
-TEST(ArenaTimer, MaySwitchItselfOnAgain) {
+TEST(ArenaTimer, MayEnableItselfAgain) {
   EXPECT_THAT(events_after(timer_room(R"("at": 0.2, "do": [{"enable": ["t"]}])"), 0.45),
               ElementsAre("0.20 timer t", "0.20 enabled t", "0.40 timer t", "0.40 enabled t"));
   // Once in a step, even without a delay.
@@ -176,7 +176,7 @@ TEST(ArenaTimer, MaySwitchItselfOnAgain) {
 // within a step.
 constexpr const char* kBox = R"("region": {"box": {"center": [1.75, 2], "size": [0.5, 0.5]}})";
 
-TEST(ArenaTrap, SpringsWhenARobotComesInOrGoesOut) {
+TEST(ArenaTrap, RobotEntersOrLeaves_Springs) {
   for (const auto& [on, least_s] : {std::pair("enter", 1.0), std::pair("leave", 2.0)}) {
     Simulation simulation(trap_room(std::string(kBox) + R"(, "on": ")" + on + '"'));
     drive(simulation, 0.5);
@@ -188,7 +188,7 @@ TEST(ArenaTrap, SpringsWhenARobotComesInOrGoesOut) {
   }
 }
 
-TEST(ArenaTrap, SpringsOncePerStay) {
+TEST(ArenaTrap, Stay_SpringsOnce) {
   Simulation simulation(trap_room(std::string(kBox) + R"(, "on": "stay", "for": 0.5)"));
   drive(simulation, 0.5);
   run(simulation, 4.0);
@@ -198,7 +198,7 @@ TEST(ArenaTrap, SpringsOncePerStay) {
   EXPECT_THAT(simulation.arena_events().newest, SizeIs(2));
 }
 
-TEST(ArenaTrap, WaitsForItsConditionsDuringAStay) {
+TEST(ArenaTrap, Stay_SpringsWhenConditionsHold) {
   Simulation simulation(trap_room(
       std::string(kBox) + R"(, "on": "stay", "for": 0.2, "if": [{"speed": {"at_most": 0.01}}])"));
   drive(simulation, 0.5);
@@ -209,7 +209,7 @@ TEST(ArenaTrap, WaitsForItsConditionsDuringAStay) {
   EXPECT_THAT(events_of(simulation), ElementsAre(HasSubstr("trap p r1 stay")));
 }
 
-TEST(ArenaTrap, CountsARobotInsideAtTheStartAsComingIn) {
+TEST(ArenaTrap, RobotInsideAtStart_CountsAsEntering) {
   const std::string here = R"("region": {"circle": {"center": [1, 2], "radius": 0.1}})";
   EXPECT_THAT(events_after(trap_room(here), 0.1), ElementsAre("0.00 trap p r1 enter"));
   EXPECT_THAT(events_after(trap_room(here + R"(, "on": "leave")"), 0.1), IsEmpty());
@@ -217,7 +217,7 @@ TEST(ArenaTrap, CountsARobotInsideAtTheStartAsComingIn) {
               ElementsAre("0.05 trap p r1 stay"));
 }
 
-TEST(ArenaTrap, HasAnyShape) {
+TEST(ArenaTrap, Shapes_All) {
   // r1 drives along y = 2 and meets each region at x = 1.5; a polygon is not convex here, and r1
   // crosses its two arms.
   const std::vector<std::pair<const char*, int>> shapes = {
@@ -239,7 +239,7 @@ TEST(ArenaTrap, HasAnyShape) {
 }
 
 // More traps than are tested while a robot is near others.
-TEST(ArenaTrap, SpringsEachOfManyOnItsWay) {
+TEST(ArenaTrap, EachTrapOnPath_Springs) {
   constexpr int kTraps = 12;
   std::string traps;
   for (int i = 0; i < kTraps; ++i) {
@@ -258,7 +258,7 @@ TEST(ArenaTrap, SpringsEachOfManyOnItsWay) {
   }
 }
 
-TEST(ArenaTrap, FollowsARobotOrAnObstacle) {
+TEST(ArenaTrap, FollowsRobotOrObstacle) {
   // The robots are 1 m apart. r2 is near itself, but springs nothing.
   Simulation near_robot(trap_room(R"("near": {"object": "r2", "distance": 0.8})"));
   run(near_robot, 0.1);
@@ -275,7 +275,7 @@ TEST(ArenaTrap, FollowsARobotOrAnObstacle) {
   EXPECT_THAT(events_of(near_block), ElementsAre("0.11 trap p r1 enter"));
 }
 
-TEST(ArenaTrap, IsForSomeRobotsOnly) {
+TEST(ArenaTrap, SelectedRobotsOnly) {
   const std::string everywhere = R"("region": {"box": {"center": [2, 2], "size": [4, 4]}})";
   EXPECT_THAT(events_after(trap_room(everywhere + R"(, "robots": "any")"), 0.01), SizeIs(2));
   EXPECT_THAT(events_after(trap_room(everywhere + R"(, "robots": ["r2"])"), 0.01),
@@ -295,7 +295,7 @@ TEST(ArenaTrap, MaySpringOnceOnly) {
   EXPECT_THAT(events_after(trap_room(here + "false"), 0.1), SizeIs(2));
 }
 
-TEST(ArenaTrap, IsEmptyWhenItIsSwitchedOn) {
+TEST(ArenaTrap, Enabled_EmptyAtFirst) {
   Simulation simulation(
       trap_room(R"("enabled": false, "region": {"circle": {"center": [1, 2], "radius": 0.1}})"));
   run(simulation, 0.1);
@@ -322,7 +322,7 @@ bool springs(const std::string& condition) {
               .empty();
 }
 
-TEST(ArenaCondition, ComparesNumbersOfTheRobotThatSpringsTheTrap) {
+TEST(ArenaCondition, ComparesNumbersOfTriggeringRobot) {
   EXPECT_TRUE(springs(R"({"speed": {"at_most": 0.1}})"));
   EXPECT_FALSE(springs(R"({"speed": {"at_least": 0.1}})"));
   EXPECT_TRUE(springs(R"({"collisions": {"at_most": 0}})"));
@@ -340,7 +340,7 @@ TEST(ArenaCondition, ComparesNumbersOfTheRobotThatSpringsTheTrap) {
   EXPECT_FALSE(springs(R"({"time": {"to": 1}}, {"time": {"from": 1}})"));
 }
 
-TEST(ArenaCondition, UsesTheNewestReadings) {
+TEST(ArenaCondition, UsesNewestReadings) {
   // Nothing has been measured at the start; the first readings come at 0.1 s.
   const std::string robots = R"("every": 0.05, "times": 1, "if": [)";
   EXPECT_THAT(
@@ -371,7 +371,7 @@ TEST(ArenaCondition, CountsCollisionsAndActions) {
 
 // --- Actions
 
-TEST(ArenaAction, ChangesTheConfiguration) {
+TEST(ArenaAction, Configuration_Changes) {
   const std::string configurations = R"("configurations": {
       "open": {"extended": ["d1"], "retracted": ["d2"], "poses": {"puck": {"x": 2.5, "y": 2.5}}},
       "closed": {"others": "extended"},
@@ -401,7 +401,7 @@ TEST(ArenaAction, ChangesTheConfiguration) {
   EXPECT_FALSE(block(simulation, "d2").extended);
 }
 
-TEST(ArenaAction, ChangesBlocks) {
+TEST(ArenaAction, Blocks_Change) {
   EXPECT_THAT(events_after(timer_room(R"("do": [{"extend": ["d1", "d2"]}, {"retract": ["d2"]},
                                                 {"toggle": ["d1", "d2"]}])"),
                            0.01),
@@ -409,7 +409,7 @@ TEST(ArenaAction, ChangesBlocks) {
                           "0.00 retracted d1", "0.00 extended d2"));
 }
 
-TEST(ArenaAction, TellsWhatWasRefused) {
+TEST(ArenaAction, RefusedActions_Reported) {
   Simulation simulation(timer_room(R"("at": 0.1, "do": [{"extend": ["d1"]},
       {"place": {"obstacle": "puck", "pose": {"x": 1, "y": 2}}},
       {"place": {"obstacle": "puck", "pose": {"x": 2, "y": 2}}}])"));
@@ -424,7 +424,7 @@ TEST(ArenaAction, TellsWhatWasRefused) {
   EXPECT_EQ(block(simulation, "puck").pose, (Pose{2.0, 2.0, 0.0}));
 }
 
-TEST(ArenaAction, ShowsTexts) {
+TEST(ArenaAction, Texts_Shown) {
   Simulation simulation(timer_room(R"("do": [
       {"text": {"text": "Go!", "duration": 0.5, "colour": "#ff0000"}},
       {"text": {"text": "A", "place": [1, 1]}}, {"text": {"text": "B", "place": [1, 1]}},
@@ -442,7 +442,7 @@ TEST(ArenaAction, ShowsTexts) {
   EXPECT_THAT(simulation.snapshot().texts, SizeIs(1));
 }
 
-TEST(ArenaAction, ChangesTheCanvas) {
+TEST(ArenaAction, Canvas_Changes) {
   // Cells of 0.02 m; a rectangle of 0.1 x 0.06 m around (1, 1) has 6 x 4 cells, because its left
   // and bottom sides are at borders of cells.
   Simulation simulation(room(R"("timers": [
@@ -472,7 +472,7 @@ TEST(ArenaAction, ChangesTheCanvas) {
   EXPECT_EQ(count({0, 0, 0, 0}), 200 * 200);
 }
 
-TEST(ArenaAction, PutsARobotBackToItsStart) {
+TEST(ArenaAction, Restart_ReturnsRobotToStart) {
   Simulation simulation(trap_room(std::string(kBox) + R"(, "do": [{"restart": {}}])"));
   drive(simulation, 0.5);
   run(simulation, 1.1);
@@ -484,7 +484,7 @@ TEST(ArenaAction, PutsARobotBackToItsStart) {
   EXPECT_THAT(events_of(simulation), SizeIs(4));
 }
 
-TEST(ArenaAction, RestartRefusesOrWaitsIfThePlaceIsTaken) {
+TEST(ArenaAction, Restart_RefusedOrWaitsIfPlaceTaken) {
   for (const bool waits : {false, true}) {
     const std::string how = waits ? R"(, "when_blocked": "wait")" : "";
     Simulation simulation(
@@ -502,7 +502,7 @@ TEST(ArenaAction, RestartRefusesOrWaitsIfThePlaceIsTaken) {
   }
 }
 
-TEST(ArenaAction, ScoresPoints) {
+TEST(ArenaAction, Points_Scored) {
   Simulation simulation(room(R"("timers": [
       {"name": "a", "every": 1, "times": 2, "do": [{"score": {"robot": "r2", "points": -0.5}}]}],
       "traps": [{"name": "p", "region": {"circle": {"center": [1, 2], "radius": 0.1}},
@@ -514,7 +514,7 @@ TEST(ArenaAction, ScoresPoints) {
   EXPECT_EQ(simulation.snapshot().scores, simulation.scores());
 }
 
-TEST(ArenaAction, SwitchesTimersAndTraps) {
+TEST(ArenaAction, TimersAndTraps_Switched) {
   EXPECT_THAT(events_after(room(R"("timers": [
       {"name": "a", "at": 0.2, "do": [{"enable": ["b"]}, {"disable": ["c", "p"]}]},
       {"name": "b", "at": 0.1, "enabled": false}, {"name": "c", "at": 0.3}],
@@ -525,7 +525,7 @@ TEST(ArenaAction, SwitchesTimersAndTraps) {
                           "0.30 timer b"));
 }
 
-TEST(ArenaAction, EndsTheRunWithAVerdict) {
+TEST(ArenaAction, End_SetsVerdict) {
   Simulation simulation(room(R"("timers": [
       {"name": "t", "at": 0.5, "do": [{"end": {"verdict": "failed", "reason": "too slow"}},
                                       {"message": "not said"}]},
@@ -545,7 +545,7 @@ TEST(ArenaAction, EndsTheRunWithAVerdict) {
 
 // --- Events
 
-TEST(ArenaEvents, AreCountedAndTheNewestKept) {
+TEST(ArenaEvents, CountedAndNewestKept) {
   Simulation simulation(timer_room(R"("every": 0.01)"));
   run(simulation, 20.0);
   const ArenaEvents& events = simulation.arena_events();
@@ -555,7 +555,7 @@ TEST(ArenaEvents, AreCountedAndTheNewestKept) {
   EXPECT_EQ(events.newest.front().number, 2000U - kKeptArenaEvents + 1);
 }
 
-TEST(ArenaEvents, AreLogged) {
+TEST(ArenaEvents, Logged) {
   std::vector<std::string> lines;
   Simulation simulation(trap_room(R"("region": {"circle": {"center": [1, 2], "radius": 0.1}},
                                      "do": [{"score": {}}, {"end": {"verdict": "passed"}}])"),
@@ -566,7 +566,7 @@ TEST(ArenaEvents, AreLogged) {
                           "arena, 0.00 s: robot r1 gets 1 points from p", "arena, 0.00 s: passed"));
 }
 
-TEST(ArenaEvents, AreNotRecordedWithoutAController) {
+TEST(ArenaEvents, NoController_NotRecorded) {
   Simulation simulation(load_world_text("{}"));
   EXPECT_FALSE(simulation.records_arena_events());
   ASSERT_FALSE(simulation.set_obstacle_state("d1", ObstacleState::kExtended));
@@ -579,7 +579,7 @@ TEST(ArenaEvents, AreNotRecordedWithoutAController) {
   EXPECT_THAT(simulation.set_trap_enabled("a", true).value_or(""), HasSubstr("no trap"));
 }
 
-TEST(ArenaEvents, IncludeChangesByClients) {
+TEST(ArenaEvents, ClientChanges_Included) {
   Simulation simulation(trap_room(kBox));
   ASSERT_FALSE(simulation.set_obstacle_state("d1", ObstacleState::kExtended));
   EXPECT_THAT(events_of(simulation), ElementsAre("0.00 extended d1"));
@@ -608,7 +608,7 @@ TEST(ArenaScene, ShowsTrapsAndTimers) {
   EXPECT_FALSE(scene.timers[1].time_left_s);
 }
 
-TEST(ArenaScene, HasTheEventsOfTheLastSecond) {
+TEST(ArenaScene, HasEventsOfLastSecond) {
   Simulation simulation(room(R"("timers": [{"name": "t", "at": 0.5, "every": 0.4}])"));
   run(simulation, 2.0);
   std::vector<double> times_s;
@@ -634,7 +634,7 @@ ConfigIssue issue_of(const std::string& controller, const std::string& more) {
 }
 
 // A regression: 5.7 kB of such actions took minutes for each step, in which nobody was answered.
-TEST(ControllerWork, ATimerThatWouldDoTooMuchInAStepIsRefused) {
+TEST(ControllerWork, TimerWithTooMuchWorkPerStep_Refused) {
   std::string fills;
   for (int i = 0; i < 90; ++i)
     fills += std::string(i == 0 ? "" : ",") + R"({"canvas": {"colour": "#ff0000"}})";
@@ -655,7 +655,7 @@ TEST(ControllerWork, ATimerThatWouldDoTooMuchInAStepIsRefused) {
                          R"(, "canvas": {"size": [100, 100]})"));
 }
 
-TEST(ControllerWork, AConfigurationOfVeryManyBlocksIsRefused) {
+TEST(ControllerWork, HugeConfiguration_Refused) {
   std::string blocks;
   std::string names;
   for (int i = 0; i < 1000; ++i) {
@@ -682,7 +682,7 @@ TEST(ControllerWork, AConfigurationOfVeryManyBlocksIsRefused) {
   }
 }
 
-TEST(ControllerWork, TimersThatDoTooMuchTogetherEndTheRun) {
+TEST(ControllerWork, TimersWithTooMuchWorkTogether_EndRun) {
   // Each of 16 timers colours 1500 x 1500 cells, 17 579 operations: the second is too much.
   std::string timers;
   for (int i = 0; i < 16; ++i) {

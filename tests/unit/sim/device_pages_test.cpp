@@ -118,27 +118,20 @@ class DevicePage : public testing::TestWithParam<DeviceKind> {
 INSTANTIATE_TEST_SUITE_P(All, DevicePage, testing::ValuesIn(device_kinds()),
                          [](const auto& row) { return row.param.name; });
 
-TEST_P(DevicePage, ExistsAndIsNamedAfterTheType) {
+TEST_P(DevicePage, ExistsForEachType) {
   ASSERT_TRUE(fs::exists(page_file())) << page_file();
   EXPECT_TRUE(read_bytes(page_file()).starts_with("# " + type() + "\n"));
 }
 
-TEST_P(DevicePage, HasTheTableThatTheFieldsMake) {
-  const std::string page = read_bytes(page_file());
-  const std::size_t section = page.find("\n## Settings\n");
-  ASSERT_NE(section, std::string::npos);
-  const std::size_t first = std::min(page.find("\n| key |", section) + 1, page.size());
-  const std::size_t last = std::min(page.find("\n\n", first) + 1, page.size());
+TEST_P(DevicePage, TableMatchesFields) {
   const std::string made = test::settings_table(GetParam());
   if (made.empty()) return;
-  if (test::writes_pages()) {
-    test::write_page(page_file().string(), page.substr(0, first) + made + page.substr(last));
-  } else {
-    EXPECT_EQ(page.substr(first, last - first), made) << "PLAYPEN_WRITE_PAGES=1 writes it anew";
-  }
+  EXPECT_TRUE(test::is_table_of_page(page_file().string(), "## Settings", made))
+      << "PLAYPEN_WRITE_PAGES=1 writes it anew\n"
+      << made;
 }
 
-TEST_P(DevicePage, ListsTheKeysThatTheReaderKnowsAndNoOther) {
+TEST_P(DevicePage, ListsKeysOfReaderOnly) {
   std::vector<std::string> expected;
   for (const ConfigIssue& issue : issues_of(type(), "\"zz\": 0")) {
     if (issue.id == "world/unknown-key") expected.push_back(issue.expected);
@@ -159,7 +152,7 @@ TEST_P(DevicePage, ListsTheKeysThatTheReaderKnowsAndNoOther) {
   EXPECT_EQ(listed, known);
 }
 
-TEST_P(DevicePage, TellsTheDefaultsOfTheReader) {
+TEST_P(DevicePage, DefaultsMatchReader) {
   const auto defaults = GetParam().properties(GetParam().defaults());
   for (const Setting& setting : settings()) {
     const auto read =
@@ -180,7 +173,7 @@ double number_of(const std::string& text) {
   return value;
 }
 
-TEST_P(DevicePage, TellsTheRangesOfTheReader) {
+TEST_P(DevicePage, RangesMatchReader) {
   const std::regex kRange(R"(([\[(])([-0-9.]+), ([-0-9.]+)([\])]))");
   for (const Setting& setting : settings()) {
     std::smatch range;
@@ -199,7 +192,7 @@ TEST_P(DevicePage, TellsTheRangesOfTheReader) {
   }
 }
 
-TEST_P(DevicePage, HasTheSameKeysInTheSchema) {
+TEST_P(DevicePage, SchemaHasSameKeys) {
   const auto schema = nlohmann::json::parse(read_bytes(kRoot / "worlds/schema/world.schema.json"));
   std::set<std::string> in_schema;
   const auto& settings_object = schema.at("$defs").at("device_" + type()).at("oneOf").at(0);
@@ -216,12 +209,12 @@ TEST_P(DevicePage, HasTheSameKeysInTheSchema) {
                   .contains(type()));
 }
 
-TEST_P(DevicePage, EmptySettingsGiveTheDefaults) {
+TEST_P(DevicePage, EmptySettings_GiveDefaults) {
   EXPECT_EQ(read_properties(GetParam(), ""), GetParam().properties(GetParam().defaults()));
   EXPECT_EQ(GetParam().properties({}), GetParam().properties(GetParam().defaults()));
 }
 
-TEST_P(DevicePage, HasAWorldThatSetsEachSettingOfTheType) {
+TEST_P(DevicePage, ExampleWorldSetsEachSetting) {
   ASSERT_TRUE(fs::exists(world_file())) << world_file();
   Simulation simulation(load_world(world_file().string()));
   int devices = 0;
@@ -240,13 +233,13 @@ TEST_P(DevicePage, HasAWorldThatSetsEachSettingOfTheType) {
   EXPECT_EQ(simulation.steps(), 100U);
 }
 
-TEST(RealismPage, HasTheTableThatTheFieldsMake) {
-  const fs::path file = kRoot / "docs/realism.md";
+/// Compares the table of a page that begins with `head`, or writes it anew.
+void expect_table(const std::string& name, const std::string& head, const std::string& made) {
+  const fs::path file = kRoot / "docs" / name;
   const std::string page = read_bytes(file);
-  const std::size_t first = page.find("| device | setting |");
-  ASSERT_NE(first, std::string::npos);
+  const std::size_t first = page.find(head);
+  ASSERT_NE(first, std::string::npos) << name;
   const std::size_t last = std::min(page.find("\n\n", first) + 1, page.size());
-  const std::string made = test::realism_table();
   if (test::writes_pages()) {
     test::write_page(file.string(), page.substr(0, first) + made + page.substr(last));
   } else {
@@ -254,7 +247,35 @@ TEST(RealismPage, HasTheTableThatTheFieldsMake) {
   }
 }
 
-TEST(DevicePages, AreOfKnownTypes) {
+TEST(RealismPage, TableMatchesFields) {
+  expect_table("realism.md", "| device | setting |", test::realism_table());
+}
+
+TEST(ProtocolPage, ReadingsMatchFields) {
+  expect_table("protocol.md", "| type | key | value |", test::readings_table());
+}
+
+/// The first sentence of a device's page, without links.
+std::string first_sentence(const std::string& type) {
+  std::string text = read_bytes(kRoot / "docs/devices" / (type + ".md"));
+  text = text.substr(text.find("\n\n") + 2);
+  text = text.substr(0, text.find("\n\n"));
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  text = text.substr(0, text.find(". "));
+  return std::regex_replace(text, std::regex(R"(\[([^\]]*)\]\([^)]*\))"), "$1");
+}
+
+TEST(IndexPage, ListsDevices) {
+  std::map<std::string, std::string> devices;
+  for (const DeviceKind& kind : device_kinds()) devices[kind.name] = first_sentence(kind.name);
+  std::string table = "| device | what it is |\n|---|---|\n";
+  for (const auto& [type, sentence] : devices) {
+    table += "| [" + type + "](devices/" + type + ".md) | " + sentence + " |\n";
+  }
+  expect_table("index.md", "| device | what it is |", table);
+}
+
+TEST(DevicePages, KnownTypesOnly) {
   std::set<std::string> types;
   for (const DeviceKind& kind : device_kinds()) types.insert(kind.name);
   for (const char* folder : {"docs/devices", "worlds/devices"}) {
@@ -282,7 +303,7 @@ TEST(ShippedWorlds, LoadAndStep) {
 }
 
 // A test of the page's reader itself: one that finds nothing must fail.
-TEST(DevicePageTable, IsReadFromItsSectionOnly) {
+TEST(DevicePageTable, ReadFromItsSectionOnly) {
   const std::vector<Setting> settings = settings_of(
       "# x\n| `a` | m | – | `1` | no |\n## Settings\n| key | unit | range | default |\n|---|---|\n"
       "| `b` | m | (0, 1] | `2` | yes |\n## Reading\n| `c` | m | [0, 1] | `3` | no |\n");

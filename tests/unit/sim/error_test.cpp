@@ -6,7 +6,7 @@
 namespace sim {
 namespace {
 
-TEST(ConfigIssue, MessageNamesPlaceExpectedFoundHintAndId) {
+TEST(ConfigIssue, Message_NamesPlaceExpectedFoundHintAndId) {
   const ConfigIssue issue{"world/unknown-key",
                           "a.json",
                           "/robots/0/pse",
@@ -20,24 +20,24 @@ TEST(ConfigIssue, MessageNamesPlaceExpectedFoundHintAndId) {
             "(did you mean \"pose\"?) [world/unknown-key]");
 }
 
-TEST(ConfigIssue, MessageLeavesOutWhatIsNotKnown) {
+TEST(ConfigIssue, Message_LeavesOutUnknownParts) {
   const ConfigIssue issue{"file/missing", "a.json", "", "a file", "none"};
   EXPECT_EQ(issue.message(), "a.json: expected a file, found none [file/missing]");
 }
 
-TEST(ConfigIssue, MessageStaysOnOneLineWhateverTheInput) {
+TEST(ConfigIssue, Message_StaysOnOneLine) {
   const ConfigIssue issue{"x/y", "a\nb", "/\x1b[31m", "c", "d\te\x7f"};
   EXPECT_EQ(issue.message(), "a?b: /?[31m: expected c, found d?e? [x/y]");
 }
 
-TEST(ConfigError, WhatIsOneLineAnIssue) {
+TEST(ConfigError, What_OneLinePerIssue) {
   const ConfigError error(
       std::vector<ConfigIssue>{{"a/b", "f", "", "1", "2"}, {"c/d", "f", "", "3", "4"}});
   EXPECT_STREQ(error.what(), "f: expected 1, found 2 [a/b]\nf: expected 3, found 4 [c/d]");
   EXPECT_EQ(error.issues().size(), 2U);
 }
 
-TEST(NearestWord, CountsInsertionDeletionSubstitutionAndSwap) {
+TEST(NearestWord, Distance_CountsInsertionDeletionSubstitutionAndSwap) {
   const std::vector<std::string> known{"frequency", "noise", "range_max"};
   EXPECT_EQ(nearest_word("frequncy", known), "frequency");
   EXPECT_EQ(nearest_word("nosie", known), "noise");
@@ -45,7 +45,7 @@ TEST(NearestWord, CountsInsertionDeletionSubstitutionAndSwap) {
   EXPECT_EQ(nearest_word("rangemax", known), "range_max");
 }
 
-TEST(NearestWord, LimitIsAThirdOfTheLengthButAtLeastTwo) {
+TEST(NearestWord, Limit_ThirdOfLengthButAtLeastTwo) {
   // "abcd": two edits are accepted, three are not.
   EXPECT_EQ(nearest_word("abcd", {"abxy"}), "abxy");
   EXPECT_EQ(nearest_word("abcd", {"axyz"}), "");
@@ -54,12 +54,12 @@ TEST(NearestWord, LimitIsAThirdOfTheLengthButAtLeastTwo) {
   EXPECT_EQ(nearest_word("abcdefghi", {"abcdewxyz"}), "");
 }
 
-TEST(NearestWord, PrefersTheNearerAndOfEqualsTheFirst) {
+TEST(NearestWord, PrefersNearerThenFirst) {
   EXPECT_EQ(nearest_word("nois", {"nose", "noise"}), "noise");  // 2 (or a swap) against 1
   EXPECT_EQ(nearest_word("size", {"sizes", "sized"}), "sizes");
 }
 
-TEST(NearestWords, AreOrderedByTheirDistanceAndAtMostSoMany) {
+TEST(NearestWords, OrderedByDistanceAndLimited) {
   const std::vector<std::string> known{"par_planning", "par_introd", "par_intro", "cave"};
   // "par_intr" differs by one letter from par_intro and by two from par_introd; its limit is 8 / 3
   // = 2.
@@ -72,7 +72,7 @@ TEST(NearestWords, AreOrderedByTheirDistanceAndAtMostSoMany) {
             (std::vector<std::string>{"par_planning", "par_introd"}));
 }
 
-TEST(NearestWord, KnowsAbbreviationsButNoSingleLetters) {
+TEST(NearestWord, Abbreviations_FoundButNotSingleLetters) {
   EXPECT_EQ(nearest_word("yaw", {"x", "y", "yaw_deg"}), "yaw_deg");
   EXPECT_EQ(nearest_word("z", {"x", "y"}), "");
   EXPECT_EQ(nearest_word("", {"x", "name"}), "");

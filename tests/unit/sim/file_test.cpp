@@ -31,7 +31,7 @@ std::string fault(FileFault kind, const std::string& found) {
   return std::to_string(static_cast<int>(kind)) + ": " + found;
 }
 
-TEST(ReadWholeFile, GivesAllBytesOfARegularFile) {
+TEST(ReadWholeFile, RegularFile_AllBytes) {
   const TemporaryFolder folder;
   const std::string bytes = std::string("a\0b\r\n", 5) + std::string(200'000, 'x');
   EXPECT_EQ(read(folder.write("a", bytes)), bytes);
@@ -43,7 +43,7 @@ TEST(ReadWholeFile, GivesAllBytesOfARegularFile) {
   EXPECT_THAT(read("/proc/self/status"), testing::HasSubstr("Pid:"));
 }
 
-TEST(ReadWholeFile, SaysWhatIsNoFile) {
+TEST(ReadWholeFile, OtherFiles_Named) {
   const TemporaryFolder folder;
   EXPECT_EQ(read(folder / "none"), fault(FileFault::kMissing, "no file of that name"));
   EXPECT_EQ(read(folder.write("a", "") + "/b"), fault(FileFault::kMissing, "no file of that name"));
@@ -55,7 +55,7 @@ TEST(ReadWholeFile, SaysWhatIsNoFile) {
   }
 }
 
-TEST(ReadWholeFile, TellsLinksInACircleFromAFileWithoutPermission) {
+TEST(ReadWholeFile, LinkCycle_DistinguishedFromMissingPermission) {
   const TemporaryFolder folder;
   fs::create_symlink("b", folder / "a");
   fs::create_symlink("a", folder / "b");
@@ -67,7 +67,7 @@ TEST(ReadWholeFile, TellsLinksInACircleFromAFileWithoutPermission) {
   EXPECT_EQ(read(secret), fault(FileFault::kNoPermission, "no permission to open it"));
 }
 
-TEST(ReadWholeFile, StopsAtTheLimit) {
+TEST(ReadWholeFile, StopsAtLimit) {
   const TemporaryFolder folder;
   const std::string large = folder.write("large", std::string(1001, 'x'));
   EXPECT_EQ(read(large, {.most_bytes = 1000}), fault(FileFault::kTooLarge, "more than 1000 bytes"));
@@ -76,7 +76,7 @@ TEST(ReadWholeFile, StopsAtTheLimit) {
   EXPECT_EQ(read(large), fault(FileFault::kTooLarge, "more than 16 MiB"));
 }
 
-TEST(ReadWholeFile, TakesPipesOnlyWhereTheyAreAllowedAndNeverWaitsForAWriter) {
+TEST(ReadWholeFile, Pipes_OnlyWhereAllowedWithoutWaiting) {
   const TemporaryFolder folder;
   const std::string fifo = folder / "fifo";
   ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
@@ -86,7 +86,7 @@ TEST(ReadWholeFile, TakesPipesOnlyWhereTheyAreAllowedAndNeverWaitsForAWriter) {
             fault(FileFault::kSilent, "a pipe that has given nothing for 0 s"));
 }
 
-TEST(ReadWholeFile, ReadsAPipeToItsEndHoweverItIsWritten) {
+TEST(ReadWholeFile, Pipe_ReadToEnd) {
   for (const std::size_t most : {std::size_t{1} << 20U, std::size_t{1000}}) {
     int ends[2];
     ASSERT_EQ(pipe(ends), 0);

@@ -77,7 +77,7 @@ struct Rig {
 
 // A marking under the paddles does not disturb. A portable can that is not solid is an object like
 // others.
-TEST(Gripper, IgnoresMarkingsAndTakesObjectsThatAreNotSolid) {
+TEST(Gripper, MarkingsAndNonSolids_NeitherGrippedNorFelt) {
   const std::string marking =
       R"({"name": "line", "center": [1.13, 1], "size": [0.5, 0.5], "solid": false})";
   Rig empty(marking);
@@ -100,7 +100,7 @@ TEST(Gripper, IgnoresMarkingsAndTakesObjectsThatAreNotSolid) {
   EXPECT_TRUE(rig.reading().holding);
 }
 
-TEST(ReachAcross, IsThatOfThePartInTheStrip) {
+TEST(ReachAcross, ReachOfPartInStrip) {
   // A box of 0.2 x 0.1 centred at (0.3, 0.05): x = 0.2 .. 0.4, y = 0 .. 0.1.
   const Vec2 size(0.2, 0.1);
   const auto whole = reach_across({0.3, 0.05, 0.0}, size, 0.0, 1.0);
@@ -119,7 +119,7 @@ TEST(ReachAcross, IsThatOfThePartInTheStrip) {
   EXPECT_NEAR(tip->second, 0.25, 1e-12);
 }
 
-TEST(Gripper, OpensAndClosesInItsTravelTime) {
+TEST(Gripper, Travel_TakesItsTime) {
   Rig rig("");
   rig.run(10);
   EXPECT_EQ(rig.reading().state, GripperState::kOpen);
@@ -143,7 +143,7 @@ TEST(Gripper, OpensAndClosesInItsTravelTime) {
   EXPECT_NEAR(rig.reading().gap_m, 0.12, 1e-9);
 }
 
-TEST(Gripper, BreaksItsBeams) {
+TEST(Gripper, Beams_Broken) {
   // Beams at x = 1.087 + 0.25 * 0.08 = 1.107 and 1.087 + 0.75 * 0.08 = 1.147, for |y - 1| <= 0.06.
   const auto beams = [](const std::string& center) {
     Rig rig(R"({"name": "box", "center": [)" + center + R"(], "size": [0.02, 0.04]})");
@@ -159,7 +159,7 @@ TEST(Gripper, BreaksItsBeams) {
   EXPECT_EQ(beams("1.2, 1.0"), std::pair(false, false));
 }
 
-TEST(Gripper, DoesNotFeelWhatIsLowerThanItself) {
+TEST(Gripper, LowObjects_NotFelt) {
   Rig rig(R"({"name": "mat", "center": [1.127, 1], "size": [0.06, 0.04], "height": 0.049, )"
           R"("portable": true})");
   ASSERT_FALSE(rig.grip(Action::kClose));
@@ -169,7 +169,7 @@ TEST(Gripper, DoesNotFeelWhatIsLowerThanItself) {
   EXPECT_FALSE(rig.reading().holding);
 }
 
-TEST(Gripper, TakesWhatStandsBetweenThePaddles) {
+TEST(Gripper, ObjectBetweenPaddles_Gripped) {
   Rig rig(kCan);
   ASSERT_FALSE(rig.grip(Action::kClose));
   // The gap is down to 0.04 after 1 - 0.04 / 0.12 = 2/3 s.
@@ -187,7 +187,7 @@ TEST(Gripper, TakesWhatStandsBetweenThePaddles) {
   EXPECT_NEAR(rig.pose_of("can").x_m, 1.127, 1e-12);
 }
 
-TEST(Gripper, CarriesItAlong) {
+TEST(Gripper, Load_Carried) {
   Rig rig(kCan);
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(70);
@@ -208,7 +208,7 @@ TEST(Gripper, CarriesItAlong) {
   EXPECT_NEAR(rig.pose_of("can").y_m, expected.y_m, 1e-9);
 }
 
-TEST(Gripper, IsCarriedToWhereTheRobotIsPut) {
+TEST(Gripper, PlacedRobot_CarriesLoad) {
   Rig rig(kCan);
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(70);
@@ -217,7 +217,7 @@ TEST(Gripper, IsCarriedToWhereTheRobotIsPut) {
   EXPECT_NEAR(rig.pose_of("can").y_m, 2.127, 1e-9);
 }
 
-TEST(Gripper, ShowsItsLoadToOthersOnly) {
+TEST(Gripper, Load_VisibleToOthersOnly) {
   Rig rig(kCan);
   rig.run(10);
   // The laser is 0.035 ahead of the axle; the can's near side is at 0.107.
@@ -236,7 +236,7 @@ TEST(Gripper, ShowsItsLoadToOthersOnly) {
   EXPECT_NEAR(rig.nearest_m(1), 1.0 - 0.035 - 0.147, 0.002);
 }
 
-TEST(Gripper, HidesItsLoadFromItsRobotsFiducialFinderAndTheMap) {
+TEST(Gripper, Load_HiddenFromOwnFinderAndMap) {
   Simulation simulation(load_world_text(
       R"({"arena": {"size": [4, 3], "obstacles": [{"name": "can", "center": [1.127, 1],
           "size": [0.04, 0.04], "fiducial": 7, "colour": "#00ff00", "portable": true}]},
@@ -278,7 +278,7 @@ TEST(Gripper, HidesItsLoadFromItsRobotsFiducialFinderAndTheMap) {
   }));
 }
 
-TEST(Gripper, IsInNobodysWayWithItsLoad) {
+TEST(Gripper, Load_BlocksNobody) {
   Rig rig(kCan);
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(70);
@@ -288,7 +288,7 @@ TEST(Gripper, IsInNobodysWayWithItsLoad) {
   EXPECT_GT(rig.pose_of("can").x_m + 0.02, 4.0);
 }
 
-TEST(Gripper, KeepsWhatHasNoRoom) {
+TEST(Gripper, ReleaseWithoutRoom_Refused) {
   Rig rig(kCan);
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(70);
@@ -315,7 +315,7 @@ TEST(Gripper, KeepsWhatHasNoRoom) {
   EXPECT_THAT(rig.grip(Action::kOpen).value_or(""), HasSubstr("robot r2 stands there"));
 }
 
-TEST(Gripper, IsStoppedByWhatItCannotTake) {
+TEST(Gripper, UngrippableObject_StopsIt) {
   // Three things that cannot be taken: one is wider than the opening, one is not portable, and one
   // is a wall across the tips.
   for (const char* thing :
@@ -333,7 +333,7 @@ TEST(Gripper, IsStoppedByWhatItCannotTake) {
   }
 }
 
-TEST(Gripper, LeavesAloneWhatStandsBeside) {
+TEST(Gripper, ObjectsBeside_Untouched) {
   Rig rig(R"({"name": "b", "center": [1.127, 1.1], "size": [0.04, 0.04], "portable": true})");
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(100);
@@ -341,7 +341,7 @@ TEST(Gripper, LeavesAloneWhatStandsBeside) {
   EXPECT_FALSE(rig.reading().holding);
 }
 
-TEST(Gripper, HasAStore) {
+TEST(Gripper, Store_HoldsObjects) {
   Rig rig(kCan, R"(, "capacity": 1)");
   EXPECT_THAT(rig.grip(Action::kStore).value_or(""), HasSubstr("holds nothing"));
   EXPECT_THAT(rig.grip(Action::kRetrieve).value_or(""), HasSubstr("is empty"));
@@ -367,7 +367,7 @@ TEST(Gripper, HasAStore) {
   EXPECT_THAT(without.grip(Action::kStore).value_or(""), HasSubstr("holds 0 things at most"));
 }
 
-TEST(Gripper, LosesWhatIsPutElsewhere) {
+TEST(Gripper, ObjectPlacedElsewhere_Lost) {
   Rig rig(kCan);
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(70);
@@ -382,14 +382,14 @@ TEST(Gripper, LosesWhatIsPutElsewhere) {
   EXPECT_NEAR(rig.simulation.body(0).X_WB.x_m, 2.98 - 0.087, 0.002);
 }
 
-TEST(Portable, MayBePutBeyondTheFloor) {
+TEST(Portable, MayBePutBeyondFloor) {
   Rig rig(std::string(kCan) + R"(, {"name": "block", "center": [3, 1]})");
   EXPECT_FALSE(rig.simulation.place_object("can", {-10.0, -10.0, 0.0}));
   EXPECT_NEAR(rig.pose_of("can").x_m, -10.0, 1e-12);
   EXPECT_TRUE(rig.simulation.place_object("block", {-10.0, -10.0, 0.0}));
 }
 
-TEST(Portable, KeepsItsStateWhileItIsCarried) {
+TEST(Portable, Carried_KeepsState) {
   Rig rig(R"({"name": "can", "type": "dynamic", "center": [1.127, 1], "size": [0.04, 0.04], )"
           R"("portable": true})");
   ASSERT_FALSE(rig.grip(Action::kClose));
@@ -404,7 +404,7 @@ TEST(Portable, KeepsItsStateWhileItIsCarried) {
   EXPECT_FALSE(rig.reading().holding);  // nothing to hold there
 }
 
-TEST(Gripper, BeginsAnewAfterAReset) {
+TEST(Gripper, Reset_StartsAnew) {
   Rig rig(kCan);
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(70);
@@ -416,7 +416,7 @@ TEST(Gripper, BeginsAnewAfterAReset) {
   EXPECT_NEAR(rig.nearest_m(0), 0.072, 0.002);
 }
 
-TEST(Gripper, StandsStillWhileItIsOffOrItsRobotSuspended) {
+TEST(Gripper, OffOrSuspended_StandsStill) {
   Rig rig(kCan);
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(30);
@@ -429,7 +429,7 @@ TEST(Gripper, StandsStillWhileItIsOffOrItsRobotSuspended) {
   EXPECT_NEAR(rig.device().gap_m(), 0.7 * 0.12, 1e-9);
 }
 
-TEST(Gripper, RepeatsToTheBit) {
+TEST(Gripper, Repeatable) {
   const auto run = [] {
     Rig rig(kCan);
     EXPECT_FALSE(rig.grip(Action::kClose));
@@ -443,7 +443,7 @@ TEST(Gripper, RepeatsToTheBit) {
   EXPECT_EQ(run(), run());
 }
 
-TEST(Gripper, RefusesSettingsOutOfRange) {
+TEST(Gripper, InvalidSettings_Refused) {
   try {
     static_cast<void>(world_with("", R"(, "capacity": 101)"));
     FAIL() << "a store of 101 was read";

@@ -14,7 +14,7 @@ std::uint32_t along(int x, int y) {
   return along_hilbert_curve({kHilbertSquare_m * (x + 0.5), kHilbertSquare_m * (y + 0.5)});
 }
 
-TEST(HilbertCurve, GoesFromSquareToSquareAndMissesNone) {
+TEST(HilbertCurve, VisitsEachSquareOnceFromNeighbourToNeighbour) {
   // The curve passes through every block of 32 x 32 squares, at multiples of 32, without leaving
   // it.
   for (const auto& [x0, y0] : {std::pair{0, 0}, {-32, 0}, {64, -96}, {-4096, 2048}}) {
@@ -32,7 +32,7 @@ TEST(HilbertCurve, GoesFromSquareToSquareAndMissesNone) {
   }
 }
 
-TEST(HilbertCurve, BeginsAndEndsAtTheLowerCornersOfAll) {
+TEST(HilbertCurve, StartsAndEndsAtLowerCorners) {
   EXPECT_EQ(along_hilbert_curve({-1e9, -1e9}), 0U);
   EXPECT_EQ(along_hilbert_curve({1e9, -1e9}), 0xffffffffU);
   EXPECT_EQ(along_hilbert_curve({-8191.9, -8191.9}), 0U);

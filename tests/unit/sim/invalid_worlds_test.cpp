@@ -337,7 +337,7 @@ const fs::path kFolder = fs::path(PLAYPEN_SOURCE_DIR) / "tests" / "invalid_world
 
 class InvalidWorld : public testing::TestWithParam<BadWorld> {};
 
-TEST_P(InvalidWorld, IsRefusedWithIdPlaceAndReason) {
+TEST_P(InvalidWorld, RefusedWithIdPlaceAndReason) {
   const BadWorld& bad = GetParam();
   const std::string path = (kFolder / (std::string(bad.name) + ".json")).string();
   try {
@@ -366,7 +366,7 @@ INSTANTIATE_TEST_SUITE_P(Files, InvalidWorld, testing::ValuesIn(kBadWorlds),
                            return std::string(bad.param.name);
                          });
 
-TEST(InvalidWorlds, EachFileIsInTheTable) {
+TEST(InvalidWorlds, EachFileIsInTable) {
   std::set<std::string> in_table;
   for (const BadWorld& bad : kBadWorlds) in_table.insert(bad.name);
   std::set<std::string> in_folder;
@@ -376,7 +376,7 @@ TEST(InvalidWorlds, EachFileIsInTheTable) {
   EXPECT_EQ(in_table, in_folder);
 }
 
-TEST(ErrorPage, ListsEachIdThatTheSourceUsesAndNoOther) {
+TEST(ErrorPage, ListsIdsOfSourceOnly) {
   const fs::path root(PLAYPEN_SOURCE_DIR);
   const std::regex in_source(
       "\"((?:file|json|world|device|map|run|stage|task|server|access)/[a-z0-9-]+)\"");

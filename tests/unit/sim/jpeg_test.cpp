@@ -39,7 +39,7 @@ std::string message_of(const std::string& path) {
   return "no error";
 }
 
-TEST(Jpegs, GiveTheFirstSampleOfEachPixel) {
+TEST(Jpegs, GiveFirstSampleOfEachPixel) {
   test_support::TemporaryFolder folder;
   const auto check = [&](const std::string& bytes, int left, int right) {
     const GreyImage image = load_first_samples(folder.write("plan.jpg", bytes));
@@ -58,7 +58,7 @@ TEST(Jpegs, GiveTheFirstSampleOfEachPixel) {
   check(jpeg_of(CV_8UC3, {200, 200, 20}, {0, 0, 220}), 20, 220);
 }
 
-TEST(Jpegs, ThatAreDamagedAreErrors) {
+TEST(Jpegs, Damaged_Error) {
   test_support::TemporaryFolder folder;
   const std::string whole = jpeg_of(CV_8UC1, {10}, {200});
   EXPECT_THAT(message_of(folder.write("a.jpg", whole.substr(0, whole.size() / 2))),
@@ -76,7 +76,7 @@ std::string with_size(std::string jpeg, char marker, const std::string& size) {
   return jpeg.replace(frame + 5, 4, size);
 }
 
-TEST(Jpegs, ThatAreTooLargeAreErrors) {
+TEST(Jpegs, TooLarge_Error) {
   test_support::TemporaryFolder folder;
   const std::string whole = jpeg_of(CV_8UC1, {10}, {200});
   EXPECT_THAT(message_of(folder.write("a.jpg", with_size(whole, '\xc0', "\xfd\xe8\xfd\xe8"))),
@@ -88,7 +88,7 @@ TEST(Jpegs, ThatAreTooLargeAreErrors) {
       HasSubstr("progressive and too large"));
 }
 
-TEST(Jpegs, AreBitmapsOfStagesWorlds) {
+TEST(Jpegs, UsableAsStageBitmaps) {
   test_support::TemporaryFolder folder;
   folder.write("plan.jpg", jpeg_of(CV_8UC3, {10, 10, 10}, {250, 250, 250}));
   const WorldDescription world = load_world(

@@ -343,7 +343,7 @@ class Editor {
   std::mt19937 random_;
 };
 
-TEST(LayerStackRandom, ComposesAsASlowReferenceDoesThroughAllEdits) {
+TEST(LayerStackRandom, RandomEdits_MatchSlowReference) {
   for (unsigned seed = 1; seed <= 300; ++seed) {
     Editor editor(seed);
     std::vector<std::uint8_t> last = editor.stack->composed();
@@ -376,7 +376,7 @@ TEST(LayerStackRandom, ComposesAsASlowReferenceDoesThroughAllEdits) {
   }
 }
 
-TEST(LayerStack, HasTheCanvasAsItsOnlyLayerAtFirst) {
+TEST(LayerStack, Default_CanvasOnly) {
   LayerStack stack = stack_of(5, 4);
   ASSERT_EQ(stack.layers().size(), 1U);
   const LayerInfo base = stack.layers().front();
@@ -388,7 +388,7 @@ TEST(LayerStack, HasTheCanvasAsItsOnlyLayerAtFirst) {
   EXPECT_EQ(stack.recomposed_cells(), 0U);
 }
 
-TEST(LayerStack, NoticesWhatIsDrawnOnTheBaseDirectly) {
+TEST(LayerStack, BaseDrawings_Noticed) {
   LayerStack stack = stack_of(5, 4);
   stack.base().set_pixel(2, 1, kRed);
   EXPECT_EQ(composed_at(stack, 2, 1), kRed);
@@ -397,7 +397,7 @@ TEST(LayerStack, NoticesWhatIsDrawnOnTheBaseDirectly) {
   EXPECT_EQ(stack.base().pixel(3, 1), kBlue);
 }
 
-TEST(LayerStack, OrdersByPriorityThenOwnerThenAgeWithTheBaseBelowItsEquals) {
+TEST(LayerStack, Order_PriorityThenOwnerThenAge) {
   LayerStack stack = stack_of(4, 4);
   const auto add = [&](int priority, int owner) {
     LayerStyle style = named("x");
@@ -416,7 +416,7 @@ TEST(LayerStack, OrdersByPriorityThenOwnerThenAgeWithTheBaseBelowItsEquals) {
   EXPECT_THAT(order_of(stack), ElementsAre(low, early_owner, again, late_owner, high, kBaseLayer));
 }
 
-TEST(LayerStack, NeverGivesAnIdTwice) {
+TEST(LayerStack, Ids_NeverReused) {
   LayerStack stack = stack_of(4, 4);
   const LayerId first = stack.add(LayerKind::kGrey, named("a"), 0);
   EXPECT_TRUE(stack.remove(first));
@@ -425,13 +425,13 @@ TEST(LayerStack, NeverGivesAnIdTwice) {
   EXPECT_NE(stack.add(LayerKind::kGrey, named("a"), 0), first);
 }
 
-TEST(LayerStack, KeepsTheBaseLayer) {
+TEST(LayerStack, BaseLayer_NotRemovable) {
   LayerStack stack = stack_of(4, 4);
   EXPECT_FALSE(stack.remove(kBaseLayer));
   EXPECT_TRUE(stack.contains(kBaseLayer));
 }
 
-TEST(LayerStack, DrawsEachKindInItsColours) {
+TEST(LayerStack, Kinds_DrawnInTheirColours) {
   LayerStack stack = stack_of(4, 1);
   LayerStyle light_blue = named("inflated");
   light_blue.colour = {100, 150, 255, 255};
@@ -450,7 +450,7 @@ TEST(LayerStack, DrawsEachKindInItsColours) {
   EXPECT_EQ(composed_at(stack, 3, 0), (Colour{204, 204, 204, 255}));  // 255 * 0.8
 }
 
-TEST(LayerStack, LayersShowThroughByTransparencyAndTransparentColour) {
+TEST(LayerStack, TransparentCells_ShowLayersBelow) {
   LayerStack stack = stack_of(2, 1);
   stack.base().clear({200, 100, 0, 255});
   LayerStyle style = named("grey");
@@ -467,7 +467,7 @@ TEST(LayerStack, LayersShowThroughByTransparencyAndTransparentColour) {
   EXPECT_EQ(composed_at(stack, 1, 0), (Colour{160, 80, 0, 255}));
 }
 
-TEST(LayerStack, ClipsDrawingsAndReadsNothingOutside) {
+TEST(LayerStack, Outside_ClippedAndNotRead) {
   LayerStack stack = stack_of(20, 18);
   const LayerId layer = stack.add(LayerKind::kBinary, named("b"), 0);
   constexpr int kLeast = std::numeric_limits<int>::min();
@@ -494,7 +494,7 @@ TEST(LayerStack, ClipsDrawingsAndReadsNothingOutside) {
   EXPECT_EQ(std::count(cells.begin(), cells.end(), set), 1 + 20);
 }
 
-TEST(LayerStack, WorksOnLayersThatAreGoneDoNothing) {
+TEST(LayerStack, RemovedLayers_NoEffect) {
   LayerStack stack = stack_of(4, 4);
   const LayerId layer = stack.add(LayerKind::kColour, named("gone"), 0);
   stack.remove(layer);
@@ -505,12 +505,12 @@ TEST(LayerStack, WorksOnLayersThatAreGoneDoNothing) {
   EXPECT_EQ(stack.composed(), std::vector<std::uint8_t>(4 * 4 * 4, 0));
 }
 
-TEST(LayerStack, BlendsColoursButReplacesOtherKindsAndFilledCells) {
+TEST(LayerStack, Colours_BlendedAndOtherKindsReplaced) {
   LayerStack stack = stack_of(3, 1);
   const LayerId colours = stack.add(LayerKind::kColour, named("c"), 0);
   draw(stack, fill(colours, CellValue::of(Colour{200, 100, 0, 255})));
   draw(stack, pixel(colours, 0, 0, CellValue::of(Colour{0, 0, 255, 51})));
-  // Blue with alpha 1/5 over it, as in Canvas.BlendsTranslucentColoursOverWhatIsThere.
+  // Blue with alpha 1/5 over it, as in Canvas.TranslucentColours_Blended.
   EXPECT_EQ(stack.cell(colours, 0, 0)->colour(), (Colour{160, 80, 51, 255}));
   draw(stack, fill(colours, CellValue::of(Colour{1, 2, 3, 4})));
   EXPECT_EQ(stack.cell(colours, 0, 0)->colour(), (Colour{1, 2, 3, 4}));
@@ -522,7 +522,7 @@ TEST(LayerStack, BlendsColoursButReplacesOtherKindsAndFilledCells) {
   EXPECT_EQ(stack.cell(grey, 2, 0)->occupancy(), 0.5F);
 }
 
-TEST(LayerStack, ResizingKeepsWhatIsDrawnAtItsPlaceInTheWorld) {
+TEST(LayerStack, Resize_KeepsDrawingsInPlace) {
   LayerStack stack = stack_of(6, 4);
   const LayerId grey = stack.add(LayerKind::kGrey, named("g"), 0);
   const double x_m = 0.3;  // column floor((0.3 + 1) / 0.5) = 2
@@ -549,7 +549,7 @@ TEST(LayerStack, ResizingKeepsWhatIsDrawnAtItsPlaceInTheWorld) {
 }
 
 // Tiles have 16 x 16 cells: 40 x 36 cells are 3 x 3 tiles; the last one is 8 wide and 4 high.
-TEST(LayerStackCost, OnlyTilesWithChangesAreComposedAnew) {
+TEST(LayerStackCost, ChangedTiles_ComposedOnly) {
   LayerStack stack = stack_of(40, 36);
   const LayerId grey = stack.add(LayerKind::kGrey, named("g"), 0);
   EXPECT_EQ(cost_of_composing(stack), 40U * 36U);
@@ -565,7 +565,7 @@ TEST(LayerStackCost, OnlyTilesWithChangesAreComposedAnew) {
   EXPECT_EQ(cost_of_composing(stack), 16U * 16U);
 }
 
-TEST(LayerStackCost, ChangesOfAStyleTouchOnlyWhatTheLayerDraws) {
+TEST(LayerStackCost, StyleChange_TouchesDrawnTilesOnly) {
   LayerStack stack = stack_of(40, 36);
   LayerStyle style = named("b");
   const LayerId layer = stack.add(LayerKind::kBinary, style, 0);
@@ -584,7 +584,7 @@ TEST(LayerStackCost, ChangesOfAStyleTouchOnlyWhatTheLayerDraws) {
   EXPECT_EQ(cost_of_composing(stack), 0U);
 }
 
-TEST(LayerStackCost, NothingVisibleChangedLeavesTheVersionAlone) {
+TEST(LayerStackCost, InvisibleChange_KeepsVersion) {
   LayerStack stack = stack_of(40, 36);
   LayerStyle style = named("hidden");
   style.visible = false;
@@ -627,7 +627,7 @@ TEST(LayerStackCost, NothingVisibleChangedLeavesTheVersionAlone) {
   EXPECT_EQ(stack.version(), version + 1);
 }
 
-TEST(LayerStackCost, AHiddenLayerAppearsWithAllThatWasDrawnMeanwhile) {
+TEST(LayerStackCost, ShownLayer_HasEarlierDrawings) {
   LayerStack stack = stack_of(40, 36);
   LayerStyle style = named("l");
   const LayerId layer = stack.add(LayerKind::kColour, style, 0);
@@ -669,7 +669,7 @@ std::vector<DrawOperation> many_drawings(LayerId other, std::size_t count) {
   return drawings;
 }
 
-TEST(Drawings, InPiecesOrWithoutThoseThatAreCoveredGiveTheSameCells) {
+TEST(Drawings, PiecesAndWithoutCovered_SameCells) {
   constexpr int kSide = 100;
   const auto make = [](LayerId& other) {
     LayerStack stack(CanvasDescription{kSide, kSide, 0.01, Vec2(0, 0)});
@@ -700,36 +700,36 @@ TEST(Drawings, InPiecesOrWithoutThoseThatAreCoveredGiveTheSameCells) {
   EXPECT_EQ(in_pieces.composed(), one_by_one.composed());
 }
 
-TEST(Drawings, OnlyTheLastFillOfALayerAndWhatFollowsItIsKept) {
-  using Kind = DrawOperation::Kind;
-  const auto on = [](Kind kind, LayerId layer, int column = 0) {
+TEST(Drawings, LastFillAndLater_Kept) {
+  using Draw = DrawOperation::Kind;
+  const auto on = [](Draw kind, LayerId layer, int column = 0) {
     return DrawOperation{kind, layer, column, 0, 0, 0, {}};
   };
   std::vector<DrawOperation> drawings = {
-      on(Kind::kPixel, 0),    on(Kind::kFill, 0), on(Kind::kPixel, 1, 5), on(Kind::kFill, 0),
-      on(Kind::kPixel, 0, 7), on(Kind::kFill, 1), on(Kind::kFill, 2)};
+      on(Draw::kPixel, 0),    on(Draw::kFill, 0), on(Draw::kPixel, 1, 5), on(Draw::kFill, 0),
+      on(Draw::kPixel, 0, 7), on(Draw::kFill, 1), on(Draw::kFill, 2)};
   drop_covered(drawings);
   ASSERT_EQ(drawings.size(), 4U);
-  EXPECT_EQ(drawings[0].kind, Kind::kFill);
+  EXPECT_EQ(drawings[0].kind, Draw::kFill);
   EXPECT_EQ(drawings[1].x0, 7);
   EXPECT_EQ(drawings[2].layer, 1);
   EXPECT_EQ(drawings[3].layer, 2);
 }
 
-TEST(Drawings, CostWhatTheyWriteInside) {
-  using Kind = DrawOperation::Kind;
-  const auto cost = [](Kind kind, int x0, int y0, int x1, int y1) {
+TEST(Drawings, Cost_CellsInside) {
+  using Draw = DrawOperation::Kind;
+  const auto cost = [](Draw kind, int x0, int y0, int x1, int y1) {
     return cells_written({kind, 0, x0, y0, x1, y1, {}}, 100, 50);
   };
-  EXPECT_EQ(cost(Kind::kPixel, -5, 0, 0, 0), 1U);
-  EXPECT_EQ(cost(Kind::kFill, 0, 0, 0, 0), 5000U);
-  EXPECT_EQ(cost(Kind::kLine, 0, 0, 9, 3), 10U);
-  EXPECT_EQ(cost(Kind::kLine, 9, 30, 0, 0), 31U);
-  EXPECT_EQ(cost(Kind::kLine, -2147483647, 0, 2147483647, 9), 100U);
-  EXPECT_EQ(cost(Kind::kLine, 200, 0, 300, 40), 1U) << "all outside";
+  EXPECT_EQ(cost(Draw::kPixel, -5, 0, 0, 0), 1U);
+  EXPECT_EQ(cost(Draw::kFill, 0, 0, 0, 0), 5000U);
+  EXPECT_EQ(cost(Draw::kLine, 0, 0, 9, 3), 10U);
+  EXPECT_EQ(cost(Draw::kLine, 9, 30, 0, 0), 31U);
+  EXPECT_EQ(cost(Draw::kLine, -2147483647, 0, 2147483647, 9), 100U);
+  EXPECT_EQ(cost(Draw::kLine, 200, 0, 300, 40), 1U) << "all outside";
 }
 
-TEST(LayerStack, IsComposedInPiecesToTheSamePicture) {
+TEST(LayerStack, ComposeInPieces_SamePicture) {
   LayerId other = 0;
   LayerStack stack(CanvasDescription{200, 100, 0.01, Vec2(0, 0)});
   other = stack.add(LayerKind::kColour, {.name = "other", .transparency = 0.5}, 1);
@@ -766,7 +766,7 @@ LayerCopy copied(LayerStack& stack, std::size_t cells, const Between& between,
   }
 }
 
-TEST(LayerStack, IsCopiedInPiecesWhileItChanges) {
+TEST(LayerStack, CopyInPieces_WorksDuringChanges) {
   LayerStack stack(CanvasDescription{200, 100, 0.01, Vec2(0, 0)});
   const LayerId grey = stack.add(LayerKind::kGrey, {.name = "grey", .priority = -1}, 7);
   stack.draw(many_drawings(grey, 200));
@@ -807,7 +807,7 @@ TEST(LayerStack, IsCopiedInPiecesWhileItChanges) {
   EXPECT_EQ(one.take(), other.take());
 }
 
-TEST(LayerStack, ACopyThatAnotherOneHasOvertakenBeginsAnew) {
+TEST(LayerStack, OvertakenCopy_Restarts) {
   LayerStack stack(CanvasDescription{200, 100, 0.01, Vec2(0, 0)});
   stack.draw(many_drawings(kBaseLayer, 200));
   bool overtaken = false;
@@ -819,7 +819,7 @@ TEST(LayerStack, ACopyThatAnotherOneHasOvertakenBeginsAnew) {
   EXPECT_EQ(copy.take().cells(kBaseLayer), stack.cells(kBaseLayer));
 }
 
-TEST(LayerStack, IsResizedByACopyOfAnotherSize) {
+TEST(LayerStack, CopyOfOtherSize_Resizes) {
   LayerStack stack(CanvasDescription{40, 30, 0.01, Vec2(0, 0)});
   const LayerId grey = stack.add(LayerKind::kGrey, {.name = "grey"}, 1);
   LayerStack plain(CanvasDescription{40, 30, 0.01, Vec2(0, 0)});

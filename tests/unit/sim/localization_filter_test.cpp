@@ -66,7 +66,7 @@ ScanPoints scan_in(const OccupancyMap& map, const Pose& X_WB) {
   return scan_points({}, ranges, -kPi, 2.0 * kPi / kBeams, 8.0, 60);
 }
 
-TEST(DistanceField, IsTheDistanceToTheNearestOccupiedCell) {
+TEST(DistanceField, DistanceToNearestOccupiedCell) {
   OccupancyMap map = empty_map(9, 7, 0.5);
   cell(map, 2, 1) = 1.0F;
   cell(map, 7, 5) = 1.0F;
@@ -80,7 +80,7 @@ TEST(DistanceField, IsTheDistanceToTheNearestOccupiedCell) {
   }
 }
 
-TEST(DistanceField, HasALimitAndNeedsNoOccupiedCell) {
+TEST(DistanceField, Distance_LimitedEvenWithoutOccupiedCell) {
   OccupancyMap map = empty_map(5, 1, 1.0);
   for (const float distance : distance_field(map, 2.0).distances_m) EXPECT_EQ(distance, 2.0F);
   cell(map, 0, 0) = 1.0F;
@@ -89,7 +89,7 @@ TEST(DistanceField, HasALimitAndNeedsNoOccupiedCell) {
   EXPECT_EQ(field.at(4, 0), 2.5F);
 }
 
-TEST(ScanPoints, AreSpreadEvenlyAndLeaveOutMisses) {
+TEST(ScanPoints, SpreadEvenlyWithoutMisses) {
   // Four beams, -90 to 90 degrees, from a laser 0.1 m in front of the middle. Of two used beams,
   // these are the second and the fourth; the fourth met nothing.
   const std::vector<double> ranges{1.0, 2.0, 3.0, 5.0};
@@ -99,7 +99,7 @@ TEST(ScanPoints, AreSpreadEvenlyAndLeaveOutMisses) {
   EXPECT_NEAR(scan.p_BQ[0].y(), 2.0 * std::sin(-kPi / 6.0), 1e-12);
 }
 
-TEST(LikelihoodField, FollowsTheDistanceToTheSurface) {
+TEST(LikelihoodField, FollowsDistanceToSurface) {
   // A solid of 3 x 3 cells of 0.1 m; its middle cell is no surface.
   OccupancyMap map = empty_map(20, 20, 0.1);
   for (int column = 8; column <= 10; ++column) {
@@ -122,7 +122,7 @@ TEST(LikelihoodField, FollowsTheDistanceToTheSurface) {
   EXPECT_EQ(field.free_cells(), 400U - 9U);
 }
 
-TEST(OdometryMotion, WithoutNoiseIsTheMeasuredMotion) {
+TEST(OdometryMotion, NoNoise_MeasuredMotion) {
   RandomStream random(1, "test");
   for (const Pose& motion : {Pose{0.3, 0.1, 0.2}, Pose{-0.2, 0.0, 0.0}, Pose{0.0, 0.0, 1.0}}) {
     const Pose drawn = OdometryMotion(motion, {0.0, 0.0, 0.0, 0.0}).sample(random);
@@ -132,7 +132,7 @@ TEST(OdometryMotion, WithoutNoiseIsTheMeasuredMotion) {
   }
 }
 
-TEST(OdometryMotion, ScattersAsTheAlphasSay) {
+TEST(OdometryMotion, Noise_MatchesAlphas) {
   // 2 m straight on, or backwards: only the distance scatters, by sqrt(0.01 * 4) = 0.2 m.
   constexpr int kDraws = 20000;
   RandomStream random(1, "test");
@@ -152,14 +152,14 @@ TEST(OdometryMotion, ScattersAsTheAlphasSay) {
   }
 }
 
-TEST(KldSampleSize, IsThatOfTheEquation) {
+TEST(KldSampleSize, MatchesEquation) {
   EXPECT_EQ(kld_sample_size(0, 0.05, 2.33), 1.0);
   EXPECT_EQ(kld_sample_size(1, 0.05, 2.33), 1.0);
   // k - 1 = 2: 2 / 0.1 * (1 - 1/9 + sqrt(1/9) * 3)^3 = 20 * (17/9)^3.
   EXPECT_NEAR(kld_sample_size(3, 0.05, 3.0), 20.0 * std::pow(17.0 / 9.0, 3.0), 1e-9);
 }
 
-TEST(PoseBins, CountsBinsOnce) {
+TEST(PoseBins, Bins_CountedOnce) {
   PoseBins bins;
   EXPECT_TRUE(bins.add({0.1, 0.1, 0.0}));
   EXPECT_FALSE(bins.add({0.4, 0.4, 0.05}));
@@ -169,7 +169,7 @@ TEST(PoseBins, CountsBinsOnce) {
   EXPECT_EQ(bins.count(), 1003U);
 }
 
-TEST(PoseHypotheses, AreTheClustersWithTheirMoments) {
+TEST(PoseHypotheses, ClustersWithMoments) {
   // Two groups; the heavier one lies across the yaw's seam.
   std::vector<Particle> particles{
       {{1.0, 1.0, kPi - 0.1}, 0.35}, {{1.2, 1.4, -kPi + 0.1}, 0.35}, {{5.0, 5.0, 0.0}, 0.3}};
@@ -190,7 +190,7 @@ TEST(PoseHypotheses, AreTheClustersWithTheirMoments) {
   EXPECT_TRUE(pose_hypotheses({}, 10).empty());
 }
 
-TEST(PoseHypothesis, FollowsTheRobot) {
+TEST(PoseHypothesis, FollowsRobot) {
   PoseHypothesis hypothesis;
   hypothesis.mean = {1.0, 2.0, 0.5 * kPi};
   hypothesis.covariance.variance = {0.01, 0.02, 0.04};
@@ -204,7 +204,7 @@ TEST(PoseHypothesis, FollowsTheRobot) {
   EXPECT_NEAR(there.covariance.covariance[2], -0.04, 1e-12);
 }
 
-TEST(PoseCovariance, IsSampledAndChecked) {
+TEST(PoseCovariance, SampledAndChecked) {
   const PoseCovariance covariance{{0.04, 0.09, 0.01}, {0.03, -0.01, 0.005}};
   ASSERT_TRUE(is_valid(covariance));
   EXPECT_TRUE(is_valid({}));
@@ -229,7 +229,7 @@ TEST(PoseCovariance, IsSampledAndChecked) {
   EXPECT_NEAR(ya, -0.01, 4.0 * std::sqrt((0.09 * 0.01 + 0.01 * 0.01) / kDraws));
 }
 
-TEST(PoseBins, PutAnyPoseIntoABin) {
+TEST(PoseBins, AnyPose_HasBin) {
   PoseBins bins;
   EXPECT_TRUE(bins.add({1e308, 1e308, 0.0}));
   EXPECT_FALSE(bins.add({std::numeric_limits<double>::infinity(), 1e300, 0.0}));
@@ -237,7 +237,7 @@ TEST(PoseBins, PutAnyPoseIntoABin) {
   EXPECT_FALSE(bins.add({NAN, 0.0, 0.0})) << "the least bin";
 }
 
-TEST(ResampleLowVariance, KeepsTheSharesWithinOneParticle) {
+TEST(ResampleLowVariance, Shares_KeptWithinOneParticle) {
   const std::vector<Particle> particles{
       {{1.0, 0.0, 0.0}, 0.55}, {{2.0, 0.0, 0.0}, 0.0}, {{3.0, 0.0, 0.0}, 0.45}};
   RandomStream random(1, "test");
@@ -283,7 +283,7 @@ double error_m(const MonteCarloLocalizer& localizer, const Pose& X_WB) {
   return (best.mean.position() - X_WB.position()).norm();
 }
 
-TEST(MonteCarloLocalizer, FindsTheRobotAnywhereAndAfterAKidnapping) {
+TEST(MonteCarloLocalizer, UnknownAndKidnappedRobot_Found) {
   const OccupancyMap map = room();
   MonteCarloLocalizer localizer = localizer_in(map);
   EXPECT_FALSE(localizer.wants_scan());  // no particles yet
@@ -303,7 +303,7 @@ TEST(MonteCarloLocalizer, FindsTheRobotAnywhereAndAfterAKidnapping) {
   EXPECT_LT(error_m(localizer, X_WB), 0.05);
 }
 
-TEST(MonteCarloLocalizer, TracksFromAGivenPoseAndFollowsTheOdometryBetweenScans) {
+TEST(MonteCarloLocalizer, GivenPose_TrackedByOdometryBetweenScans) {
   const OccupancyMap map = room();
   MonteCarloLocalizer localizer = localizer_in(map);
   Pose X_WB{1.5, 1.0, 0.0};
@@ -322,7 +322,7 @@ TEST(MonteCarloLocalizer, TracksFromAGivenPoseAndFollowsTheOdometryBetweenScans)
               1e-12);
 }
 
-TEST(MonteCarloLocalizer, AppendsEachStepOfTheOdometryToThoseBefore) {
+TEST(MonteCarloLocalizer, OdometrySteps_Accumulated) {
   MonteCarloLocalizer localizer = localizer_in(room());
   localizer.set_pose({1.5, 1.0, 0.0}, {});
   // Ahead and to the left, then ahead in the new direction.
@@ -334,7 +334,7 @@ TEST(MonteCarloLocalizer, AppendsEachStepOfTheOdometryToThoseBefore) {
   EXPECT_NEAR(mean.yaw_rad, 0.5 * std::numbers::pi, 1e-9);
 }
 
-TEST(MonteCarloLocalizer, RepeatsToTheBitAndIsRestored) {
+TEST(MonteCarloLocalizer, RepeatableAndRestorable) {
   const OccupancyMap map = room();
   const auto run = [&](bool with_restore) {
     MonteCarloLocalizer localizer = localizer_in(map, 7);
@@ -362,7 +362,7 @@ TEST(MonteCarloLocalizer, RepeatsToTheBitAndIsRestored) {
   }
 }
 
-TEST(MonteCarloLocalizer, ScansWithoutPointsChangeNoWeights) {
+TEST(MonteCarloLocalizer, EmptyScans_KeepWeights) {
   MonteCarloLocalizer localizer = localizer_in(room());
   localizer.set_pose({1.0, 1.0, 0.0}, {});
   localizer.update({});

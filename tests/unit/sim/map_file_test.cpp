@@ -53,7 +53,7 @@ std::vector<ConfigIssue> issues_of(const std::string& file) {
   return {};
 }
 
-TEST(MapFile, TrinaryMapsComeBackAsTheyWere) {
+TEST(MapFile, Trinary_RoundTrips) {
   const TemporaryFolder folder;
   std::mt19937 random(3);
   for (int round = 0; round < 20; ++round) {
@@ -77,7 +77,7 @@ TEST(MapFile, TrinaryMapsComeBackAsTheyWere) {
   }
 }
 
-TEST(MapFile, TrinaryTellsFreeOccupiedAndUnknownApart) {
+TEST(MapFile, Trinary_FreeOccupiedAndUnknown) {
   const TemporaryFolder folder;
   write_map(map_of(4, 2, {0.1F, 0.19F, 0.2F, 0.6F, 0.66F, -3.0F, 9.0F, kNaN}), folder / "m");
   EXPECT_EQ(read_bytes(folder / "m.pgm"),
@@ -89,7 +89,7 @@ TEST(MapFile, TrinaryTellsFreeOccupiedAndUnknownApart) {
               ElementsAre(0.0F, 0.0F, 0.5F, 0.5F, 1.0F, 0.0F, 1.0F, 0.5F));
 }
 
-TEST(MapFile, ScaleModeKeepsShades) {
+TEST(MapFile, Scale_KeepsShades) {
   const TemporaryFolder folder;
   OccupancyMap map = map_of(1001, 1, {});
   for (int i = 0; i <= 1000; ++i) map.cells.push_back(static_cast<float>(i) / 1000.0F);
@@ -109,7 +109,7 @@ TEST(MapFile, ScaleModeKeepsShades) {
   EXPECT_NEAR(odd[2], 0.5, 1.0 / 500);
 }
 
-TEST(MapFile, NamesThatYamlWouldMisreadComeBack) {
+TEST(MapFile, AmbiguousYamlNames_RoundTrip) {
   const TemporaryFolder folder;
   for (const char* stem : {"# my: map", "null", "a 'b' \"c\"", "- x"}) {
     write_map(map_of(1, 1, {1.0F}), folder / stem);
@@ -117,7 +117,7 @@ TEST(MapFile, NamesThatYamlWouldMisreadComeBack) {
   }
 }
 
-TEST(MapFile, WhereNothingCanBeWrittenTheErrorNamesTheFile) {
+TEST(MapFile, UnwritableFile_ErrorNamesIt) {
   const TemporaryFolder folder;
   try {
     write_map(map_of(1, 1, {0.0F}), folder / "no/folder/map");
@@ -128,7 +128,7 @@ TEST(MapFile, WhereNothingCanBeWrittenTheErrorNamesTheFile) {
   }
 }
 
-TEST(MapFile, ReadsWhatMapSaverWrites) {
+TEST(MapFile, MapSaverFile_Read) {
   const TemporaryFolder folder;
   folder.write("map.pgm", "P5\n# CREATOR: map_saver.cpp 0.050 m/pix\n3 1\n255\n" +
                               std::string("\xfe\xcd\0", 3));
@@ -144,7 +144,7 @@ TEST(MapFile, ReadsWhatMapSaverWrites) {
   EXPECT_THAT(map.cells, ElementsAre(0.0F, 0.5F, 1.0F));
 }
 
-TEST(MapFile, ReadsYamlAsOtherToolsWriteItAndPassesOverTheirKeys) {
+TEST(MapFile, ForeignYaml_ReadWithoutItsOtherKeys) {
   const TemporaryFolder folder;
   folder.write("pictures/map.pgm", "P2\n2 1\n255\n255 0\n");
   const std::string yaml =
@@ -159,7 +159,7 @@ TEST(MapFile, ReadsYamlAsOtherToolsWriteItAndPassesOverTheirKeys) {
   EXPECT_THAT(map.cells, ElementsAre(0.0F, 1.0F));
 }
 
-TEST(MapFile, ModesAndNegationMakeOccupancyOfShades) {
+TEST(MapFile, ModeAndNegate_ConvertShades) {
   const TemporaryFolder folder;
   folder.write("map.pgm", "P2\n5 1\n255\n0 51 100 204 255\n");
   const auto cells = [&](const std::string& lines) {
@@ -181,7 +181,7 @@ TEST(MapFile, ModesAndNegationMakeOccupancyOfShades) {
   EXPECT_THAT(negated("mode: raw\n"), ElementsAre(0.5F, 0.5F, 0.5F, 0.51F, 0.0F));
 }
 
-TEST(MapFile, ReadsPngPicturesToo) {
+TEST(MapFile, Png_Read) {
   const TemporaryFolder folder;
   render::write_png({3, 1, {255, 255, 255, 0, 0, 0, 128, 128, 128}}, folder / "map.png");
   const std::string yaml = folder.write("map.yaml", description_with("image: map.png"));
@@ -197,7 +197,7 @@ struct BadMap {
   const char* found;
 };
 
-TEST(MapFile, TellsWhatIsWrongWithADescription) {
+TEST(MapFile, InvalidDescription_Explained) {
   const BadMap kBad[] = {
       {"resolution: x", "map/wrong-type", "/resolution", 2, "over 0", "\"x\""},
       {"resolution: 0", "map/out-of-range", "/resolution", 2, "over 0", "0"},
@@ -242,7 +242,7 @@ TEST(MapFile, TellsWhatIsWrongWithADescription) {
   }
 }
 
-TEST(MapFile, NamesEveryKeyThatIsMissing) {
+TEST(MapFile, MissingKeys_AllNamed) {
   const TemporaryFolder folder;
   const std::vector<ConfigIssue> issues = issues_of(folder.write("m.yaml", "mode: trinary\n"));
   std::string found;
@@ -256,7 +256,7 @@ TEST(MapFile, NamesEveryKeyThatIsMissing) {
             "no key \"occupied_thresh\" no key \"free_thresh\" ");
 }
 
-TEST(MapFile, TellsWhenTheFileIsNoDescriptionAtAll) {
+TEST(MapFile, OtherFile_NoDescription) {
   const TemporaryFolder folder;
   const auto id_of = [](const std::string& file) {
     const std::vector<ConfigIssue> issues = issues_of(file);
@@ -272,7 +272,7 @@ TEST(MapFile, TellsWhenTheFileIsNoDescriptionAtAll) {
   EXPECT_THAT(issues_of(folder / "missing.yaml")[0].expected, "the YAML file of a map");
 }
 
-TEST(MapFile, RefusesPicturesThatAreCutShortOrAbsurd) {
+TEST(MapFile, TruncatedOrHugePictures_Refused) {
   const TemporaryFolder folder;
   const std::string yaml = folder.write("map.yaml", description_with());
   const auto refusal = [&](const std::string& picture) {

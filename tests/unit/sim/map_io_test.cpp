@@ -50,7 +50,7 @@ double doubled_area(const WallLoop& loop) {
   return sum;
 }
 
-TEST(TraceWalls, OneCellIsASquareCounterClockwiseFromItsBottomLeft) {
+TEST(TraceWalls, OneCell_CounterClockwiseSquareFromBottomLeft) {
   const std::vector<WallLoop> loops = trace({"...",  //
                                              "..#",  //
                                              "..."});
@@ -58,21 +58,21 @@ TEST(TraceWalls, OneCellIsASquareCounterClockwiseFromItsBottomLeft) {
   EXPECT_THAT(loops[0].vertices, ElementsAre(Vec2(2, 1), Vec2(3, 1), Vec2(3, 2), Vec2(2, 2)));
 }
 
-TEST(TraceWalls, RowZeroIsTheTopOfThePicture) {
+TEST(TraceWalls, RowZero_TopOfPicture) {
   const std::vector<WallLoop> loops = trace({"#.",  //
                                              ".."});
   ASSERT_THAT(loops, SizeIs(1));
   EXPECT_EQ(loops[0].vertices.front(), Vec2(0, 1));
 }
 
-TEST(TraceWalls, CollinearEdgesAreMerged) {
+TEST(TraceWalls, CollinearEdges_Merged) {
   const std::vector<WallLoop> loops = trace({"####",  //
                                              "####"});
   ASSERT_THAT(loops, SizeIs(1));
   EXPECT_THAT(loops[0].vertices, ElementsAre(Vec2(0, 0), Vec2(4, 0), Vec2(4, 2), Vec2(0, 2)));
 }
 
-TEST(TraceWalls, HolesRunClockwise) {
+TEST(TraceWalls, Holes_Clockwise) {
   const std::vector<WallLoop> loops = trace({"####",  //
                                              "#..#",  //
                                              "####"});
@@ -83,7 +83,7 @@ TEST(TraceWalls, HolesRunClockwise) {
   EXPECT_THAT(loops[1].vertices, ElementsAre(Vec2(1, 2), Vec2(3, 2), Vec2(3, 1), Vec2(1, 1)));
 }
 
-TEST(TraceWalls, CellsThatMeetAtACornerHaveOutlinesOfTheirOwn) {
+TEST(TraceWalls, CellsThatMeetAtCorner_SeparateOutlines) {
   for (const std::vector<std::string>& rows :
        {std::vector<std::string>{"#.", ".#"}, std::vector<std::string>{".#", "#."}}) {
     const std::vector<WallLoop> loops = trace(rows);
@@ -95,7 +95,7 @@ TEST(TraceWalls, CellsThatMeetAtACornerHaveOutlinesOfTheirOwn) {
   }
 }
 
-TEST(TraceWalls, FreeCellsThatMeetAtACornerMakeOneHole) {
+TEST(TraceWalls, FreeCellsThatMeetAtCorner_OneHole) {
   // The two solid cells in the middle share no side, so the hole passes between them.
   const std::vector<WallLoop> loops = trace({"####",  //
                                              "#.##",  //
@@ -106,16 +106,16 @@ TEST(TraceWalls, FreeCellsThatMeetAtACornerMakeOneHole) {
   EXPECT_THAT(loops[1].vertices, SizeIs(8));
 }
 
-TEST(TraceWalls, OriginAndResolutionPlaceTheOutline) {
+TEST(TraceWalls, OriginAndResolution_PlaceOutline) {
   const std::vector<WallLoop> loops = trace_walls(grid_of({".#"}), Vec2(-1.0, 2.0), 0.5).value();
   ASSERT_THAT(loops, SizeIs(1));
   EXPECT_THAT(loops[0].vertices,
               ElementsAre(Vec2(-0.5, 2.0), Vec2(0, 2.0), Vec2(0, 2.5), Vec2(-0.5, 2.5)));
 }
 
-TEST(TraceWalls, NothingSolidGivesNoLoops) { EXPECT_THAT(trace({"..", ".."}), SizeIs(0)); }
+TEST(TraceWalls, NothingSolid_NoLoops) { EXPECT_THAT(trace({"..", ".."}), SizeIs(0)); }
 
-TEST(TraceWalls, RandomGridsKeepAreaAndAlternateEdges) {
+TEST(TraceWalls, RandomGrids_KeepAreaAndAlternateEdges) {
   std::mt19937 random(1);
   for (int round = 0; round < 50; ++round) {
     OccupancyGrid grid{17, 13, {}};
@@ -143,7 +143,7 @@ TEST(TraceWalls, RandomGridsKeepAreaAndAlternateEdges) {
   }
 }
 
-TEST(TraceWalls, TooManyEdgesAreRefused) {
+TEST(TraceWalls, TooManyEdges_Refused) {
   // Every second cell of every second row is solid: each has 4 edges, so 1200 x 1200 cells give
   // 1.44 million.
   OccupancyGrid grid{1200, 1200, std::vector<std::uint8_t>(1200 * 1200, 0)};
@@ -153,7 +153,7 @@ TEST(TraceWalls, TooManyEdgesAreRefused) {
   EXPECT_FALSE(trace_walls(grid, Vec2::Zero(), 1.0).has_value());
 }
 
-TEST(TraceWalls, FourMillionCellsTakeWellUnderASecond) {
+TEST(TraceWalls, FourMillionCells_TracedWithinSecond) {
   OccupancyGrid grid{2000, 2000, std::vector<std::uint8_t>(4'000'000, 0)};
   // Rooms of 50 cells with walls of 2 cells, each with a door of 10 cells.
   for (std::size_t row = 0; row < 2000; ++row) {
@@ -193,7 +193,7 @@ class MapIo : public testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(MapIo, DarkPixelsBecomeWallsAndTheFloorIsThePictures) {
+TEST_F(MapIo, DarkPixels_WallsAndFloorOfPictureSize) {
   // Grey 100 is darker than half of 255; 128 is not.
   write_pgm("m.pgm", 3, 2, std::string("\xff\x64\x80\xff\xff\xff", 6));
   const WorldDescription world =
@@ -209,7 +209,7 @@ TEST_F(MapIo, DarkPixelsBecomeWallsAndTheFloorIsThePictures) {
   EXPECT_EQ(world.canvas.origin, Vec2(1, 2));
 }
 
-TEST(SimplifyWalls, MakesOneEdgeOfAStaircaseAndKeepsCornersAndSmallThings) {
+TEST(SimplifyWalls, Staircase_OneEdgeButCornersKept) {
   // A triangle with steps of 1 and its right angle at (20, 0), and a single cell.
   std::vector<std::string> rows(20, std::string(23, '.'));
   for (std::size_t row = 0; row < 20; ++row) {
@@ -232,7 +232,7 @@ TEST(SimplifyWalls, MakesOneEdgeOfAStaircaseAndKeepsCornersAndSmallThings) {
   }
 }
 
-TEST_F(MapIo, ThresholdDecidesWhatIsDark) {
+TEST_F(MapIo, Threshold_SelectsDarkPixels) {
   write_pgm("m.pgm", 2, 1, std::string("\x32\xc8", 2));  // grey levels 50 and 200
   const auto walls = [this](const char* threshold) {
     return read(std::string(R"({"robots": [], "arena": {"map": {"image": "m.pgm", )") +
@@ -244,7 +244,7 @@ TEST_F(MapIo, ThresholdDecidesWhatIsDark) {
   ASSERT_EQ(walls("1"), 1U);    // both, as one block
 }
 
-TEST_F(MapIo, SizeAndOriginOfTheArenaStandIfGiven) {
+TEST_F(MapIo, SizeAndOriginOfArena_Used) {
   write_pgm("m.pgm", 2, 1, std::string("\xff\xff", 2));
   const WorldDescription world =
       read(R"({"robots": [], "arena": {"size": [5, 4], "origin": [-1, -1],
@@ -254,7 +254,7 @@ TEST_F(MapIo, SizeAndOriginOfTheArenaStandIfGiven) {
   EXPECT_EQ(world.arena.maps.at(0).origin, Vec2(-1, -1));
 }
 
-TEST_F(MapIo, TooLargeAPictureIsRefused) {
+TEST_F(MapIo, TooLargePicture_Refused) {
   write_pgm("m.pgm", 8193, 1, std::string(8193, '\xff'));
   try {
     static_cast<void>(read(R"({"arena": {"map": {"image": "m.pgm"}}})"));
@@ -266,7 +266,7 @@ TEST_F(MapIo, TooLargeAPictureIsRefused) {
   }
 }
 
-TEST_F(MapIo, NoiseIsRefusedAsTooComplex) {
+TEST_F(MapIo, Noise_RefusedAsTooComplex) {
   std::string pixels(1200 * 1200, '\xff');
   for (std::size_t row = 0; row < 1200; row += 2) {
     for (std::size_t column = 0; column < 1200; column += 2) pixels[row * 1200 + column] = '\0';
@@ -297,7 +297,7 @@ std::string big_endian(std::uint32_t n) {
           static_cast<char>(n)};
 }
 
-TEST(LoadGreyImage, RefusesHugePicturesOfSmallFilesByTheirHeader) {
+TEST(LoadGreyImage, HugePicture_RefusedByHeader) {
   const std::string start = std::string("\x89PNG\r\n\x1a\n") + big_endian(13) + "IHDR";
   for (const auto& [width, height] : {std::pair(0x7fffffffU, 0x7fffffffU), std::pair(100'000U, 1U),
                                       std::pair(16384U, 16384U), std::pair(8193U, 16384U)}) {

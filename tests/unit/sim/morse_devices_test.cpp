@@ -68,7 +68,7 @@ double depth_at(const DepthCameraReading& reading, int column, int row) {
   return reading.depths_m.at(static_cast<std::size_t>(row * reading.width + column));
 }
 
-TEST(DepthCamera, MeasuresFloorSidesAndTops) {
+TEST(DepthCamera, FloorSidesAndTops_Measured) {
   Simulation simulation(
       room_with(kDepthCamera,
                 R"({"name": "high", "center": [13, 11], "size": [1, 1], "height": 2},
@@ -92,7 +92,7 @@ TEST(DepthCamera, MeasuresFloorSidesAndTops) {
   EXPECT_EQ(depth_at(reading, 50, 41), 0.0);
 }
 
-TEST(DepthCamera, ScattersWithinItsRange) {
+TEST(DepthCamera, Noise_StaysInRange) {
   Simulation simulation(room_with(
       R"("eye": {"type": "depth_camera", "field_of_view_deg": 90, "height": 0.5, "noise": 0.05,
          "range_min": 0.5, "range_max": 3})",
@@ -117,7 +117,7 @@ TEST(DepthCamera, ScattersWithinItsRange) {
               Each(testing::AnyOf(0.0, testing::AllOf(testing::Ge(0.5), testing::Le(3.0)))));
 }
 
-TEST(DepthCamera, RefusesRangesInTheWrongOrder) {
+TEST(DepthCamera, SwappedRanges_Refused) {
   EXPECT_THROW(static_cast<void>(
                    room_with(R"("eye": {"type": "depth_camera", "range_min": 3, "range_max": 2})")),
                ConfigError);
@@ -125,7 +125,7 @@ TEST(DepthCamera, RefusesRangesInTheWrongOrder) {
 
 // --- destination
 
-TEST(Destination, MovesStraightWithoutTurning) {
+TEST(Destination, Straight_WithoutTurning) {
   Simulation simulation(room_with(motors_with() + R"("go": {"type": "destination"})"));
   EXPECT_EQ(send(simulation, "go", GotoCommand{{10.0, 11.0}, 0.1, 0.4, 0.3}), std::nullopt);
   step(simulation, 50);  // 1 s
@@ -143,7 +143,7 @@ TEST(Destination, MovesStraightWithoutTurning) {
   EXPECT_EQ(body.twist.lateral_mps, 0.0);
 }
 
-TEST(Destination, ReturnsIfItIsToRemain) {
+TEST(Destination, Remain_Returns) {
   Simulation simulation(
       room_with(motors_with() + R"("go": {"type": "destination", "remain": true})"));
   EXPECT_EQ(send(simulation, "go", GotoCommand{{10.2, 10.0}, 0.1, 0.4}), std::nullopt);
@@ -155,7 +155,7 @@ TEST(Destination, ReturnsIfItIsToRemain) {
   EXPECT_GT(simulation.body(0).X_WB.x_m, 10.5);
 }
 
-TEST(Destination, RefusesWhatItCannotDo) {
+TEST(Destination, InvalidGoals_Refused) {
   Simulation simulation(room_with(R"("go": {"type": "destination"})"));
   EXPECT_THAT(send(simulation, "go", GotoCommand{{1.0, 1.0}, 0.1, -1.0}),
               Optional(HasSubstr("speed")));
@@ -167,7 +167,7 @@ TEST(Destination, RefusesWhatItCannotDo) {
 
 // --- motion
 
-TEST(SpeedLoss, SlowsTheRobotByTheSameAmount) {
+TEST(SpeedLoss, SlowsRobotByConstant) {
   Simulation simulation(
       room_with(motors_with(R"(, "speed_loss": 0.1, "turn_loss_deg": 18)") + R"("pose": {})"));
   EXPECT_EQ(send(simulation, "motion", TwistCommand{{0.3, 0.0, 0.4}}), std::nullopt);
@@ -191,7 +191,7 @@ constexpr const char* kCups =
        {"name": "plain", "center": [10.4, 10], "size": [0.1, 0.1], "height": 0.2,
         "portable": true})";
 
-TEST(Hand, TakesTheNearestInItsCone) {
+TEST(Hand, NearestInCone_Gripped) {
   Simulation simulation(room_with(
       motors_with() + R"("hand": {"x": 0.2, "z": 0.1, "angle_deg": 60, "distance": 0.5})", kCups));
   step(simulation, 20);
@@ -210,7 +210,7 @@ TEST(Hand, TakesTheNearestInItsCone) {
   EXPECT_EQ(simulation.world().arena.obstacles[0].carried_by, -1);
 }
 
-TEST(Hand, SaysWhyItTakesNothing) {
+TEST(Hand, NothingGripped_Explained) {
   Simulation simulation(room_with(R"("hand": {"distance": 0.3})", kCups));
   EXPECT_THAT(send(simulation, "hand", GripCommand{GripCommand::Action::kClose}),
               Optional(HasSubstr("within reach")));
@@ -219,7 +219,7 @@ TEST(Hand, SaysWhyItTakesNothing) {
               Optional(HasSubstr("opened and closed")));
 }
 
-TEST(Hand, ReachesFromTheEndOfAnArm) {
+TEST(Hand, ReachFromEndOfArm) {
   // An upright arm of 0.3 m on a base at 0.1 m: its hand looks upwards.
   const std::string arm =
       R"("arm": {"type": "actarray", "pitch_deg": -90, "height": 0.1,
@@ -243,7 +243,7 @@ constexpr const char* kArm =
          {"axis": "-y", "length": 0.3, "min_deg": -170, "max_deg": 170, "speed_max_deg": 360},
          {"axis": "-y", "length": 0.2, "min_deg": -170, "max_deg": 170, "speed_max_deg": 360}]})";
 
-TEST(Trajectory, PassesItsPointsAtTheirTimes) {
+TEST(Trajectory, Points_PassedAtTheirTimes) {
   Simulation simulation(room_with(kArm));
   step(simulation, 10);
   const auto& arm = device<ActArray>(simulation, "arm");
@@ -266,7 +266,7 @@ TEST(Trajectory, PassesItsPointsAtTheirTimes) {
   EXPECT_TRUE(arm.at_rest());
 }
 
-TEST(Trajectory, WaitsForItsStartAndEndsWithAnotherCommand) {
+TEST(Trajectory, WaitsForStartAndEndsWithOtherCommand) {
   Simulation simulation(room_with(kArm));
   const auto& arm = device<ActArray>(simulation, "arm");
   TrajectoryCommand command;
@@ -286,7 +286,7 @@ TEST(Trajectory, WaitsForItsStartAndEndsWithAnotherCommand) {
   EXPECT_NEAR(arm.positions()[0], 0.5 + 1.0 / kPi, 1e-9);
 }
 
-TEST(Trajectory, KeepsToTheFastestSpeed) {
+TEST(Trajectory, MaximumSpeed_Kept) {
   Simulation simulation(room_with(kArm));
   const auto& arm = device<ActArray>(simulation, "arm");
   EXPECT_EQ(send(simulation, "arm", TrajectoryCommand{{}, {0.0}, {2.0, 0.0, 0.0}}), std::nullopt);
@@ -298,7 +298,7 @@ TEST(Trajectory, KeepsToTheFastestSpeed) {
   EXPECT_FALSE(arm.on_trajectory());
 }
 
-TEST(Trajectory, IsRefusedIfItCannotBeMeant) {
+TEST(Trajectory, Invalid_Refused) {
   Simulation simulation(room_with(kArm));
   const auto refusal = [&](const TrajectoryCommand& command) {
     return send(simulation, "arm", command);
@@ -311,7 +311,7 @@ TEST(Trajectory, IsRefusedIfItCannotBeMeant) {
   EXPECT_THAT(refusal({{}, {1e10}, std::vector<double>(3)}), Optional(HasSubstr("1e9")));
 }
 
-TEST(Trajectory, ContinuesFromASnapshot) {
+TEST(Trajectory, Snapshot_Continues) {
   Simulation one(room_with(kArm));
   EXPECT_EQ(send(one, "arm", TrajectoryCommand{0.1, {1.0}, {1.0, -1.0, 0.5}}), std::nullopt);
   step(one, 20);
@@ -340,7 +340,7 @@ ActArrayParams upright_arm() {
   return arm;
 }
 
-TEST(SolveArm, FindsThePoseOfKnownPositions) {
+TEST(SolveArm, KnownPositions_FoundPose) {
   const ActArrayParams arm = upright_arm();
   const std::vector<double> wanted = {0.4, 0.7, -0.5};
   const Eigen::Isometry3d X_BE = arm_frames(arm, wanted).back();
@@ -350,7 +350,7 @@ TEST(SolveArm, FindsThePoseOfKnownPositions) {
   EXPECT_NEAR((X_BF.linear() - X_BE.linear()).norm(), 0.0, 1e-5);
 }
 
-TEST(SolveArm, ReachesOutTowardsWhatIsTooFar) {
+TEST(SolveArm, TooFar_ReachesTowards) {
   const ActArrayParams arm = upright_arm();
   Eigen::Isometry3d X_BE = arm_frames(arm, {kPi / 2, 0.0, 0.0}).back();
   X_BE.translation() += Eigen::Vector3d(0.5, 0.0, 0.0);
@@ -361,7 +361,7 @@ TEST(SolveArm, ReachesOutTowardsWhatIsTooFar) {
   EXPECT_NEAR(end.z(), 0.3, 1e-2);
 }
 
-TEST(SolveArm, KeepsToTheLimits) {
+TEST(SolveArm, Limits_Kept) {
   ActArrayParams arm = upright_arm();
   arm.joints[0].max_rad = 0.3;
   arm.joints[0].min_rad = -0.3;
@@ -371,7 +371,7 @@ TEST(SolveArm, KeepsToTheLimits) {
   EXPECT_GT(found[1], 0.0);
 }
 
-TEST(SolveArm, ExtendsLinearJoints) {
+TEST(SolveArm, LinearJoints_Extended) {
   ActArrayParams arm;
   arm.height_m = 0.3;
   JointParams& joint = arm.joints.emplace_back();

@@ -75,7 +75,7 @@ void expect_near(const Pose& pose, const Pose& expected, double tolerance) {
 
 // --- Omnidirectional
 
-TEST(OmnidirectionalDrive, MovesStraightToItsSide) {
+TEST(OmnidirectionalDrive, SideSpeed_StraightToSide) {
   Simulation simulation(room(drive_of(DriveKind::kOmnidirectional), {10.0, 10.0, 0.0}));
   command(simulation, TwistCommand{{0.0, 0.0, 0.5}});
   run(simulation, 2.0);
@@ -84,7 +84,7 @@ TEST(OmnidirectionalDrive, MovesStraightToItsSide) {
   EXPECT_FALSE(simulation.body(0).stalled);
 }
 
-TEST(OmnidirectionalDrive, FollowsTheArcOfItsWholeTwist) {
+TEST(OmnidirectionalDrive, WholeTwist_FollowsArc) {
   Simulation simulation(room(drive_of(DriveKind::kOmnidirectional), {10.0, 10.0, 0.0}));
   command(simulation, TwistCommand{{0.3, 1.0, 0.4}});
   run(simulation, 2.0);
@@ -99,7 +99,7 @@ TEST(OmnidirectionalDrive, FollowsTheArcOfItsWholeTwist) {
   EXPECT_NEAR(odometry.reading().path_length_m, 0.5 * 0.1, 1e-9);  // since the last reading
 }
 
-TEST(OmnidirectionalDrive, SlidesAlongAWall) {
+TEST(OmnidirectionalDrive, Wall_SlidesAlong) {
   // It extends 0.1 m to its left, so it reaches the wall y = 20 at y = 19.9, after 0.25 s.
   Simulation simulation(room(drive_of(DriveKind::kOmnidirectional), {10.0, 19.8, 0.0}));
   command(simulation, TwistCommand{{0.3, 0.0, 0.4}});
@@ -110,7 +110,7 @@ TEST(OmnidirectionalDrive, SlidesAlongAWall) {
   EXPECT_TRUE(simulation.body(0).stalled);  // it cannot move farther to its left
 }
 
-TEST(FeasiblePlanarTwist, DropsWhatPointsIntoTheWallAndKeepsTheRest) {
+TEST(FeasiblePlanarTwist, Wall_RemovesComponentIntoIt) {
   // A wall on the left touched at two corners, levers +-0.2 m: no motion to the left, no turning.
   const std::vector<TwistConstraint> wall = {{0.0, 0.2, 0.0, 1.0}, {0.0, -0.2, 0.0, 1.0}};
   const Twist along = feasible_planar_twist({0.3, 0.0, 0.4}, 2.0, 0.1, wall);
@@ -142,7 +142,7 @@ DriveDescription car(double max_steering_rate_radps = 0.0) {
   return drive;
 }
 
-TEST(CarDrive, TurnsOnACircleOfWheelbaseOverTangentOfSteering) {
+TEST(CarDrive, TurnCircle_WheelbaseOverTangent) {
   Simulation simulation(room(car(), {10.0, 10.0, 0.0}));
   command(simulation, CarCommand{1.0, 0.3});
   const double radius = 0.5 / std::tan(0.3);
@@ -158,7 +158,7 @@ TEST(CarDrive, TurnsOnACircleOfWheelbaseOverTangentOfSteering) {
   expect_near(pose_of(simulation), {10.0, 10.0, 0.0}, 1e-9);
 }
 
-TEST(CarDrive, SteersNoFurtherAndNoFasterThanItCan) {
+TEST(CarDrive, SteeringAngleAndRate_Limited) {
   Simulation simulation(room(car(0.5), {10.0, 10.0, 0.0}));
   command(simulation, CarCommand{0.1, 2.0});
   const auto& motion = dynamic_cast<const Motion&>(simulation.device(0, kMotionDevice));
@@ -168,7 +168,7 @@ TEST(CarDrive, SteersNoFurtherAndNoFasterThanItCan) {
   EXPECT_NEAR(motion.steering_rad(), 0.5, 1e-12);
 }
 
-TEST(CarDrive, WithSteeringCommandsTakesAnglesAndTheSpeedOfItsFrontWheels) {
+TEST(CarDrive, SteeringCommands_AngleAndFrontWheelSpeed) {
   DriveDescription drive = car();
   drive.steering_commands = true;
   Simulation simulation(room(drive, {10.0, 10.0, 0.0}));
@@ -187,7 +187,7 @@ TEST(CarDrive, WithSteeringCommandsTakesAnglesAndTheSpeedOfItsFrontWheels) {
   }
 }
 
-TEST(CarDrive, GetsTheTurnRateThatItIsToldByItsSteering) {
+TEST(CarDrive, TurnRate_BySteering) {
   Simulation simulation(room(car(), {10.0, 10.0, 0.0}));
   command(simulation, TwistCommand{{1.0, 0.8, 0.7}});  // it cannot move sideways
   run(simulation, 1.0);
@@ -203,7 +203,7 @@ TEST(CarDrive, GetsTheTurnRateThatItIsToldByItsSteering) {
   EXPECT_NEAR(simulation.body(0).twist.omega_radps, 0.1 * std::tan(0.5) / 0.5, 1e-9);
 }
 
-TEST(CarDrive, StallsAtAWallAndDoesNotSlide) {
+TEST(CarDrive, Wall_StallsWithoutSliding) {
   // Faces the wall x = 20 at 45 degrees; its corner (0.2, -0.1) touches first.
   Simulation simulation(room(car(), {19.0, 10.0, kPi / 4.0}));
   command(simulation, CarCommand{1.0, 0.0});
@@ -216,7 +216,7 @@ TEST(CarDrive, StallsAtAWallAndDoesNotSlide) {
   expect_near(pose_of(simulation), first, 1e-3);
 }
 
-TEST(FeasibleShare, IsTheMostThatAllConstraintsAllow) {
+TEST(FeasibleShare, LargestThatAllConstraintsAllow) {
   const Twist target{1.0, 0.5, 0.0};
   EXPECT_EQ(feasible_share(target, {}), target);
   EXPECT_EQ(feasible_share(target, {{1.0, 0.0, 2.0}}), target);
@@ -228,7 +228,7 @@ TEST(FeasibleShare, IsTheMostThatAllConstraintsAllow) {
 
 // --- Differential
 
-TEST(DifferentialDrive, TurnsAboutItsAxleWhereverItsMiddleIs) {
+TEST(DifferentialDrive, OffsetAxle_TurnsAboutAxle) {
   for (const bool suspended_before : {false, true}) {
     WorldDescription world = room(drive_of(DriveKind::kDifferential), {10.0, 10.0, 0.0});
     auto model = std::make_shared<RobotModel>(*world.models["test"]);
@@ -251,7 +251,7 @@ TEST(DifferentialDrive, TurnsAboutItsAxleWhereverItsMiddleIs) {
   }
 }
 
-TEST(DifferentialDrive, LeavesOutSpeedToItsSideAndTurnsAsACarOfItsLength) {
+TEST(DifferentialDrive, SideSpeed_IgnoredAndSteeringUsesLength) {
   Simulation simulation(load_world_text(
       R"({"arena": {"size": [4, 4]}, "robots": [{"pose": {"x": 2, "y": 2, "yaw_deg": 0}}]})"));
   const int motion = simulation.find_device(0, "motion").value();
@@ -266,7 +266,7 @@ TEST(DifferentialDrive, LeavesOutSpeedToItsSideAndTurnsAsACarOfItsLength) {
 
 // --- Heading
 
-TEST(HeadingControl, ApproachesTheHeadingExponentiallyAndHoldsIt) {
+TEST(HeadingControl, ApproachesExponentiallyAndHolds) {
   Simulation simulation(room({}, {10.0, 10.0, 0.0}));
   command(simulation, HeadingCommand{0.2, 0.0, 0.5});
   run(simulation, 1.0);
@@ -277,7 +277,7 @@ TEST(HeadingControl, ApproachesTheHeadingExponentiallyAndHoldsIt) {
   EXPECT_NEAR(pose_of(simulation).yaw_rad, 0.5, 1e-6);
 }
 
-TEST(HeadingControl, TakesTheShortWayWithinTheLimits) {
+TEST(HeadingControl, ShortWay_WithinLimits) {
   Simulation simulation(room({}, {10.0, 10.0, -3.0}));
   command(simulation, HeadingCommand{0.0, 0.0, 1.0});
   simulation.step();
@@ -285,7 +285,7 @@ TEST(HeadingControl, TakesTheShortWayWithinTheLimits) {
   EXPECT_NEAR(simulation.body(0).twist.omega_radps, -4.0, 1e-9);
 }
 
-TEST(HeadingControl, IsInTheFrameOfTheNamedDevice) {
+TEST(HeadingControl, FrameOfNamedDevice_Used) {
   Simulation simulation(room({}, {10.0, 10.0, 2.0}));
   command(simulation, HeadingCommand{0.0, 0.0, 0.5, kOdometryDevice});  // reads 0 at the start
   run(simulation, 10.0);
@@ -317,7 +317,7 @@ INSTANTIATE_TEST_SUITE_P(All, EachDrive,
                                                   : "Omnidirectional");
                          });
 
-TEST_P(EachDrive, ReachesGoalsAllRoundItAndStands) {
+TEST_P(EachDrive, GoalsAround_ReachedAndStands) {
   for (const Goal& goal :
        {Goal{"ahead", {12.0, 10.0, 1.0}}, Goal{"ahead to the left", {12.0, 11.5, -2.0}},
         Goal{"within its turning circle", {10.1, 10.6, 0.0}}, Goal{"abeam", {10.0, 8.0, 3.0}},
@@ -351,7 +351,7 @@ TEST_P(EachDrive, ReachesGoalsAllRoundItAndStands) {
 
 // The direction to these goals is within 78 degrees of the heading, and there is enough room for
 // the curve.
-TEST(CarDrive, ComesToGoalsOnItsWayWithTheirHeading) {
+TEST(CarDrive, GoalOnPath_ReachedWithHeading) {
   for (const double rate_radps : {0.0, 2.0}) {
     for (const Goal& goal :
          {Goal{"beside its way", {14.0, 11.0, 0.0}}, Goal{"turned further", {13.0, 11.5, 1.0}},
@@ -372,7 +372,7 @@ TEST(CarDrive, ComesToGoalsOnItsWayWithTheirHeading) {
 
 // From all sides and with all headings: the robot seeks the goal's heading where possible, and
 // always reaches the point.
-TEST(CarDrive, ReachesAGoalWhateverItsHeading) {
+TEST(CarDrive, AnyHeading_GoalReached) {
   for (int i = 0; i < 48; ++i) {
     const double where = 2.0 * kPi / 8.0 * (i % 8);
     const int round = i / 8;
@@ -386,7 +386,7 @@ TEST(CarDrive, ReachesAGoalWhateverItsHeading) {
   }
 }
 
-TEST(PositionControl, TakesTheTimeThatItsLawSays) {
+TEST(PositionControl, Duration_MatchesLaw) {
   Simulation simulation(room({}, {10.0, 10.0, 0.0}));
   command(simulation, PositionCommand{{12.0, 10.0, 0.0}, 0.5});
   // 0.5 m/s until 0.25 m are left (3.5 s), then exponential decay at 2 /s: 0.25 e^(-2 t).
@@ -396,7 +396,7 @@ TEST(PositionControl, TakesTheTimeThatItsLawSays) {
   EXPECT_NEAR(12.0 - pose_of(simulation).x_m, 0.25 * std::pow(0.98, 100), 1e-9);
 }
 
-TEST(PositionControl, GoalsAreInTheFrameOfTheNamedDevice) {
+TEST(PositionControl, FrameOfNamedDevice_Used) {
   Simulation simulation(room({}, {10.0, 10.0, kPi / 2.0}));
   command(simulation, PositionCommand{{1.0, 0.5, 0.0}, 0.0, 0.0, kOdometryDevice});
   run(simulation, 20.0);
@@ -404,7 +404,7 @@ TEST(PositionControl, GoalsAreInTheFrameOfTheNamedDevice) {
   expect_near(pose_of(simulation), {9.5, 11.0, kPi / 2.0}, 0.011);
 }
 
-TEST(PositionControl, EndsWithAnotherCommandWithTheMotorsAndWhenTheRobotIsPlaced) {
+TEST(PositionControl, OtherCommandMotorsAndPlacement_EndIt) {
   Simulation simulation(room({}, {10.0, 10.0, 0.0}));
   const PositionCommand far{{15.0, 10.0, 0.0}};
   command(simulation, far);
@@ -430,7 +430,7 @@ TEST(PositionControl, EndsWithAnotherCommandWithTheMotorsAndWhenTheRobotIsPlaced
   EXPECT_EQ(simulation.body(0).twist, Twist{});
 }
 
-TEST(PositionControl, IsPartOfTheState) {
+TEST(PositionControl, State_Included) {
   Simulation one(room({}, {10.0, 10.0, 0.0}));
   Simulation two(room({}, {10.0, 10.0, 0.0}));
   EXPECT_EQ(one.state_hash(), two.state_hash());
@@ -440,7 +440,7 @@ TEST(PositionControl, IsPartOfTheState) {
 }
 
 // A robot that is told to continue its present command does not change its motion.
-TEST(Motion, PresentCommandGoesOnWithIt) {
+TEST(Motion, PresentCommand_Continues) {
   for (const Command& what : std::initializer_list<Command>{
            TwistCommand{{0.3, 0.2}}, HeadingCommand{0.3, 0.0, 2.0}, CarCommand{0.3, 0.2},
            PositionCommand{{12.0, 11.0, 1.0}, 0.5, 1.0}}) {

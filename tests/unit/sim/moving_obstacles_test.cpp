@@ -66,7 +66,7 @@ void expect_near(const Vec2& found, const Vec2& expected) {
 
 // --- paths
 
-TEST(ObstaclePath, GoesToEachPointOnce) {
+TEST(ObstaclePath, Once_VisitsEachPoint) {
   // 1 m each at 0.5 m/s.
   const std::string settings = path(R"("speed": 0.5, "points": [[2, 1], [2, 2]])");
   expect_near(place_after(settings, 0.0), {1, 1});
@@ -79,7 +79,7 @@ TEST(ObstaclePath, GoesToEachPointOnce) {
   EXPECT_THAT(events_of(simulation), ElementsAre("4.00 obstacle o is at the end of its path"));
 }
 
-TEST(ObstaclePath, GoesBackAndForth) {
+TEST(ObstaclePath, BackAndForth_Repeats) {
   const std::string settings =
       path(R"("speed": 0.5, "repeat": "back_and_forth", "points": [[2, 1], [2, 2]])");
   expect_near(place_after(settings, 4.0), {2, 2});
@@ -89,7 +89,7 @@ TEST(ObstaclePath, GoesBackAndForth) {
   expect_near(place_after(settings, 9.0), {1.5, 1});
 }
 
-TEST(ObstaclePath, GoesRound) {
+TEST(ObstaclePath, Loop_Repeats) {
   // The diagonal back to the start takes sqrt(2) / 0.5 s = 2.83 s, in whole steps.
   const std::string settings =
       path(R"("speed": 0.5, "repeat": "round", "points": [[2, 1], [2, 2]])");
@@ -99,13 +99,13 @@ TEST(ObstaclePath, GoesRound) {
   expect_near(place_after(settings, 7.83), {1.5, 1});
 }
 
-TEST(ObstaclePath, WaitsAtEachPoint) {
+TEST(ObstaclePath, Waits_AtEachPoint) {
   const std::string settings = path(R"("speed": 0.5, "wait": 1, "points": [[2, 1], [2, 2]])");
   expect_near(place_after(settings, 2.9), {2, 1});
   expect_near(place_after(settings, 4.0), {2, 1.5});
 }
 
-TEST(ObstaclePath, FacesItsWayIfToldTo) {
+TEST(ObstaclePath, FacesPathIfRequested) {
   // It turns 90 degrees at 90 degrees/s before the second leg.
   const std::string settings =
       path(R"("speed": 0.5, "facing": "forward", "turn_rate_deg": 90, "points": [[2, 1], [2, 2]])");
@@ -118,12 +118,12 @@ TEST(ObstaclePath, FacesItsWayIfToldTo) {
   expect_near(obstacle(simulation).center, {2, 1.5});
 }
 
-TEST(ObstaclePath, IsFollowedExactlyAtAHighSpeed) {
+TEST(ObstaclePath, HighSpeed_FollowsExactly) {
   // 0.1 m per step, in many substeps of the physics.
   expect_near(place_after(path(R"("speed": 10, "points": [[5, 1], [5, 2]])"), 0.5), {5, 2});
 }
 
-TEST(ObstaclePath, ContinuesWhereItIsPut) {
+TEST(ObstaclePath, Placed_ContinuesFromThere) {
   Simulation simulation(room(path(R"("speed": 0.5, "points": [[2, 1], [2, 2]])")));
   run(simulation, 1.0);
   ASSERT_FALSE(simulation.place_object("o", {2, 0.5, 0}));
@@ -132,7 +132,7 @@ TEST(ObstaclePath, ContinuesWhereItIsPut) {
   EXPECT_THAT(simulation.place_object("o", {5.5, 5.5, 0}).value_or(""), HasSubstr("robot r1"));
 }
 
-TEST(ObstaclePath, IsBlockedByASolid) {
+TEST(ObstaclePath, Solid_Blocks) {
   Simulation simulation(room(path(R"("speed": 0.5, "points": [[3, 1]])"), "",
                              R"(, {"name": "wall", "center": [2, 1]})"));
   run(simulation, 4.0);
@@ -141,7 +141,7 @@ TEST(ObstaclePath, IsBlockedByASolid) {
   EXPECT_THAT(events_of(simulation), ElementsAre(HasSubstr("obstacle o is blocked by wall")));
 }
 
-TEST(ObstaclePath, TellsWhenARobotPushesItAside) {
+TEST(ObstaclePath, PushedByRobot_Reported) {
   // An S1R of 2 kg pushes one of 0.2 kg sideways off its path.
   Simulation simulation(load_world_text(R"({"arena": {"size": [6, 6], "obstacles": [
       {"name": "o", "shape": "circle", "radius": 0.1, "center": [1, 1], "mass": 0.2,
@@ -152,7 +152,7 @@ TEST(ObstaclePath, TellsWhenARobotPushesItAside) {
   EXPECT_THAT(events_of(simulation), Contains(HasSubstr("obstacle o is off its path by robot r1")));
 }
 
-TEST(ObstaclePath, StandsWhileItsDynamicsAreOff) {
+TEST(ObstaclePath, SuspendedDynamics_Stands) {
   Simulation simulation(room(path(R"("speed": 0.5, "points": [[3, 1]])")));
   run(simulation, 1.0);
   ASSERT_FALSE(simulation.set_object_dynamics("o", false));
@@ -163,7 +163,7 @@ TEST(ObstaclePath, StandsWhileItsDynamicsAreOff) {
   expect_near(obstacle(simulation).center, {2, 1});
 }
 
-TEST(ObstaclePath, BeginsAnewAfterAReset) {
+TEST(ObstaclePath, Reset_StartsAnew) {
   Simulation simulation(room(path(R"("speed": 0.5, "points": [[3, 1]])")));
   run(simulation, 3.0);
   simulation.reset();
@@ -172,7 +172,7 @@ TEST(ObstaclePath, BeginsAnewAfterAReset) {
   expect_near(obstacle(simulation).center, {1.5, 1});
 }
 
-TEST(ObstaclePath, SpringsATrapThatFollowsIt) {
+TEST(ObstaclePath, FollowingTrap_Springs) {
   // It comes within 0.5 m of the robot's centre after 3.5 m, 7 s.
   Simulation simulation(load_world_text(R"({"arena": {"size": [6, 4], "obstacles": [
       {"name": "o", "shape": "circle", "radius": 0.1, "center": [1, 1],
@@ -186,7 +186,7 @@ TEST(ObstaclePath, SpringsATrapThatFollowsIt) {
 
 // --- sensors
 
-TEST(MovingObstacle, LaserSeesAMovingCircleExactly) {
+TEST(MovingObstacle, MovingCircle_MeasuredExactly) {
   Simulation simulation(load_world_text(R"({"arena": {"size": [6, 6], "obstacles": [
       {"name": "o", "shape": "circle", "radius": 0.4, "center": [3, 1],
        "motion": {"type": "path", "speed": 0.7, "points": [[3, 5]]}}]},
@@ -217,7 +217,7 @@ TEST(MovingObstacle, LaserSeesAMovingCircleExactly) {
   EXPECT_GT(met, 1000);
 }
 
-TEST(MovingObstacle, ScansSeeABoxWhereItIs) {
+TEST(MovingObstacle, MovingBox_MeasuredWhereItIs) {
   Simulation simulation(load_world_text(R"({"arena": {"size": [6, 6], "obstacles": [
       {"name": "o", "center": [5, 2], "size": [0.4, 0.4],
        "motion": {"type": "path", "speed": 0.5, "points": [[2, 2]]}}]},
@@ -234,7 +234,7 @@ TEST(MovingObstacle, ScansSeeABoxWhereItIs) {
 
 // --- random walks
 
-TEST(RandomWalk, StaysInItsArea) {
+TEST(RandomWalk, StaysInArea) {
   Simulation simulation(room(R"("motion": {"type": "random_walk", "speed": 0.5, "leg": 0.3,
       "area": {"center": [1.2, 1.2], "size": [1, 0.8]}})"));
   Vec2 low(6, 6);
@@ -252,7 +252,7 @@ TEST(RandomWalk, StaysInItsArea) {
   EXPECT_TRUE((high.array() > Vec2(1.55, 1.45).array()).all()) << high.transpose();
 }
 
-TEST(RandomWalk, HasLegsOfRandomLengthAndDirection) {
+TEST(RandomWalk, LegsHaveRandomLengthAndDirection) {
   // In a large room no leg is drawn again. Legs of 0.5 to 1.5 times 0.2 m.
   Simulation simulation(load_world_text(R"({"arena": {"size": [100, 100], "obstacles": [
       {"name": "o", "center": [50, 50], "motion": {"type": "random_walk", "speed": 1, "leg": 0.2}}]},
@@ -287,7 +287,7 @@ TEST(RandomWalk, HasLegsOfRandomLengthAndDirection) {
   EXPECT_NEAR(sum_cos / n, 0.0, 4.0 * std::sqrt(0.5 / n));
 }
 
-TEST(RandomWalk, FollowsTheSeed) {
+TEST(RandomWalk, FollowsSeed) {
   const auto place = [](int seed) {
     Simulation simulation(room(R"("motion": {"type": "random_walk"})",
                                R"(, "simulation": {"seed": )" + std::to_string(seed) + "}"));
@@ -298,7 +298,7 @@ TEST(RandomWalk, FollowsTheSeed) {
   EXPECT_NE(place(1), place(2));
 }
 
-TEST(RandomWalk, TurnsAwayFromASolid) {
+TEST(RandomWalk, TurnsAwayFromSolid) {
   // A pillar in the middle of the area.
   Simulation simulation(room(R"("motion": {"type": "random_walk", "speed": 0.5,
       "area": {"center": [1.5, 1], "size": [1.6, 1]}})",
@@ -322,7 +322,7 @@ double potential(const Vec2& offset, const Vec2& velocity, const SocialForce& co
   return constants.repulsion_m2ps2 * std::exp(-b / constants.repulsion_range_m);
 }
 
-TEST(SocialForces, RepulsionIsTheGradientOfThePotential) {
+TEST(SocialForces, Repulsion_GradientOfPotential) {
   const SocialForce constants;
   for (const Vec2& velocity : {Vec2(0.0, 0.0), Vec2(0.4, 0.0), Vec2(-0.3, 0.5)}) {
     for (const Vec2& offset : {Vec2(0.5, 0.2), Vec2(-0.4, 0.1), Vec2(0.1, -0.7)}) {
@@ -342,7 +342,7 @@ TEST(SocialForces, RepulsionIsTheGradientOfThePotential) {
   }
 }
 
-TEST(SocialForces, WhatIsBehindCountsHalf) {
+TEST(SocialForces, Behind_CountsHalf) {
   const SocialForce constants;
   const Vec2 ahead = social_force::repulsion({-0.5, 0}, {0, 0}, {1, 0}, constants);
   const Vec2 behind = social_force::repulsion({0.5, 0}, {0, 0}, {1, 0}, constants);
@@ -351,20 +351,20 @@ TEST(SocialForces, WhatIsBehindCountsHalf) {
   EXPECT_NEAR(behind.x(), 0.5 * 7.0 * std::exp(-0.5 / 0.3), 1e-12);
 }
 
-TEST(SocialForces, SolidsRepelWithTheirNearestPoint) {
+TEST(SocialForces, Solids_RepelFromNearestPoint) {
   const Vec2 force = social_force::wall_repulsion({0, 0.3}, SocialForce{});
   EXPECT_NEAR(force.x(), 0.0, 1e-12);
   EXPECT_NEAR(force.y(), 50.0 * std::exp(-1.5), 1e-12);
   EXPECT_EQ(social_force::wall_repulsion({0, 2.0}, SocialForce{}), Vec2(0, 0));
 }
 
-TEST(SocialForces, DriveReachesTheDesiredVelocity) {
+TEST(SocialForces, Drive_ReachesDesiredVelocity) {
   const Vec2 force = social_force::towards({1, 0}, 1.34, {0.34, 0.5}, SocialForce{});
   EXPECT_NEAR(force.x(), 2.0, 1e-12);
   EXPECT_NEAR(force.y(), -1.0, 1e-12);
 }
 
-TEST(Pedestrian, AcceleratesToItsSpeedAndStopsAtItsGoal) {
+TEST(Pedestrian, AcceleratesAndStopsAtGoal) {
   Simulation simulation(load_world_text(R"({"arena": {"size": [20, 20], "obstacles": [
       {"name": "p", "shape": "circle", "radius": 0.2, "center": [3, 10],
        "motion": {"type": "pedestrian", "points": [[15, 10]]}}]}, "robots": []})"));
@@ -379,7 +379,7 @@ TEST(Pedestrian, AcceleratesToItsSpeedAndStopsAtItsGoal) {
   EXPECT_NEAR(obstacle(simulation).center.x(), 15.0 - 0.2 + 1.34 * 0.5, 0.03);
 }
 
-TEST(Pedestrian, PeopleThatMeetPassEachOther) {
+TEST(Pedestrian, MeetingPedestrians_PassEachOther) {
   Simulation simulation(load_world_text(R"({"arena": {"size": [12, 4], "obstacles": [
       {"name": "a", "shape": "circle", "radius": 0.2, "center": [1, 2],
        "motion": {"type": "pedestrian", "points": [[11, 2]]}},
@@ -395,7 +395,7 @@ TEST(Pedestrian, PeopleThatMeetPassEachOther) {
   EXPECT_THAT(events_of(simulation), SizeIs(2)) << "both arrive";
 }
 
-TEST(Pedestrian, PeopleThatMeetHeadOnPassEachOther) {
+TEST(Pedestrian, HeadOnPedestrians_PassEachOther) {
   Simulation simulation(load_world_text(R"({"arena": {"size": [12, 4], "obstacles": [
       {"name": "a", "shape": "circle", "radius": 0.2, "center": [1, 2],
        "motion": {"type": "pedestrian", "points": [[11, 2]]}},
@@ -405,7 +405,7 @@ TEST(Pedestrian, PeopleThatMeetHeadOnPassEachOther) {
   EXPECT_THAT(events_of(simulation), SizeIs(2)) << "both arrive";
 }
 
-TEST(Pedestrian, KeepsOffARobotThatStands) {
+TEST(Pedestrian, StandingRobot_Avoided) {
   Simulation simulation(load_world_text(R"({"arena": {"size": [12, 4], "obstacles": [
       {"name": "a", "shape": "circle", "radius": 0.2, "center": [1, 2],
        "motion": {"type": "pedestrian", "points": [[11, 2]]}}]},
@@ -421,7 +421,7 @@ TEST(Pedestrian, KeepsOffARobotThatStands) {
   EXPECT_THAT(events_of(simulation), ElementsAre(HasSubstr("a is at the end of its path")));
 }
 
-TEST(Pedestrian, WalksThroughADoor) {
+TEST(Pedestrian, Door_Passed) {
   Simulation simulation(load_world_text(R"({"arena": {"size": [10, 4], "obstacles": [
       {"name": "a", "shape": "circle", "radius": 0.2, "center": [1, 1],
        "motion": {"type": "pedestrian", "points": [[5, 2], [9, 1]]}},
@@ -438,7 +438,7 @@ std::string order(const std::string& move) {
          move + "}}]}]}";
 }
 
-TEST(MoveAction, MovesAnObstacleToAPoint) {
+TEST(MoveAction, Point_MovesObstacle) {
   Simulation simulation(room(R"("height": 0.2)", order(R"("to": [2, 1], "speed": 0.5)")));
   run(simulation, 2.0);
   expect_near(obstacle(simulation).center, {1.5, 1});
@@ -448,7 +448,7 @@ TEST(MoveAction, MovesAnObstacleToAPoint) {
                           "3.00 obstacle o is at the end of its path"));
 }
 
-TEST(MoveAction, TurnsAnObstacleAtTheEnd) {
+TEST(MoveAction, Angle_TurnsAtEnd) {
   Simulation simulation(
       room(R"("height": 0.2)",
            order(R"("path": [[2, 1], [2, 2]], "speed": 1, "yaw_deg": 180, "turn_rate_deg": 90)")));
@@ -460,14 +460,14 @@ TEST(MoveAction, TurnsAnObstacleAtTheEnd) {
   EXPECT_EQ(events_of(simulation).back(), "5.00 obstacle o is at the end of its path");
 }
 
-TEST(MoveAction, TurnsAnObstacleWhereItIs) {
+TEST(MoveAction, AngleOnly_TurnsInPlace) {
   Simulation simulation(room(R"("height": 0.2)", order(R"("yaw_deg": -90)")));
   run(simulation, 3.0);
   expect_near(obstacle(simulation).center, {1, 1});
   EXPECT_NEAR(obstacle(simulation).yaw_rad, -0.5 * kPi, 1e-9);
 }
 
-TEST(MoveAction, StopsAndReplacesAMotion) {
+TEST(MoveAction, Stop_ReplacesMotion) {
   const std::string moving = path(R"("speed": 0.5, "points": [[5, 1]])");
   Simulation stopped(room(moving, order(R"("stop": true)")));
   run(stopped, 3.0);
@@ -477,7 +477,7 @@ TEST(MoveAction, StopsAndReplacesAMotion) {
   expect_near(obstacle(diverted).center, {1.5, 1.5});
 }
 
-TEST(MoveAction, StartsAnewAfterAReset) {
+TEST(MoveAction, Reset_StartsAnew) {
   Simulation simulation(room(R"("height": 0.2)", order(R"("to": [2, 1], "speed": 0.5)")));
   run(simulation, 2.0);
   simulation.reset();
@@ -524,7 +524,7 @@ void interfere(Simulation& simulation, int step) {
   }
 }
 
-TEST(MovingObstacles, RunEquallyTwice) {
+TEST(MovingObstacles, TwoRuns_Equal) {
   Simulation a(busy_world());
   Simulation b(busy_world());
   test::expect_equal_runs(a, b, interfere, 3000);
@@ -536,11 +536,11 @@ TEST(MovingObstacles, RunEquallyTwice) {
   EXPECT_NE(obstacle(other, 1).center, obstacle(first, 1).center);
 }
 
-TEST(MovingObstacles, ContinueFromASnapshotAtAnyMoment) {
+TEST(MovingObstacles, Snapshot_ContinuesFromAnyMoment) {
   test::expect_equal_after_snapshots(busy_world(), interfere, 2500, 23);
 }
 
-TEST(MovingObstacles, AreForked) {
+TEST(MovingObstacles, Fork_Works) {
   Simulation simulation(busy_world());
   run(simulation, 4.0);
   Simulation fork = simulation.fork();
@@ -549,7 +549,7 @@ TEST(MovingObstacles, AreForked) {
   EXPECT_EQ(fork.state_hash(), simulation.state_hash());
 }
 
-TEST(MovingObstacles, AreInTheHashOfTheWorld) {
+TEST(MovingObstacles, InHashOfWorld) {
   const auto hash = [](const std::string& settings) { return world_hash(room(settings)); };
   const std::uint64_t still = hash(R"("height": 0.16)");
   const std::uint64_t moves = hash(path(R"("points": [[2, 1]])"));
@@ -561,7 +561,7 @@ TEST(MovingObstacles, AreInTheHashOfTheWorld) {
   EXPECT_NE(hash(R"("mass": 1, "friction": 0.2)"), crate);
 }
 
-TEST(MovingObstacles, KeepTheirSize) {
+TEST(MovingObstacles, Size_Kept) {
   Simulation simulation(room(path(R"("points": [[2, 1]])")));
   EXPECT_THAT(simulation.set_block_size("o", {0.3, 0.3}, 0.2).value_or(""),
               HasSubstr("can move: it keeps its size"));
@@ -581,7 +581,7 @@ double middle_of_blue(const render::Image& image) {
   return count > 0 ? sum / count : -1.0;
 }
 
-TEST(MovingObstacles, AreDrawnWhereTheyAre) {
+TEST(MovingObstacles, DrawnWhereTheyAre) {
   // One renderer for all pictures, like that of a film: it keeps the picture of the static arena.
   Simulation simulation(
       room(path(R"("speed": 0.5, "points": [[5, 1]])") + R"(, "colour": "#00f")"));
@@ -601,7 +601,7 @@ TEST(MovingObstacles, AreDrawnWhereTheyAre) {
   EXPECT_NEAR(places[2] - places[1], places[1] - places[0], 1.0);
 }
 
-TEST(MovingObstacles, HaveTracksInPictures) {
+TEST(MovingObstacles, Tracks_InPictures) {
   Simulation simulation(
       room(path(R"("speed": 0.5, "repeat": "round", "points": [[5, 1], [5, 5]])")));
   run(simulation, 1.0);
@@ -615,7 +615,7 @@ TEST(MovingObstacles, HaveTracksInPictures) {
   EXPECT_NE(render::draw_scene(scene).rgb, render::draw_scene(scene, without).rgb);
 }
 
-TEST(MovingObstacles, WorldsWithoutThemHaveNoEvents) {
+TEST(MovingObstacles, WorldsWithoutThem_NoEvents) {
   Simulation simulation(room(R"("height": 0.2)"));
   run(simulation, 0.1);
   EXPECT_THAT(simulation.snapshot().tracks, IsEmpty());

@@ -44,7 +44,7 @@ void drive_ahead(Simulation& simulation, int steps) {
 class NotSolid : public testing::TestWithParam<const char*> {};
 
 // Each obstacle begins 1 m ahead of the laser, whose beam ends there; the robot drives 2 m in 4 s.
-TEST_P(NotSolid, ObstaclesAreSeenAndDrivenThrough) {
+TEST_P(NotSolid, Obstacles_VisibleButNotSolid) {
   Simulation simulation(load_world_text(ghost_world(GetParam())));
   for (int i = 0; i < 10; ++i) simulation.step();  // to the first scan
   const double laser_m =
@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
         R"({"name": "a", "center": [2.2, 1], "size": [0.4, 0.4], "portable": true, "solid": false})",
         R"({"name": "a", "center": [2.2, 1], "size": [0.4, 0.4], "mass": 1, "solid": false})"));
 
-TEST(NotSolidThings, RobotsMayStartOnAMarking) {
+TEST(NotSolidThings, Marking_RobotsMayStartOnIt) {
   const std::string marking =
       R"({"name": "zone", "center": [1, 1], "size": [1, 1], "height": 0.01, "solid": )";
   EXPECT_THROW(static_cast<void>(load_world_text(ghost_world(marking + "true}"))), ConfigError);
@@ -82,7 +82,7 @@ TEST(NotSolidThings, RobotsMayStartOnAMarking) {
       R"("size": [1, 1], "solid": false}]}, "robots": [{}]})")));
 }
 
-TEST(NotSolidThings, WallsOfAMapAreDrivenThrough) {
+TEST(NotSolidThings, MapWalls_DrivenThrough) {
   test_support::TemporaryFolder folder;
   // 4 x 2 pixels of 1 m; the third column is dark.
   std::string picture = "P5 4 2 255\n";
@@ -103,7 +103,7 @@ TEST(NotSolidThings, WallsOfAMapAreDrivenThrough) {
   EXPECT_GT(ghost.body(0).X_WB.x_m, 2.8);
 }
 
-TEST(NotSolidThings, RobotsPassThroughEachOther) {
+TEST(NotSolidThings, Robots_PassThroughEachOther) {
   test_support::TemporaryFolder folder;
   folder.write("ghost.json", R"({"name": "ghost", "solid": false, "devices": {"motion": {}},
     "footprint": [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]})");
@@ -117,7 +117,7 @@ TEST(NotSolidThings, RobotsPassThroughEachOther) {
   EXPECT_EQ(simulation.statistics(1).collisions, 0);
 }
 
-TEST(NotSolidThings, StageModelsWithoutObstacleReturn) {
+TEST(NotSolidThings, StageModels_WithoutObstacleReturn) {
   test_support::TemporaryFolder folder;
   const WorldDescription world = load_world(folder.write("w.world", R"(
 position ( name "r0" size [0.4 0.4 0.2] pose [0 0 0 0] )

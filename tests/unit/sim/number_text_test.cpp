@@ -8,7 +8,7 @@
 namespace sim {
 namespace {
 
-TEST(NumberText, ReadsBackAsTheSame) {
+TEST(NumberText, RoundTrips) {
   EXPECT_EQ(shortest_text(0.98), "0.98");
   EXPECT_EQ(shortest_text(12.0), "12");
   EXPECT_EQ(shortest_text(0.1F), "0.1");
@@ -16,7 +16,7 @@ TEST(NumberText, ReadsBackAsTheSame) {
   EXPECT_EQ(shortest_text(-std::numeric_limits<double>::infinity()), "-inf");
 }
 
-TEST(NumberText, HasTheDigitsAskedFor) {
+TEST(NumberText, HasRequestedDigits) {
   EXPECT_EQ(fixed_text(2.0, 3), "2.000");
   EXPECT_EQ(fixed_text(-0.126, 2), "-0.13");
   EXPECT_EQ(fixed_text(7.6, 0), "8");

@@ -47,7 +47,7 @@ std::vector<std::string> drawn(const OccupancyMap& map) {
 
 using Rows = std::vector<std::string>;
 
-TEST(TrueMap, TakesPlaceAndSizeFromTheGrid) {
+TEST(TrueMap, PlaceAndSize_FromGrid) {
   const OccupancyMap map = true_map(open_floor(4, 3), grid_of(4, 3, 0.5, {-1.0, 2.0}));
   EXPECT_EQ(map.width, 4);
   EXPECT_EQ(map.height, 3);
@@ -56,7 +56,7 @@ TEST(TrueMap, TakesPlaceAndSizeFromTheGrid) {
   EXPECT_EQ(map.cells, std::vector<float>(12, 0.0F));
 }
 
-TEST(TrueMap, ACellThatIsOnlyTouchedIsFree) {
+TEST(TrueMap, TouchedCell_Free) {
   ArenaDescription arena = open_floor(5, 4);
   arena.obstacles.push_back(box({1.5, 2.5}, {1.0, 1.0}));
   EXPECT_EQ(drawn(true_map(arena, grid_of(5, 4))), (Rows{".....",  //
@@ -71,7 +71,7 @@ TEST(TrueMap, ACellThatIsOnlyTouchedIsFree) {
                                                          "....."}));
 }
 
-TEST(TrueMap, PlacesThatAreNotExactInBinaryTouchAsTheyAreMeant) {
+TEST(TrueMap, InexactBinaryPlaces_TouchAsMeasured) {
   // x = 0.82 to 0.94 and y = 0.46 to 0.58 are cells 41 to 46 and 23 to 28 of 0.02 m. In double
   // precision, quotients such as 0.82 / 0.02 may round to either side.
   ArenaDescription arena = open_floor(3.42, 3.72);
@@ -88,7 +88,7 @@ TEST(TrueMap, PlacesThatAreNotExactInBinaryTouchAsTheyAreMeant) {
   }
 }
 
-TEST(TrueMap, ATurnedBoxFillsTheCellsItReachesInto) {
+TEST(TrueMap, RotatedBox_FillsCellsItReaches) {
   // A square of side sqrt(8) rotated by 45 degrees: a diamond with corners 2 m from (3, 3).
   ArenaDescription arena = open_floor(6, 6);
   arena.obstacles.push_back(box({3, 3}, {std::sqrt(8.0), std::sqrt(8.0)}, std::numbers::pi / 4));
@@ -100,7 +100,7 @@ TEST(TrueMap, ATurnedBoxFillsTheCellsItReachesInto) {
                                                          "......"}));
 }
 
-TEST(TrueMap, RetractedBlocksAreFreeSeparatorsAreNot) {
+TEST(TrueMap, RetractedBlocks_FreeButSeparatorsNot) {
   ArenaDescription arena = open_floor(4, 1);
   arena.obstacles.push_back(box({0.5, 0.5}, {0.5, 0.5}));
   arena.obstacles[0].type = ObstacleType::kDynamic;
@@ -111,7 +111,7 @@ TEST(TrueMap, RetractedBlocksAreFreeSeparatorsAreNot) {
   EXPECT_EQ(drawn(true_map(arena, grid_of(4, 1))), Rows{"#.#."});
 }
 
-TEST(TrueMap, BeyondTheFloorStandsTheBorderIfThereIsOne) {
+TEST(TrueMap, BeyondFloor_BorderIfAny) {
   ArenaDescription arena = open_floor(2.5, 2.0);
   arena.origin = {1.0, 1.0};
   EXPECT_EQ(drawn(true_map(arena, grid_of(5, 4))), Rows(4, "....."));
@@ -123,7 +123,7 @@ TEST(TrueMap, BeyondTheFloorStandsTheBorderIfThereIsOne) {
                                                          "#####"}));
 }
 
-TEST(TrueMap, TheArenasFloorFitsItsCanvas) {
+TEST(TrueMap, ArenaFloor_FitsCanvas) {
   // 3.42 m are 171 cells, while the canvas has 172; 3.72 m are its 186.
   const OccupancyMap map = true_map(syrotek_arena(), grid_of(172, 186, 0.02));
   int occupied_in_last_column = 0;
@@ -134,7 +134,7 @@ TEST(TrueMap, TheArenasFloorFitsItsCanvas) {
   EXPECT_EQ(occupied_in_first_row, 0);  // no block stands at the top left
 }
 
-TEST(TrueMap, WallsAreSolidOnTheLeftOfTheirLoops) {
+TEST(TrueMap, Walls_SolidOnLeft) {
   ArenaDescription arena = open_floor(8, 7);
   // A solid square from (0.5, 0.5) to (6.5, 6), with a hole from (2, 2) to (5, 5), and in the hole
   // a triangular island.
@@ -150,7 +150,7 @@ TEST(TrueMap, WallsAreSolidOnTheLeftOfTheirLoops) {
                                                          "#######."}));
 }
 
-TEST(TrueMap, WhatLiesBesideTheGridIsCutOff) {
+TEST(TrueMap, ObjectsBesideGrid_CutOff) {
   ArenaDescription arena = open_floor(100, 100);
   arena.obstacles.push_back(box({-1e6, 0}, {2.0, 2.0}));
   arena.obstacles.push_back(box({0, 0}, {3.0, 1e6}));  // right side at x = 1.5
@@ -183,7 +183,7 @@ bool in_box(const ObstacleDescription& o, const Vec2& p) {
 
 // Every solid sample must be in an occupied cell. An occupied cell must contain such a sample,
 // unless the solid extends into it by less than the distance of the samples.
-TEST(TrueMap, AgreesWithSamplesOfRandomArenas) {
+TEST(TrueMap, RandomArenas_MatchSamples) {
   constexpr int kCells = 24;
   constexpr int kSamples = 24;  // along a side of a cell
   std::mt19937 random(5);

@@ -32,7 +32,7 @@ void run(Simulation& simulation, double duration_s) {
   while (simulation.now_ns() < end_ns) simulation.step();
 }
 
-TEST(PatrolMap, EqualEndsAreOneJunction) {
+TEST(PatrolMap, EqualEnds_OneJunction) {
   const PatrolMap map({{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{0, 0}, {1, 1}}});
   ASSERT_EQ(map.junctions.size(), 3U);
   EXPECT_THAT(map.junctions[0].next, ElementsAre(1, 2));
@@ -42,7 +42,7 @@ TEST(PatrolMap, EqualEndsAreOneJunction) {
 }
 
 // From the dead end at (1, 1) the only way leads to (3, 1), and back again.
-TEST(Patrol, TurnsBackAtADeadEnd) {
+TEST(Patrol, DeadEnd_TurnsBack) {
   Simulation simulation(patrol_world("[[1, 1, 3, 1]]"));
   run(simulation, 5.0);  // 2 m at 0.4 m/s
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.95, 0.1);
@@ -70,7 +70,7 @@ std::vector<std::pair<int, int>> corners_visited(int seed) {
   return visited;
 }
 
-TEST(Patrol, GoesRoundWithoutTurningBackInADirectionThatTheSeedDecides) {
+TEST(Patrol, Loop_DirectionFromSeed) {
   std::set<std::pair<int, int>> second;
   for (int seed = 1; seed <= 6; ++seed) {
     const std::vector<std::pair<int, int>> visited = corners_visited(seed);
@@ -82,7 +82,7 @@ TEST(Patrol, GoesRoundWithoutTurningBackInADirectionThatTheSeedDecides) {
   EXPECT_EQ(second.size(), 2U);
 }
 
-TEST(Patrol, EndsWithTheFirstCommand) {
+TEST(Patrol, FirstCommand_EndsPatrol) {
   Simulation simulation(patrol_world("[[1, 1, 3, 1]]"));
   run(simulation, 1.0);
   const int motion = simulation.find_device(0, "motion").value();
@@ -93,13 +93,13 @@ TEST(Patrol, EndsWithTheFirstCommand) {
   EXPECT_EQ(simulation.body(0).X_WB.x_m, x_m);
 }
 
-TEST(Patrol, StandsStillWithoutWays) {
+TEST(Patrol, NoWays_StandsStill) {
   Simulation simulation(patrol_world("[]"));
   run(simulation, 1.0);
   EXPECT_EQ(simulation.body(0).X_WB.x_m, 1.0);
 }
 
-TEST(Patrol, ContinuesFromASavedState) {
+TEST(Patrol, SavedState_Continues) {
   Simulation simulation(patrol_world("[[1, 1, 2, 1], [2, 1, 2, 2], [2, 2, 1, 2], [1, 2, 1, 1]]"));
   run(simulation, 4.0);
   Simulation copy = simulation.fork();
@@ -108,7 +108,7 @@ TEST(Patrol, ContinuesFromASavedState) {
   EXPECT_EQ(copy.state_hash(), simulation.state_hash());
 }
 
-TEST(Patrol, RefusesWaysThatAreNone) {
+TEST(Patrol, InvalidWays_Refused) {
   for (const char* ways :
        {"[[1, 1, 2]]", "[[1, 1, 1, 1]]", "[[1, 1, 2, \"a\"]]", "[7]", "[[1, 1, 2, 1e9]]"}) {
     try {

@@ -54,19 +54,19 @@ double deepest_overlap_m(const PhysicsWorld& world, const ArenaDescription& aren
   return deepest_m;
 }
 
-TEST(FeasibleTwist, WithoutContactsIsTheTarget) {
+TEST(FeasibleTwist, NoContacts_TargetTwist) {
   const Twist target{0.3, -1.0, 0.0};
   EXPECT_EQ(feasible_twist(target, 2.0, 0.01, {}), target);
 }
 
-TEST(FeasibleTwist, HeadOnContactStopsTheDriveAndKeepsTheTurn) {
+TEST(FeasibleTwist, HeadOnContact_StopsDriveKeepsTurn) {
   // Normal straight ahead, contact on the x axis: v <= 0.1, omega unconstrained.
   const Twist t = feasible_twist({0.3, 1.0, 0.0}, 2.0, 0.01, {{1.0, 0.0, 0.1}});
   EXPECT_NEAR(t.v_mps, 0.1, 1e-12);
   EXPECT_NEAR(t.omega_radps, 1.0, 1e-12);
 }
 
-TEST(FeasibleTwist, ObliqueContactTradesSpeedForTurn) {
+TEST(FeasibleTwist, ObliqueContact_TradesSpeedForTurn) {
   // v + 0.1 omega <= 0 with m = 2, I = 0.01: the projection in the metric diag(m, I) moves along
   // (1/m, 0.1/I) = (0.5, 10) by lambda = 0.3 / (0.5 + 0.1 * 10) = 0.2.
   const Twist t = feasible_twist({0.3, 0.0, 0.0}, 2.0, 0.01, {{1.0, 0.1, 0.0}});
@@ -74,7 +74,7 @@ TEST(FeasibleTwist, ObliqueContactTradesSpeedForTurn) {
   EXPECT_NEAR(t.omega_radps, -0.2 * 10.0, 1e-12);
 }
 
-TEST(FeasibleTwist, TwoContactsLeaveWhatBothAllow) {
+TEST(FeasibleTwist, TwoContacts_BothConstraintsHold) {
   // v + 0.1 omega <= 0.1 and v - 0.1 omega <= 0.05 meet at (0.075, 0.25). The target differs from
   // it by (0.425, -0.25), which is a (0.5, 10) + b (0.5, -10) with a = 0.4125 and b = 0.4375: both
   // contacts push, so no other allowed twist is nearer in the metric diag(2, 0.01).
@@ -83,7 +83,7 @@ TEST(FeasibleTwist, TwoContactsLeaveWhatBothAllow) {
   EXPECT_NEAR(t.omega_radps, 0.25, 1e-12);
 }
 
-TEST(FeasibleTwist, NeverHasMoreEnergyThanTheTarget) {
+TEST(FeasibleTwist, Energy_NeverAboveTarget) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int i = 0; i < 2000; ++i) {
@@ -104,7 +104,7 @@ TEST(FeasibleTwist, NeverHasMoreEnergyThanTheTarget) {
   }
 }
 
-TEST(PhysicsWorld, FreeRobotFollowsTheExactArc) {
+TEST(PhysicsWorld, FreeRobot_FollowsExactArc) {
   PhysicsWorld world(floor_4x4());
   world.add_robot(s1r_model(), {2.0, 1.0, 0.0});
   world.set_target(0, {0.4, 0.8, 0.0});
@@ -115,7 +115,7 @@ TEST(PhysicsWorld, FreeRobotFollowsTheExactArc) {
   EXPECT_NEAR(world.body(0).X_WB.yaw_rad, 8.0 - 2.0 * kPi, 1e-9);
 }
 
-TEST(PhysicsWorld, AnglesStayExactOverManyTurns) {
+TEST(PhysicsWorld, ManyTurns_AngleStaysExact) {
   PhysicsWorld world(floor_4x4());
   world.add_robot(s1r_model(), {2.0, 2.0, 0.0});
   world.set_target(0, {0.0, 3.0, 0.0});
@@ -123,7 +123,7 @@ TEST(PhysicsWorld, AnglesStayExactOverManyTurns) {
   EXPECT_NEAR(world.body(0).X_WB.yaw_rad, std::remainder(600.0, 2.0 * kPi), 1e-7);
 }
 
-TEST(PhysicsWorld, FreeRobotNeverSlidesSideways) {
+TEST(PhysicsWorld, FreeRobot_NeverSlidesSideways) {
   PhysicsWorld world(floor_4x4());
   world.add_robot(s1r_model(), {2.0, 2.0, 0.3});
   std::mt19937 random(3);
@@ -135,7 +135,7 @@ TEST(PhysicsWorld, FreeRobotNeverSlidesSideways) {
   }
 }
 
-TEST(PhysicsWorld, StandsAtAWallItDrivesAgainst) {
+TEST(PhysicsWorld, Wall_RobotStands) {
   const ArenaDescription arena = floor_4x4();
   PhysicsWorld world(arena);
   world.add_robot(s1r_model(), {3.7, 2.0, 0.0});
@@ -149,7 +149,7 @@ TEST(PhysicsWorld, StandsAtAWallItDrivesAgainst) {
   EXPECT_NEAR(world.body(0).twist.v_mps, 0.0, 1e-6);
 }
 
-TEST(PhysicsWorld, ObliqueWallTurnsTheRobotInsteadOfSlidingIt) {
+TEST(PhysicsWorld, ObliqueWall_TurnsRobotWithoutSliding) {
   const ArenaDescription arena = floor_4x4();
   PhysicsWorld world(arena);
   // 30 degrees from the wall: the corner behind the slanted face touches it.
@@ -168,7 +168,7 @@ TEST(PhysicsWorld, ObliqueWallTurnsTheRobotInsteadOfSlidingIt) {
   EXPECT_GT(world.body(0).X_WB.y_m, 1.6);
 }
 
-TEST(PhysicsWorld, StallIsRaisedAfterTwoTenthsOfASecond) {
+TEST(PhysicsWorld, Stall_RaisedAfterTwoTenthsOfSecond) {
   PhysicsWorld world(floor_4x4());
   world.add_robot(s1r_model(), {4.0 - 0.087 - 0.002, 2.0, 0.0});
   world.set_target(0, {0.3, 0.0, 0.0});
@@ -181,7 +181,7 @@ TEST(PhysicsWorld, StallIsRaisedAfterTwoTenthsOfASecond) {
   EXPECT_FALSE(world.body(0).stalled);
 }
 
-TEST(PhysicsWorld, RobotPushesAnotherAlongButNotFaster) {
+TEST(PhysicsWorld, PushedRobot_MovesNoFaster) {
   const ArenaDescription arena = floor_4x4();
   PhysicsWorld world(arena);
   world.add_robot(s1r_model(), {1.0, 2.0, 0.0});
@@ -196,7 +196,7 @@ TEST(PhysicsWorld, RobotPushesAnotherAlongButNotFaster) {
   EXPECT_GT(world.body(1).X_WB.x_m, 1.5);
 }
 
-TEST(PhysicsWorld, ContactIsCountedOnceUntilItEnds) {
+TEST(PhysicsWorld, Contact_CountedOnceUntilItEnds) {
   ArenaDescription arena = floor_4x4();
   arena.obstacles.push_back(box("b", {2.5, 2.0}, {0.2, 1.0}));
   PhysicsWorld world(arena);
@@ -222,7 +222,7 @@ TEST(PhysicsWorld, ContactIsCountedOnceUntilItEnds) {
   EXPECT_EQ(begun, 2);
 }
 
-TEST(PhysicsWorld, ThirteenRobotsPushingAtRandomNeverSinkInByTwoMillimetres) {
+TEST(PhysicsWorld, ThirteenPushingRobots_OverlapBelowTwoMillimetres) {
   ArenaDescription arena = floor_4x4();
   arena.size = {1.6, 1.6};
   arena.obstacles.push_back(box("a", {0.8, 0.8}, {0.2, 0.2}, 0.4));
@@ -258,7 +258,7 @@ TEST(PhysicsWorld, ThirteenRobotsPushingAtRandomNeverSinkInByTwoMillimetres) {
   EXPECT_LT(deepest_m, 0.002);
 }
 
-TEST(PhysicsWorld, LongStepsDoNotLetARobotSinkIn) {
+TEST(PhysicsWorld, LongSteps_NoOverlap) {
   const ArenaDescription arena = floor_4x4();
   PhysicsWorld world(arena);
   world.add_robot(s1r_model(), {3.5, 2.0, 0.2});
@@ -269,7 +269,7 @@ TEST(PhysicsWorld, LongStepsDoNotLetARobotSinkIn) {
   }
 }
 
-TEST(PhysicsWorld, RetractedObstaclesAreNotThere) {
+TEST(PhysicsWorld, RetractedObstacles_NotSolid) {
   ArenaDescription arena = floor_4x4();
   arena.obstacles.push_back(box("d", {2.5, 2.0}, {0.2, 1.0}));
   arena.obstacles[0].type = ObstacleType::kDynamic;
@@ -284,7 +284,7 @@ TEST(PhysicsWorld, RetractedObstaclesAreNotThere) {
   EXPECT_EQ(world.robot_on(0), 0);
 }
 
-TEST(PhysicsWorld, WallsOfAMapStopARobotFromOutsideOnly) {
+TEST(PhysicsWorld, MapWalls_StopRobotFromOutsideOnly) {
   ArenaDescription arena = floor_4x4();
   arena.walls.push_back({{{2.5, 1.5}, {3.0, 1.5}, {3.0, 2.5}, {2.5, 2.5}}});
   PhysicsWorld world(arena);
@@ -295,7 +295,7 @@ TEST(PhysicsWorld, WallsOfAMapStopARobotFromOutsideOnly) {
   EXPECT_THAT(world.clearance_m(0, 1.0, 1.0), testing::DoubleNear(0.0015, 0.0005));
 }
 
-TEST(PhysicsWorld, RobotsAmongTheWallsOfAMapNeverSinkInByTwoMillimetres) {
+TEST(PhysicsWorld, RobotsAmongMapWalls_OverlapBelowTwoMillimetres) {
   ArenaDescription arena = floor_4x4();
   arena.size = {1.6, 1.6};
   ArenaDescription same_with_boxes = arena;
@@ -330,7 +330,7 @@ TEST(PhysicsWorld, RobotsAmongTheWallsOfAMapNeverSinkInByTwoMillimetres) {
 }
 
 // Three millimetres aside exceed the contact distance, but are less than the motion of a step.
-TEST(PhysicsWorld, RobotThatPassesCloselyHasItsWay) {
+TEST(PhysicsWorld, PassingRobot_NotDeflected) {
   double half_width_m = 0.0;
   for (const Vec2& v : s1r_model().footprint) half_width_m = std::max(half_width_m, v.y());
   constexpr double kAside_m = 0.003;
@@ -352,7 +352,7 @@ TEST(PhysicsWorld, RobotThatPassesCloselyHasItsWay) {
   EXPECT_EQ(world.contacts_of(0).size(), 1U);
 }
 
-TEST(PhysicsWorld, RobotPutBesideAWallTouchesItUntilItIsPutElsewhere) {
+TEST(PhysicsWorld, RobotPlacedAtWall_TouchesUntilPlacedElsewhere) {
   PhysicsWorld world(floor_4x4());
   world.add_robot(s1r_model(), {2.0, 2.0, 0.0});
   run(world, 50);
@@ -369,7 +369,7 @@ TEST(PhysicsWorld, RobotPutBesideAWallTouchesItUntilItIsPutElsewhere) {
   EXPECT_TRUE(world.contacts_of(0).empty());
 }
 
-TEST(PhysicsWorld, RobotsThatNothingIsNearAreSolidAllTheSame) {
+TEST(PhysicsWorld, IsolatedRobots_Solid) {
   const PhysicsWorld::Contact kNothing{-1, PhysicsWorld::Contact::Kind::kObstacle, -1};
   PhysicsWorld world(floor_4x4());
   world.add_robot(s1r_model(), {1.4, 2.0, 0.0});
@@ -392,7 +392,7 @@ TEST(PhysicsWorld, RobotsThatNothingIsNearAreSolidAllTheSame) {
   EXPECT_EQ(world.robot_within(place), 1);
 }
 
-TEST(PhysicsWorld, RobotsThatMeetFromAfarCollideOnceAndPushEvenly) {
+TEST(PhysicsWorld, RobotsFromAfar_CollideOnceAndPushEvenly) {
   const ArenaDescription arena = floor_4x4();
   PhysicsWorld world(arena);
   world.add_robot(s1r_model(), {1.0, 2.0, 0.0});
@@ -410,7 +410,7 @@ TEST(PhysicsWorld, RobotsThatMeetFromAfarCollideOnceAndPushEvenly) {
   EXPECT_TRUE(world.body(1).stalled);
 }
 
-TEST(PhysicsWorld, ClearanceIsTheDistanceToTheNearestSolid) {
+TEST(PhysicsWorld, Clearance_DistanceToNearestSolid) {
   ArenaDescription arena = floor_4x4();
   arena.obstacles.push_back(box("b", {2.0, 2.0}, {0.2, 0.2}));
   PhysicsWorld world(arena);

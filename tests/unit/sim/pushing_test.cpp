@@ -80,7 +80,7 @@ class Floor {
   PhysicsWorld world_;
 };
 
-TEST(Pushing, AnObstacleThatNobodyTouchesStays) {
+TEST(Pushing, UntouchedObstacle_Stays) {
   Floor floor({{1, 1, 0}}, {pushable(circle(4, 4, 0.1), 0.5), pushable(box(5, 5, 0.2), 0.5, 0.0)});
   floor.drive(0.5, 1.0);
   floor.run(500);
@@ -88,7 +88,7 @@ TEST(Pushing, AnObstacleThatNobodyTouchesStays) {
   EXPECT_EQ(floor.pose(1), (Pose{5, 5, 0}));
 }
 
-TEST(Pushing, TheRobotsFrontAndTheObstacleMoveTogether) {
+TEST(Pushing, RobotFrontAndObstacle_MoveTogether) {
   for (const bool round : {true, false}) {
     Floor floor({{1, 4, 0}}, {pushable(round ? circle(2, 4, 0.1) : box(2, 4, 0.2), 0.5)});
     floor.drive(0.3);
@@ -114,7 +114,7 @@ double way_to_rest_m(double v_mps, double friction) {
   return way_m;
 }
 
-TEST(Pushing, ItSlidesOnAsFarAsFrictionLetsIt) {
+TEST(Pushing, ReleasedObstacle_SlidesByFriction) {
   for (const double friction : {0.05, 0.1, 0.3, 0.6}) {
     for (const bool robot_vanishes : {true, false}) {
       Floor floor({{1, 4, 0}}, {pushable(circle(2, 4, 0.1), 0.2, friction)});
@@ -137,7 +137,7 @@ TEST(Pushing, ItSlidesOnAsFarAsFrictionLetsIt) {
   }
 }
 
-TEST(Pushing, FrictionStopsSlideAndRotationTogether) {
+TEST(Pushing, Friction_StopsSlideAndRotationTogether) {
   // The robot meets the box beside its middle, so that it turns, and vanishes.
   Floor floor({{1, 4, 0}}, {pushable(box(2, 4.08, 0.2), 0.2, 0.2)});
   floor.drive(0.5);
@@ -165,7 +165,7 @@ TEST(Pushing, FrictionStopsSlideAndRotationTogether) {
   EXPECT_EQ(speed_mps(), 0.0);
 }
 
-TEST(Pushing, NeedsTraction) {
+TEST(Pushing, Traction_Limits) {
   // The wheels push with at most 0.75 * 2 kg * g, the floor holds with 0.3 m g: the limit is 5 kg.
   for (const double mass_kg : {4.5, 5.5}) {
     Floor floor({{1, 4, 0}}, {pushable(box(2, 4, 0.3), mass_kg)});
@@ -186,7 +186,7 @@ TEST(Pushing, NeedsTraction) {
   }
 }
 
-TEST(Pushing, RobotAndObstacleAccelerateTogether) {
+TEST(Pushing, RobotAndObstacle_AccelerateTogether) {
   // Standing at the obstacle first: (0.75 M - mu m) g / (M + m) = 1.28 m/s^2 for m = 3 kg.
   Floor floor({{1.75, 4, 0}}, {pushable(box(2, 4, 0.3), 3.0)});
   floor.drive(0.02);
@@ -201,7 +201,7 @@ TEST(Pushing, RobotAndObstacleAccelerateTogether) {
   EXPECT_NEAR(floor.speed_mps(0), floor->body(0).twist.v_mps, 0.01);
 }
 
-TEST(Pushing, ObstaclesExchangeMomentumWithoutRestitution) {
+TEST(Pushing, Obstacles_ExchangeMomentumWithoutRestitution) {
   // Without friction: one of 1 kg meets one of 3 kg at rest. v' = v / 4 for both.
   Floor floor({{1, 4, 0}},
               {pushable(circle(2, 4, 0.1), 1.0, 0.0), pushable(circle(4, 4, 0.1), 3.0, 0.0)});
@@ -217,7 +217,7 @@ TEST(Pushing, ObstaclesExchangeMomentumWithoutRestitution) {
   EXPECT_NEAR(floor.speed_mps(0), 0.25 * v_mps, 0.002);
 }
 
-TEST(Pushing, ARowOfObstaclesIsPushedAgainstTheWallAndStopsTheRobot) {
+TEST(Pushing, RowAtWall_StopsRobot) {
   Floor floor({{5, 4, 0}}, {pushable(box(6, 4, 0.2), 0.3), pushable(circle(6.5, 4, 0.1), 0.3)});
   floor.drive(0.5);
   floor.run(900);
@@ -228,7 +228,7 @@ TEST(Pushing, ARowOfObstaclesIsPushedAgainstTheWallAndStopsTheRobot) {
   EXPECT_NEAR(floor.x_m(0) - floor->body(0).X_WB.x_m, 0.187, 0.004);
 }
 
-TEST(Pushing, RobotsOfOtherObstaclesAreFree) {
+TEST(Pushing, RobotsAtOtherObstacles_Free) {
   // A robot that touches nothing keeps its unlimited acceleration, also in a world with a crate.
   Floor floor({{1, 1, 0}}, {pushable(box(6, 6, 0.2), 0.3)});
   floor.drive(0.5);
@@ -236,7 +236,7 @@ TEST(Pushing, RobotsOfOtherObstaclesAreFree) {
   EXPECT_NEAR(floor->body(0).twist.v_mps, 0.5, 1e-12);
 }
 
-TEST(DrivenObstacle, ReachesItsPoseExactly) {
+TEST(DrivenObstacle, Pose_ReachedExactly) {
   // An off-centre triangle that turns while it moves, at one and at several substeps a step.
   for (const double step_m : {0.001, 0.05}) {
     ObstacleDescription o;
@@ -256,7 +256,7 @@ TEST(DrivenObstacle, ReachesItsPoseExactly) {
   }
 }
 
-TEST(DrivenObstacle, StopsAtAWall) {
+TEST(DrivenObstacle, Wall_Stops) {
   for (const bool round : {true, false}) {
     Floor floor({}, {driven(round ? circle(7, 4, 0.1) : box(7, 4, 0.2)), box(7.6, 4, 0.3)});
     for (int i = 0; i < 300; ++i) {
@@ -270,7 +270,7 @@ TEST(DrivenObstacle, StopsAtAWall) {
   }
 }
 
-TEST(DrivenObstacle, PushesARobotThatStands) {
+TEST(DrivenObstacle, StandingRobot_Pushed) {
   // A drive of 10 kg against 2 kg: the robot, whose wheels stand, takes part of the momentum.
   Floor floor({{3, 4, kPi / 2}}, {driven(circle(2, 4, 0.2))});
   for (int i = 0; i < 500; ++i) {
@@ -282,7 +282,7 @@ TEST(DrivenObstacle, PushesARobotThatStands) {
   EXPECT_GT(floor->body(0).X_WB.x_m - floor.x_m(0), 0.2 + 0.08 - 0.002) << "they do not overlap";
 }
 
-TEST(DrivenObstacle, SuspendedOnesStand) {
+TEST(DrivenObstacle, Suspended_Stands) {
   Floor floor({}, {driven(circle(2, 4, 0.2))});
   floor->set_suspended(floor.body(0), true);
   floor->drive_obstacle(floor.body(0), {2.1, 4, 0}, kStep_s);
@@ -290,7 +290,7 @@ TEST(DrivenObstacle, SuspendedOnesStand) {
   EXPECT_EQ(floor.pose(0), (Pose{2, 4, 0}));
 }
 
-TEST(DrivenObstacle, DoesNotCrushARobotOrACrateAtAWall) {
+TEST(DrivenObstacle, RobotOrCrateAtWall_NotCrushed) {
   for (const double speed_mps : {0.3, 10.0}) {
     for (const bool robot : {true, false}) {
       const Pose X_WB{robot ? 7.0 : 1.0, robot ? 4.0 : 1.0, kPi / 2};
@@ -312,7 +312,7 @@ TEST(DrivenObstacle, DoesNotCrushARobotOrACrateAtAWall) {
   }
 }
 
-TEST(MovableObstacle, CrowdsAtRandomDoNotSinkIntoEachOther) {
+TEST(MovableObstacle, RandomCrowds_DoNotOverlap) {
   // Every third of 24 circles is driven, every third can be pushed, the others stand.
   test::Random random(5);
   std::vector<ObstacleDescription> obstacles;
@@ -357,7 +357,7 @@ TEST(MovableObstacle, CrowdsAtRandomDoNotSinkIntoEachOther) {
   EXPECT_LT(deepest_m, 0.002) << "some touched";
 }
 
-TEST(MovableObstacle, ContactsNameTheObstacle) {
+TEST(MovableObstacle, Contacts_NameObstacle) {
   Floor floor({{1, 4, 0}}, {box(6, 6, 0.2), pushable(box(2, 4, 0.2), 0.5)});
   floor.drive(0.3);
   floor.run(400);
@@ -367,7 +367,7 @@ TEST(MovableObstacle, ContactsNameTheObstacle) {
   EXPECT_EQ(contacts[0].index, 1);
 }
 
-TEST(MovableObstacle, RobotWithinNamesIt) {
+TEST(MovableObstacle, RobotWithin_NamesIt) {
   Floor floor({{1, 4, 0}}, {pushable(circle(3, 4, 0.2), 0.5)});
   EXPECT_EQ(floor->robot_within(box(3, 4, 0.1)), floor.body(0));
   EXPECT_EQ(floor->robot_within(box(3, 4, 0.1), floor.body(0)), -1);

@@ -10,18 +10,18 @@
 namespace sim {
 namespace {
 
-TEST(RandomStream, SameSeedAndPathGiveTheSameNumbers) {
+TEST(RandomStream, SameSeedAndPath_SameNumbers) {
   RandomStream a(1, "r1/laser");
   RandomStream b(1, "r1/laser");
   for (int i = 0; i < 100; ++i) EXPECT_EQ(a.normal(), b.normal());
 }
 
-TEST(RandomStream, OtherSeedOrPathGivesOtherNumbers) {
+TEST(RandomStream, OtherSeedOrPath_OtherNumbers) {
   EXPECT_NE(RandomStream(1, "r1/laser").uniform(), RandomStream(2, "r1/laser").uniform());
   EXPECT_NE(RandomStream(1, "r1/laser").uniform(), RandomStream(1, "r1/pose").uniform());
 }
 
-TEST(RandomStream, NormalHasMeanDeviationAndShapeOfTheGaussian) {
+TEST(RandomStream, Normal_HasMeanDeviationAndShapeOfGaussian) {
   // n = 200 000. The standard error of the mean is 1/sqrt(n), of the variance sqrt(2/n), and of the
   // share within one sigma (p = 0.682689) sqrt(p (1 - p) / n). The bounds are four standard errors.
   constexpr int kCount = 200'000;
@@ -44,13 +44,13 @@ TEST(RandomStream, NormalHasMeanDeviationAndShapeOfTheGaussian) {
               4.0 * std::sqrt(0.682689 * 0.317311 / kCount));
 }
 
-TEST(RandomStream, NoNoiseDrawsNothing) {
+TEST(RandomStream, ZeroDeviation_DrawsNothing) {
   RandomStream stream(1, "x");
   EXPECT_EQ(stream.gaussian(0.0), 0.0);
   EXPECT_EQ(stream.draws(), 0U);
 }
 
-TEST(MersenneTwister, IsThatOfTheStandard) {
+TEST(MersenneTwister, MatchesStandard) {
   for (const std::uint64_t seed : {0ULL, 5489ULL, 0xfedcba9876543210ULL}) {
     MersenneTwister ours(seed);
     std::mt19937_64 theirs(seed);

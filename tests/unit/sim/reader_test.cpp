@@ -33,7 +33,7 @@ class ReaderTest : public testing::Test {
   Reader::Document document_;
 };
 
-TEST_F(ReaderTest, ReadsEachKindOfValue) {
+TEST_F(ReaderTest, EachKindOfValue_Read) {
   Reader root = parse(R"({
     "n": 2.5, "i": -3, "u": 18446744073709551615, "b": true, "s": "täxt", "c": "#fff",
     "v": [1, -2.5], "p": [3, 4], "a_deg": 90, "pose": {"x": 1, "y": 2, "yaw_deg": 270},
@@ -61,7 +61,7 @@ TEST_F(ReaderTest, ReadsEachKindOfValue) {
   EXPECT_THAT(document_.issues, SizeIs(0));
 }
 
-TEST_F(ReaderTest, MissingMembersGiveTheFallbackAndNoIssue) {
+TEST_F(ReaderTest, MissingMembers_FallbackWithoutIssue) {
   Reader root = parse("{}");
   EXPECT_EQ(root.number("n", 1.5, {2.0, 3.0}), 1.5);
   EXPECT_EQ(root.integer("i", 7, 0, 1), 7);
@@ -76,7 +76,7 @@ TEST_F(ReaderTest, MissingMembersGiveTheFallbackAndNoIssue) {
   EXPECT_THAT(document_.issues, SizeIs(0));
 }
 
-TEST_F(ReaderTest, WhatIsRequiredMustBeThere) {
+TEST_F(ReaderTest, MissingRequiredMembers_Reported) {
   Reader root = parse(R"({"there": null})");
   EXPECT_TRUE(root.require("there", "anything"));
   EXPECT_THAT(document_.issues, SizeIs(0));
@@ -84,7 +84,7 @@ TEST_F(ReaderTest, WhatIsRequiredMustBeThere) {
   EXPECT_THAT(only_issue(), AllOf(HasSubstr("the key \"size\": [x, y], in m"), HasSubstr("none")));
 }
 
-TEST_F(ReaderTest, ABoundedListGivesTheFirstElementsAndAnIssue) {
+TEST_F(ReaderTest, LongList_FirstElementsAndIssue) {
   Reader root = parse(R"({"list": ["a", "b", "c"]})");
   EXPECT_THAT(root.array("list", 3), SizeIs(3));
   EXPECT_THAT(document_.issues, SizeIs(0));
@@ -94,7 +94,7 @@ TEST_F(ReaderTest, ABoundedListGivesTheFirstElementsAndAnIssue) {
   EXPECT_THAT(only_issue(), AllOf(HasSubstr("at most 2"), HasSubstr("3")));
 }
 
-TEST_F(ReaderTest, KeepsTheOrderOfKeysAndTheNumbersAsWritten) {
+TEST_F(ReaderTest, OrderOfKeysAndNumberTexts_Kept) {
   Reader root = parse(R"({"z": 1.50, "a": 1e2, "m": false})");
   EXPECT_THAT(root.keys(), ElementsAre("z", "a", "m"));
   EXPECT_EQ(root.child("z")->scalar_text(), "1.50");
@@ -102,13 +102,13 @@ TEST_F(ReaderTest, KeepsTheOrderOfKeysAndTheNumbersAsWritten) {
   EXPECT_EQ(root.child("m")->scalar_text(), "false");
 }
 
-TEST_F(ReaderTest, SkipsCommentsOfBothKinds) {
+TEST_F(ReaderTest, BothKindsOfComments_Skipped) {
   Reader root = parse("// one\n{ /* two\n */ \"a\": 1 // three\n}\n");
   EXPECT_EQ(root.integer("a", 0, 0, 9), 1);
   EXPECT_EQ(document_.line_of("/a"), 3);
 }
 
-TEST_F(ReaderTest, WholeNumbersMayBeWrittenWithAPoint) {
+TEST_F(ReaderTest, WholeNumbers_MayHavePoint) {
   Reader root = parse(R"({"a": 3.0, "b": 3.5, "c": 1e30})");
   EXPECT_EQ(root.integer("a", 0, 0, 9), 3);
   EXPECT_EQ(root.integer("b", 1, 0, 9), 1);
@@ -118,7 +118,7 @@ TEST_F(ReaderTest, WholeNumbersMayBeWrittenWithAPoint) {
   EXPECT_EQ(document_.issues[1].id, "world/out-of-range");
 }
 
-TEST_F(ReaderTest, BoundsAreInclusiveUnlessSaidOtherwise) {
+TEST_F(ReaderTest, Bounds_InclusiveUnlessStated) {
   Reader root = parse(R"({"a": 0, "b": 5})");
   EXPECT_EQ(root.number("a", 1.0, {0.0, 5.0, false, "m"}), 0.0);
   EXPECT_EQ(root.number("b", 1.0, {0.0, 5.0, false, "m"}), 5.0);
@@ -129,7 +129,7 @@ TEST_F(ReaderTest, BoundsAreInclusiveUnlessSaidOtherwise) {
             "[world/out-of-range]");
 }
 
-TEST_F(ReaderTest, EachWrongTypeSaysWhatItShouldBe) {
+TEST_F(ReaderTest, WrongTypes_NameExpectedType) {
   Reader root = parse(R"({"a": "2", "b": 1, "c": [], "d": {}, "e": null, "f": [1, 2, 3]})");
   EXPECT_EQ(root.number("a", 7.0), 7.0);
   EXPECT_FALSE(root.boolean("b", false));
@@ -148,7 +148,7 @@ TEST_F(ReaderTest, EachWrongTypeSaysWhatItShouldBe) {
                                  "/f a list of two numbers [x, y] / a list of 3"));
 }
 
-TEST_F(ReaderTest, FinishNamesUnknownKeysOnce) {
+TEST_F(ReaderTest, Finish_NamesUnknownKeysOnce) {
   Reader root = parse("{\n\"frequncy\": 1,\n\"noise\": 2}");
   static_cast<void>(root.number("frequency", 1.0));
   static_cast<void>(root.number("noise", 1.0));
@@ -159,14 +159,14 @@ TEST_F(ReaderTest, FinishNamesUnknownKeysOnce) {
             "key \"frequncy\" (did you mean \"frequency\"?) [world/unknown-key]");
 }
 
-TEST_F(ReaderTest, PointersEscapeSlashAndTilde) {
+TEST_F(ReaderTest, Pointers_EscapeSlashAndTilde) {
   Reader root = parse(R"({"a/b~c": 1})");
   root.finish();
   // RFC 6901: ~ becomes ~0 and / becomes ~1.
   EXPECT_EQ(document_.issues.at(0).pointer, "/a~1b~0c");
 }
 
-TEST_F(ReaderTest, OfAKeyThatOccursTwiceTheFirstCountsAndTheSecondIsReported) {
+TEST_F(ReaderTest, DuplicateKey_FirstCountsAndSecondReported) {
   Reader root = parse("{\"a\": 1,\n\"a\": 2}");
   EXPECT_EQ(root.integer("a", 0, 0, 9), 1);
   EXPECT_THAT(root.keys(), ElementsAre("a"));
@@ -174,14 +174,14 @@ TEST_F(ReaderTest, OfAKeyThatOccursTwiceTheFirstCountsAndTheSecondIsReported) {
   EXPECT_THAT(only_issue(), HasSubstr("t.json:2: /a: expected each key once"));
 }
 
-TEST_F(ReaderTest, LongTextsAreShortenedBetweenCharacters) {
+TEST_F(ReaderTest, LongTexts_ShortenedBetweenCharacters) {
   // 39 bytes followed by two-byte letters: a cut at byte 40 would split the first of them.
   Reader root = parse("{\"a\": \"" + std::string(39, 'x') + "ääää\"}");
   static_cast<void>(root.boolean("a", false));
   EXPECT_EQ(document_.issues.at(0).found, "the text \"" + std::string(39, 'x') + "...\"");
 }
 
-TEST_F(ReaderTest, NamesHoldLettersDigitsUnderscoreAndHyphen) {
+TEST_F(ReaderTest, Names_LettersDigitsUnderscoreAndHyphen) {
   EXPECT_TRUE(is_valid_name("r1_A-z"));
   EXPECT_TRUE(is_valid_name(std::string(64, 'a')));
   EXPECT_FALSE(is_valid_name(std::string(65, 'a')));
@@ -190,7 +190,7 @@ TEST_F(ReaderTest, NamesHoldLettersDigitsUnderscoreAndHyphen) {
   }
 }
 
-TEST_F(ReaderTest, ReaderOfNoObjectGivesFallbacks) {
+TEST_F(ReaderTest, NonObject_GivesFallbacks) {
   Reader root = parse("[1]");
   EXPECT_EQ(root.number("a", 2.0), 2.0);
   EXPECT_THAT(root.keys(), SizeIs(0));
@@ -201,7 +201,7 @@ TEST_F(ReaderTest, ReaderOfNoObjectGivesFallbacks) {
             "t.json:1: expected an object {...}, found a list of 1 [world/wrong-type]");
 }
 
-TEST_F(ReaderTest, LinesOfNumbersAtTheEndOfALine) {
+TEST_F(ReaderTest, NumberAtEndOfLine_HasItsLine) {
   // The parser must read the line break to know that the number has ended.
   parse("{\"a\":\n[1\n,2\n]\n}");
   EXPECT_EQ(document_.line_of("/a"), 2);
@@ -210,7 +210,7 @@ TEST_F(ReaderTest, LinesOfNumbersAtTheEndOfALine) {
   EXPECT_EQ(document_.line_of("/a/7"), 2);
 }
 
-TEST(ParseDocument, NestingOf32LevelsIsFineAndOf33Not) {
+TEST(ParseDocument, Nesting_AtMost32Levels) {
   Reader::Document fine;
   EXPECT_TRUE(parse_document(std::string(32, '[') + std::string(32, ']'), fine));
   Reader::Document deep;
@@ -219,13 +219,13 @@ TEST(ParseDocument, NestingOf32LevelsIsFineAndOf33Not) {
   EXPECT_EQ(deep.issues[0].id, "json/too-deep");
 }
 
-TEST(ParseDocument, AMillionBracketsAreRefusedAtOnce) {
+TEST(ParseDocument, MillionBrackets_RefusedAtOnce) {
   Reader::Document document;
   EXPECT_FALSE(parse_document(std::string(1'000'000, '['), document));
   EXPECT_EQ(document.issues.at(0).id, "json/too-deep");
 }
 
-TEST(ParseDocument, RefusesWhatIsNoUtf8) {
+TEST(ParseDocument, InvalidUtf8_Refused) {
   // An overlong slash, a surrogate, above U+10FFFF, a truncated sequence, a lone continuation byte.
   for (const char* bad : {"\"\xc0\xaf\"", "\"\xed\xa0\x80\"", "\"\xf4\x90\x80\x80\"", "\"\xe2\x82",
                           "\"\x80\"", "// \xff\n{}"}) {
@@ -237,7 +237,7 @@ TEST(ParseDocument, RefusesWhatIsNoUtf8) {
   EXPECT_TRUE(parse_document("\xef\xbb\xbf\"\xf0\x9f\xa4\x96 \xe2\x82\xac \xc3\xa4\"", document));
 }
 
-TEST(ParseDocument, EveryTruncationOfAWorldIsAnErrorWithAReason) {
+TEST(ParseDocument, Truncation_ErrorWithReason) {
   const std::string text =
       R"({"name": "x", /* c */ "a": [1.5e3, true, null, {"b": "\u00e4"}], "c": -7})";
   for (std::size_t length = 0; length < text.size(); ++length) {
@@ -248,7 +248,7 @@ TEST(ParseDocument, EveryTruncationOfAWorldIsAnErrorWithAReason) {
   }
 }
 
-TEST(ParseDocument, EveryChangedByteIsTakenOrExplained) {
+TEST(ParseDocument, ChangedByte_AcceptedOrExplained) {
   const std::string text = R"({"name": "x", "a": [1.5e3, true, null, {"b": "c"}], "d": -7})";
   int refused = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -112,7 +112,7 @@ std::vector<double> ranges_at(double distance_m, const std::string& laser, int c
   return ranges;
 }
 
-TEST(LaserNoise, IsConstantNearbyAndProportionalToTheRangeBeyond) {
+TEST(LaserNoise, ConstantNearbyAndProportionalBeyond) {
   const std::string noise = R"(, "noise": 0.01, "noise_share": 0.01)";
   expect_gaussian(ranges_at(0.5, noise, 4000), 0.5, 0.01);
   expect_gaussian(ranges_at(1.0, noise, 4000), 1.0, 0.01);
@@ -120,7 +120,7 @@ TEST(LaserNoise, IsConstantNearbyAndProportionalToTheRangeBeyond) {
   expect_gaussian(ranges_at(8.0, R"(, "noise_share": 0.002)", 4000), 8.0, 0.016);
 }
 
-TEST(LaserDropouts, ReadTheMaximumRangeWithTheirProbability) {
+TEST(LaserDropouts, ReadMaximumRangeWithTheirProbability) {
   const std::vector<double> ranges = ranges_at(3.0, R"(, "dropouts": 0.05)", 10000);
   int lost = 0;
   for (const double range : ranges) {
@@ -140,7 +140,7 @@ WorldDescription post_world(const std::string& laser) {
       laser + "}}}]}");
 }
 
-TEST(LaserMixedPixels, LieBetweenTheSurfacesOfADepthEdge) {
+TEST(LaserMixedPixels, LieBetweenSurfacesOfDepthEdge) {
   constexpr int kScans = 5000;
   Simulation plain(post_world(""));
   plain.step();
@@ -180,7 +180,7 @@ TEST(LaserMixedPixels, LieBetweenTheSurfacesOfADepthEdge) {
   EXPECT_LT(*std::max_element(parts.begin(), parts.end()), 1.0);
 }
 
-TEST(LaserMixedPixels, NeedADepthEdge) {
+TEST(LaserMixedPixels, NoDepthEdge_None) {
   // Neighbouring beams on one wall under 80 degrees differ by r * step * tan 80 = 5.67 r step.
   EXPECT_FALSE(is_depth_edge(4.0, 4.1, 0.007, 5.0));  // 0.02 + 5.67 * 4 * 0.007 = 0.179
   EXPECT_TRUE(is_depth_edge(4.0, 4.2, 0.007, 5.0));
@@ -189,7 +189,7 @@ TEST(LaserMixedPixels, NeedADepthEdge) {
   EXPECT_FALSE(is_depth_edge(0.5, 0.52, 0.007, 5.0));
 }
 
-TEST(RangerNoise, HasTheFormulaOfTheLaser) {
+TEST(RangerNoise, MatchesFormulaOfLaser) {
   for (const char* kind : {"infrared", "sonar"}) {
     Simulation simulation(load_world_text(
         R"({"arena": {"size": [20, 20], "border": false, "obstacles": [{"center": [4.5, 10], "size":
@@ -220,7 +220,7 @@ Pose odometry_of(const Simulation& simulation) {
   return device<Odometry>(simulation, "odometry").pose_estimate().value();
 }
 
-TEST(OdometryErrors, OfWheelsAreThoseOfUmbmark) {
+TEST(OdometryErrors, WheelErrors_MatchUmbmark) {
   constexpr double kRatio = 1.02;      // E_d
   constexpr double kWheelbase = 1.05;  // E_b
   const std::string devices = R"("odometry": {"wheel_ratio": )" + shortest_text(kRatio) +
@@ -257,7 +257,7 @@ double end_of_square_m(double direction, const std::string& devices) {
   return simulation.body(0).X_WB.x_m - 20.0;
 }
 
-TEST(OdometryErrors, AreFoundByTheUmbmarkExperiment) {
+TEST(OdometryErrors, UmbmarkExperiment_RecoversThem) {
   constexpr double kSide_m = 4.0;
   constexpr double kRatio = 1.0002;     // E_d
   constexpr double kWheelbase = 1.005;  // E_b
@@ -277,7 +277,7 @@ TEST(OdometryErrors, AreFoundByTheUmbmarkExperiment) {
   EXPECT_NEAR(quarter / (quarter - alpha) - 1.0, kWheelbase - 1.0, 0.03 * (kWheelbase - 1.0));
 }
 
-TEST(OdometryErrors, ScaleAndDriftFollowTheirFormulas) {
+TEST(OdometryErrors, ScaleAndDrift_MatchFormulas) {
   Simulation scaled(open_world(R"("odometry": {"scale": 1.05})"));
   send(scaled, "motion", TwistCommand{{0.5, 0.0}});
   run(scaled, 200);
@@ -289,7 +289,7 @@ TEST(OdometryErrors, ScaleAndDriftFollowTheirFormulas) {
   EXPECT_NEAR(odometry_of(drifting).yaw_rad, 5.0 * kDegrees, 1e-12);
 }
 
-TEST(OdometryErrors, RandomDriftGrowsWithTheRootOfTime) {
+TEST(OdometryErrors, RandomDrift_GrowsWithRootOfTime) {
   // Increments of 0.1 s are independent, with deviation 2 degrees * sqrt(0.1).
   Simulation simulation(open_world(R"("odometry": {"heading_noise_deg": 2})"));
   std::vector<double> increments;
@@ -303,7 +303,7 @@ TEST(OdometryErrors, RandomDriftGrowsWithTheRootOfTime) {
   expect_gaussian(increments, 0.0, 2.0 * kDegrees * std::sqrt(0.1));
 }
 
-TEST(OdometryErrors, ScaleNoiseIsDrawnForEachReading) {
+TEST(OdometryErrors, ScaleNoise_DrawnPerReading) {
   Simulation simulation(open_world(R"("odometry": {"scale": 1.1, "scale_noise": 0.05})"));
   send(simulation, "motion", TwistCommand{{0.0005, 0.0}});
   std::vector<double> factors;
@@ -314,7 +314,7 @@ TEST(OdometryErrors, ScaleNoiseIsDrawnForEachReading) {
   expect_gaussian(factors, 1.1, 0.05);
 }
 
-TEST(OdometryErrors, NoiseOfReadingsIsNotIntegrated) {
+TEST(OdometryErrors, ReadingNoise_NotIntegrated) {
   Simulation simulation(open_world(R"("odometry": {"noise_pose": 0.02, "noise_pose_yaw_deg": 3})"));
   std::vector<double> x;
   std::vector<double> y;
@@ -335,7 +335,7 @@ TEST(OdometryErrors, NoiseOfReadingsIsNotIntegrated) {
 
 // --- slip
 
-TEST(Slip, IsAGaussMarkovProcessOfEachWheel) {
+TEST(Slip, GaussMarkovProcessPerWheel) {
   MotionParams params;
   params.slip = 0.05;
   params.slip_time_s = 0.5;
@@ -388,7 +388,7 @@ TEST(Slip, IsAGaussMarkovProcessOfEachWheel) {
   EXPECT_NEAR(product / kSteps, 0.0, 4.0 * params.slip * params.slip / std::sqrt(independent));
 }
 
-TEST(Slip, MakesTheRobotLeaveItsLineAndOdometryNotNoticeIt) {
+TEST(Slip, RobotLeavesLineUnnoticedByOdometry) {
   Simulation simulation(
       open_world(R"("motion": {"slip": 0.05, "slip_time": 0.5}, "odometry": {})"));
   send(simulation, "motion", TwistCommand{{0.5, 0.0}});
@@ -404,7 +404,7 @@ TEST(Slip, MakesTheRobotLeaveItsLineAndOdometryNotNoticeIt) {
   EXPECT_NEAR(reading.twist.omega_radps, 0.0, 1e-9);
 }
 
-TEST(Slip, MakesTheHeadingErrorOfItsFormula) {
+TEST(Slip, HeadingError_MatchesFormula) {
   // The heading error after a time t >> T at speed v is the integral of v (s_left - s_right) / b.
   // Its variance is 2 (v sigma / b)^2 2 T (t - T (1 - exp(-t / T))).
   constexpr int kRuns = 1000;
@@ -427,7 +427,7 @@ TEST(Slip, MakesTheHeadingErrorOfItsFormula) {
   expect_gaussian(headings, 0.0, sigma);
 }
 
-TEST(Slip, LeavesARobotAtRestAndKeepsACarOnItsArc) {
+TEST(Slip, RobotAtRestAndCarOnArc_Unaffected) {
   Simulation rest(open_world(R"("motion": {"slip": 0.2})"));
   run(rest, 200);
   EXPECT_EQ(rest.body(0).X_WB, (Pose{20, 20, 0}));
@@ -446,7 +446,7 @@ TEST(Slip, LeavesARobotAtRestAndKeepsACarOnItsArc) {
 
 // --- latency
 
-TEST(SensorLatency, DeliversAReadingLaterWithTheTimeOfItsMeasurement) {
+TEST(SensorLatency, Reading_DeliveredLaterWithMeasurementTime) {
   Simulation late(open_world(R"("pose": {"latency": 0.25, "frequency": 20})"));
   Simulation exact(open_world(R"("pose": {"frequency": 20})"));
   for (Simulation* simulation : {&late, &exact}) {
@@ -471,7 +471,7 @@ TEST(SensorLatency, DeliversAReadingLaterWithTheTimeOfItsMeasurement) {
   }
 }
 
-TEST(SensorLatency, AnnouncesAReadingWhenItIsDelivered) {
+TEST(SensorLatency, Reading_AnnouncedOnDelivery) {
   Simulation simulation(
       open_world(R"("laser": {"latency": 0.04, "beams": 3}, "pose": null, "odometry": null)"));
   std::vector<int> steps;
@@ -482,7 +482,7 @@ TEST(SensorLatency, AnnouncesAReadingWhenItIsDelivered) {
   EXPECT_THAT(steps, ElementsAre(14, 24, 34));
 }
 
-TEST(SensorLatency, SurvivesAReset) {
+TEST(SensorLatency, Reset_ContinuesSequence) {
   Simulation simulation(open_world(R"("pose": {"latency": 0.25, "frequency": 20})"));
   run(simulation, 100);
   const std::uint64_t before = device<PoseSensor>(simulation, "pose").reading().sequence;
@@ -498,7 +498,7 @@ TEST(SensorLatency, SurvivesAReset) {
   EXPECT_EQ(last, before + 15);  // 1 s minus the latency
 }
 
-TEST(CommandLatency, DelaysCommandsInTheirOrder) {
+TEST(CommandLatency, Commands_DelayedInOrder) {
   Simulation simulation(open_world(R"("motion": {"latency": 0.05})"));
   send(simulation, "motion", TwistCommand{{0.5, 0.0}});
   run(simulation, 2);
@@ -513,7 +513,7 @@ TEST(CommandLatency, DelaysCommandsInTheirOrder) {
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 20.011, 1e-12);
 }
 
-TEST(CommandLatency, EndsWithAPlacement) {
+TEST(CommandLatency, Placement_EndsDelay) {
   Simulation simulation(
       open_world(R"("motion": {"latency": 0.05}, "teleport": {"type": "teleport"})"));
   send(simulation, "motion", TwistCommand{{0.5, 0.0}});
@@ -522,7 +522,7 @@ TEST(CommandLatency, EndsWithAPlacement) {
   EXPECT_EQ(simulation.body(0).X_WB, (Pose{5, 5, 0}));
 }
 
-TEST(CommandLatency, RefusesMoreCommandsThanItKeeps) {
+TEST(CommandLatency, FullQueue_RefusesCommands) {
   Simulation simulation(open_world(R"("motion": {"latency": 10})"));
   const Simulation::DeviceId motion{0, simulation.find_device(0, "motion").value()};
   for (int i = 0; i < 1000; ++i) {
@@ -544,7 +544,7 @@ Params params_of(const WorldDescription& world, const std::string& name) {
   return {};
 }
 
-TEST(Modifiers, SetTheSettingsThatTheyStandFor) {
+TEST(Modifiers, SetCorrespondingSettings) {
   const auto pose = params_of<PoseParams>(
       open_world(R"("pose": {"modifiers": [{"name": "PoseNoise", "pos_std": 0.1, "_2D": true}]})"),
       "pose");
@@ -598,7 +598,7 @@ ConfigIssue issue_of(const std::string& devices) {
   return {};
 }
 
-TEST(Modifiers, ReportErrorsWithTheirPlaces) {
+TEST(Modifiers, Errors_HavePlaces) {
   const std::string device = "/robots/0/devices/pose/modifiers";
   struct Case {
     const char* settings;
@@ -658,7 +658,7 @@ WorldDescription rich_world(Realism level) {
   return world;
 }
 
-TEST(Realism, IdealSetsAllFiguresToTheirIdeal) {
+TEST(Realism, Ideal_SetsEachFigureToItsIdeal) {
   const Simulation simulation(rich_world(Realism::kIdeal));
   int figures = 0;
   for (const DeviceDescription& device : simulation.world().robots.at(0).devices) {
@@ -674,7 +674,7 @@ TEST(Realism, IdealSetsAllFiguresToTheirIdeal) {
   EXPECT_GT(figures, 40);
 }
 
-TEST(Realism, EachSettingOfNoiseHasFiguresInItsRange) {
+TEST(Realism, NoiseSettings_HaveFiguresInRange) {
   for (const DeviceKind& kind : device_kinds()) {
     const std::any defaults = kind.defaults();
     for_each_field(
@@ -697,7 +697,7 @@ TEST(Realism, EachSettingOfNoiseHasFiguresInItsRange) {
   }
 }
 
-TEST(Realism, IdealIsExactAfterALongDrive) {
+TEST(Realism, Ideal_ExactAfterLongDrive) {
   Simulation simulation(rich_world(Realism::kIdeal));
   for (int i = 0; i < 200; ++i) {
     send(simulation, "motion", TwistCommand{{0.1 + 0.002 * (i % 100), 1.5 * std::sin(0.3 * i)}});
@@ -712,7 +712,7 @@ TEST(Realism, IdealIsExactAfterALongDrive) {
   EXPECT_EQ(device<PoseSensor>(simulation, "pose").reading().pose, simulation.body(0).X_WB);
 }
 
-TEST(Realism, RealFillsWhatTheFileLeavesOut) {
+TEST(Realism, Real_FillsOmittedSettings) {
   WorldDescription world = open_world(
       R"("laser": {"noise": 0.02, "dropouts": 0}, "odometry": {"noise": 0}, "pose": {})");
   world.simulation.realism = Realism::kReal;
@@ -733,7 +733,7 @@ TEST(Realism, RealFillsWhatTheFileLeavesOut) {
   EXPECT_EQ(world_hash(world), hash);
 }
 
-TEST(Realism, RealKeepsWhatTheModelStates) {
+TEST(Realism, Real_KeepsSettingsOfModel) {
   // The model's file states where the sonars are; the world states their range.
   const WorldDescription world = load_world_text(
       R"({"arena": {"size": [4, 4]}, "robots": [{"model": "pioneer2dx", "pose": {"x": 2, "y": 2},
@@ -746,7 +746,7 @@ TEST(Realism, RealKeepsWhatTheModelStates) {
   }
 }
 
-TEST(Realism, IsPartOfTheWorldsIdentity) {
+TEST(Realism, Level_PartOfWorldIdentity) {
   WorldDescription world = open_world("");
   const std::uint64_t course = world_hash(world);
   world.simulation.realism = Realism::kReal;
@@ -759,7 +759,7 @@ TEST(Realism, IsPartOfTheWorldsIdentity) {
   EXPECT_EQ(world_hash(open_world("", R"("realism": "course")")), course);
 }
 
-TEST(Realism, SettingsThatAreOffAreNoProperties) {
+TEST(Realism, DisabledSettings_NotListed) {
   const auto defaults = find_device_kind("laser")->properties(LaserParams{});
   EXPECT_FALSE(defaults.contains("latency"));
   EXPECT_FALSE(defaults.contains("dropouts"));
@@ -777,13 +777,13 @@ std::uint64_t hash_after_a_drive(Realism level, std::uint64_t seed) {
   return simulation.state_hash();
 }
 
-TEST(Realism, RealIsRepeatableAndDiffersWithTheSeed) {
+TEST(Realism, Real_RepeatableAndDependsOnSeed) {
   EXPECT_EQ(hash_after_a_drive(Realism::kReal, 5), hash_after_a_drive(Realism::kReal, 5));
   EXPECT_NE(hash_after_a_drive(Realism::kReal, 5), hash_after_a_drive(Realism::kReal, 6));
   EXPECT_NE(hash_after_a_drive(Realism::kReal, 5), hash_after_a_drive(Realism::kCourse, 5));
 }
 
-TEST(Realism, RealContinuesFromASnapshotToTheBit) {
+TEST(Realism, Real_SnapshotContinuesExactly) {
   // Delayed readings, delayed commands, slip and random streams are in transit at each moment.
   Simulation simulation(rich_world(Realism::kReal));
   for (int i = 0; i < 12; ++i) {
@@ -804,7 +804,7 @@ TEST(Realism, RealContinuesFromASnapshotToTheBit) {
   EXPECT_EQ(simulation.state_hash(), later);
 }
 
-TEST(Realism, ARestoredWorldContinuesAtTheLaterTime) {
+TEST(Realism, RestoredWorld_ContinuesAtLaterTime) {
   Simulation simulation(rich_world(Realism::kReal));
   run(simulation, 57);
   send(simulation, "motion", TwistCommand{{0.4, 0.0}});

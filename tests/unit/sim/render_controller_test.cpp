@@ -140,7 +140,7 @@ int count_differences(const Image& a, const Image& b) {
   return count;
 }
 
-TEST(RenderController, NothingChangesWithoutAController) {
+TEST(RenderController, NoController_PictureUnchanged) {
   SceneSnapshot scene = empty_scene();
   scene.robots = {robot_at(1.0, 1.0)};
   for (const ViewMode mode : {ViewMode::kGround, ViewMode::kMiniMap, ViewMode::kFullScreen}) {
@@ -151,7 +151,7 @@ TEST(RenderController, NothingChangesWithoutAController) {
 
 // --- Blocks
 
-TEST(RenderController, ARisingBlockIsFilledUpToItsHeight) {
+TEST(RenderController, RisingBlock_FilledUpToItsHeight) {
   const Vec2 low(1.62, 1.82);  // within the block's edge line
   for (const double share : {0.1, 0.3, 0.8}) {
     const Image image = draw_scene(scene_with_block(BlockPhase::kRising, share), plain());
@@ -164,7 +164,7 @@ TEST(RenderController, ARisingBlockIsFilledUpToItsHeight) {
   }
 }
 
-TEST(RenderController, TheShadowOfABlockGrowsWithItsHeight) {
+TEST(RenderController, BlockShadow_GrowsWithHeight) {
   // Just below the block's lower edge.
   const auto shadow = [](double share) {
     const Image image = draw_scene(scene_with_block(BlockPhase::kSinking, share), plain());
@@ -174,7 +174,7 @@ TEST(RenderController, TheShadowOfABlockGrowsWithItsHeight) {
   EXPECT_GT(shadow(0.5), shadow(1.0) + 2.0);
 }
 
-TEST(RenderController, ArrowsTellRisingFromSinking) {
+TEST(RenderController, Arrows_DistinguishRisingFromSinking) {
   const Image rising = draw_scene(scene_with_block(BlockPhase::kRising, 0.5), plain());
   const Image sinking = draw_scene(scene_with_block(BlockPhase::kSinking, 0.5), plain());
   EXPECT_GT(count_differences(rising, sinking), 50);
@@ -186,7 +186,7 @@ TEST(RenderController, ArrowsTellRisingFromSinking) {
   EXPECT_LE(part[3], row_of(2.0) + 13);
 }
 
-TEST(RenderController, AWaitingBlockIsMarkedInOrangeAroundTheRobotOnIt) {
+TEST(RenderController, WaitingBlock_OrangeAroundRobot) {
   const Image waiting = draw_scene(scene_with_block(BlockPhase::kRetracted, 0.0), plain());
   // The corner of the dashed outline; the hourglass is at the lower right corner.
   const Rgb corner = pixel(waiting, column_of(1.6), row_of(1.8));
@@ -202,7 +202,7 @@ TEST(RenderController, AWaitingBlockIsMarkedInOrangeAroundTheRobotOnIt) {
   EXPECT_GT(mean(waiting, 1, {1.8, 1.9}, {2.2, 2.1}), 225.0);
 }
 
-TEST(RenderController, ABlockWithoutMotionLooksAsBefore) {
+TEST(RenderController, StationaryBlock_Unchanged) {
   SceneSnapshot scene = scene_with_block(BlockPhase::kRising, 1.0);
   scene.arena.obstacles[0].present_height_m.reset();
   scene.moving_blocks.clear();
@@ -212,7 +212,7 @@ TEST(RenderController, ABlockWithoutMotionLooksAsBefore) {
 
 // --- Traps
 
-TEST(RenderController, TrapsHaveAVioletOutlineInThreeStrengths) {
+TEST(RenderController, Traps_VioletOutlineInThreeStrengths) {
   SceneSnapshot scene = empty_scene();
   scene.robots = {robot_at(0.5, 0.5)};
   scene.traps = {box_trap("", {1.1, 2.1}, {1.4, 2.4}), box_trap("", {1.6, 2.1}, {1.9, 2.4}),
@@ -233,7 +233,7 @@ TEST(RenderController, TrapsHaveAVioletOutlineInThreeStrengths) {
   EXPECT_GT(area(1.1), area(2.1) + 10.0);
 }
 
-TEST(RenderController, ACircleIsDrawnAroundItsObject) {
+TEST(RenderController, CircleTrap_DrawnAroundObject) {
   SceneSnapshot scene = empty_scene();
   scene.traps = {circle_trap("", {2.25, 1.25}, 0.5)};
   const Image bare = draw_scene(scene, without_controller(plain()));
@@ -244,7 +244,7 @@ TEST(RenderController, ACircleIsDrawnAroundItsObject) {
   EXPECT_NEAR(part[3], row_of(0.75), 3);
 }
 
-TEST(RenderController, TrapsShowThroughBlocks) {
+TEST(RenderController, Traps_ShowThroughBlocks) {
   SceneSnapshot scene = scene_with_block(BlockPhase::kRising, 1.0);
   scene.arena.obstacles[0].present_height_m.reset();
   scene.moving_blocks.clear();
@@ -255,7 +255,7 @@ TEST(RenderController, TrapsShowThroughBlocks) {
   EXPECT_LT(changed, 400);  // only the line
 }
 
-TEST(RenderController, NamesOfTrapsDoNotOverlap) {
+TEST(RenderController, TrapNames_DoNotOverlap) {
   SceneSnapshot scene = empty_scene();
   scene.traps = {box_trap("", {1.1, 1.1}, {1.9, 1.9})};
   const Image unnamed = draw_scene(scene, plain());
@@ -272,7 +272,7 @@ TEST(RenderController, NamesOfTrapsDoNotOverlap) {
   EXPECT_GT(both[3] - both[1], 100);
 }
 
-TEST(RenderController, TrapsStayWithinACroppedView) {
+TEST(RenderController, Traps_StayInsideCroppedView) {
   SceneSnapshot scene = empty_scene();
   scene.traps = {box_trap("wide", {0.1, 0.1}, {3.9, 3.9}), circle_trap("near", {1.0, 1.0}, 0.4),
                  box_trap("elsewhere", {3.0, 3.0}, {3.5, 3.5})};
@@ -304,7 +304,7 @@ TEST(RenderController, TrapsStayWithinACroppedView) {
 
 // --- Countdowns
 
-TEST(RenderController, CountdownsOfRunningTimersAreInTheFreeCorner) {
+TEST(RenderController, Countdowns_InFreeCorner) {
   SceneSnapshot scene = empty_scene();
   const Image bare = draw_scene(scene, plain());
   scene.timers = {{"off", {}}};
@@ -332,7 +332,7 @@ TEST(RenderController, CountdownsOfRunningTimersAreInTheFreeCorner) {
   }
 }
 
-TEST(RenderController, AtMostSixCountdownsAreShown) {
+TEST(RenderController, Countdowns_AtMostSix) {
   SceneSnapshot scene = empty_scene();
   const Image bare = draw_scene(scene, plain());
   const auto height = [&](int timers) {
@@ -347,7 +347,7 @@ TEST(RenderController, AtMostSixCountdownsAreShown) {
   EXPECT_EQ(height(100), height(7));
 }
 
-TEST(RenderController, ATimerThatActsIsHighlighted) {
+TEST(RenderController, ActingTimer_Highlighted) {
   SceneSnapshot scene = empty_scene();
   scene.timers = {{"opening", 20.0}};
   const Image before = draw_scene(scene, plain());
@@ -365,7 +365,7 @@ TEST(RenderController, ATimerThatActsIsHighlighted) {
 
 // --- Texts
 
-TEST(RenderController, TextsStandOutFromAnyBackground) {
+TEST(RenderController, Texts_ReadableOnAnyBackground) {
   SceneSnapshot scene = empty_scene();
   scene.texts = {{{2.0, 2.0}, "open", {0x20, 0x20, 0x20}, {}},
                  {{2.0, 1.0}, "closed", {0xff, 0xff, 0xff}, 3.0}};
@@ -379,7 +379,7 @@ TEST(RenderController, TextsStandOutFromAnyBackground) {
   EXPECT_LT(pixel(image, column_of(2.0), row_of(1.0) - 14)[0], 90);
 }
 
-TEST(RenderController, LongTextsAreWrappedAndKeptInsideTheView) {
+TEST(RenderController, LongTexts_WrappedInsideView) {
   SceneSnapshot scene = empty_scene();
   std::string text;
   for (int i = 0; i < 20; ++i) text += "some words \xc5\xbe ";
@@ -392,7 +392,7 @@ TEST(RenderController, LongTextsAreWrappedAndKeptInsideTheView) {
   EXPECT_LT(part[3], 200);
 }
 
-TEST(RenderController, MessagesAreShownForASecond) {
+TEST(RenderController, Messages_ShownForOneSecond) {
   SceneSnapshot scene = empty_scene();
   const Image bare = draw_scene(scene, plain());
   scene.events = {event_of(ArenaEventKind::kMessage, "timer", 9.8)};
@@ -410,7 +410,7 @@ TEST(RenderController, MessagesAreShownForASecond) {
 
 // --- Scores and the verdict
 
-TEST(RenderController, ScoresAppearOnceARobotHasPoints) {
+TEST(RenderController, Scores_ShownFromFirstPoint) {
   SceneSnapshot scene = empty_scene();
   scene.robots = {robot_at(1.0, 1.0), robot_at(3.0, 3.0)};
   scene.robots[1].name = "r2";
@@ -425,7 +425,7 @@ TEST(RenderController, ScoresAppearOnceARobotHasPoints) {
   EXPECT_NE(draw_scene(scene, plain()).rgb, draw_scene(scene, without_controller(plain())).rgb);
 }
 
-TEST(RenderController, TheVerdictIsInTheFooter) {
+TEST(RenderController, Verdict_InFooter) {
   for (const bool with_layer : {false, true}) {
     for (const bool passed : {false, true}) {
       SceneSnapshot scene = empty_scene();
@@ -457,7 +457,7 @@ TEST(RenderController, TheVerdictIsInTheFooter) {
 
 // --- Events
 
-TEST(RenderController, EventsFlashAtTheirPlaces) {
+TEST(RenderController, Events_FlashAtTheirPlaces) {
   SceneSnapshot scene = scene_with_block(BlockPhase::kRetracted, 0.0);
   scene.moving_blocks.clear();
   scene.robots = {robot_at(1.0, 1.0)};
@@ -512,7 +512,7 @@ SceneSnapshot full_scene(int round) {
   return scene;
 }
 
-TEST(RenderController, WhatIsKeptGivesTheSameBytesAsAFreshPicture) {
+TEST(RenderController, CachedPicture_SameBytesAsFresh) {
   RenderOptions options;
   options.size_px = 300;
   SceneRenderer renderer(options);
@@ -522,7 +522,7 @@ TEST(RenderController, WhatIsKeptGivesTheSameBytesAsAFreshPicture) {
   }
 }
 
-TEST(RenderController, FullScreenShowsTextsButNoTraps) {
+TEST(RenderController, FullScreen_TextsButNoTraps) {
   SceneSnapshot scene = full_scene(0);
   scene.view_mode = ViewMode::kFullScreen;
   scene.events.clear();
@@ -533,7 +533,7 @@ TEST(RenderController, FullScreenShowsTextsButNoTraps) {
   EXPECT_NE(draw_view(scene).rgb, draw_view(scene, options).rgb);
 }
 
-TEST(RenderController, TakesExtremeContents) {
+TEST(RenderController, ExtremeContents_Drawn) {
   for (const int size_px : {64, 199, 300}) {
     SceneSnapshot scene = full_scene(3);
     scene.arena.obstacles[0].center = {1e7, kNan};

@@ -57,7 +57,7 @@ RenderOptions plain() {
   return options;
 }
 
-TEST(RenderParts, ExactSizeIsKeptWhateverTheArena) {
+TEST(RenderParts, ExactSize_KeptForAnyArena) {
   for (const auto& [width, height] : {std::array{640, 480}, std::array{300, 900}, {64, 4096}}) {
     RenderOptions options;
     options.width_px = width;
@@ -76,7 +76,7 @@ TEST(RenderParts, ExactSizeIsKeptWhateverTheArena) {
   EXPECT_THROW(SceneRenderer{bad}, std::invalid_argument);
 }
 
-TEST(RenderParts, CropShowsThatPartAlone) {
+TEST(RenderParts, Crop_ShowsThatPartOnly) {
   SceneSnapshot scene = scene_of(2);  // at (0.5, 0.5) and (0.8, 0.5)
   RenderOptions options = plain();
   options.part = ScenePart{{0.0, 0.0}, {1.0, 1.0}, false};
@@ -97,7 +97,7 @@ TEST(RenderParts, CropShowsThatPartAlone) {
 
 // A robot with two arms: the floor is visible between them. 1 m is 924 px: x px = 38 + 924 x, y px
 // = 962 - 924 y. A marking under the robot, at x = 0.25 to 0.75, does not cover it.
-TEST(RenderParts, GapsOfABodyShowTheFloorAndMarkingsLieBeneathRobots) {
+TEST(RenderParts, BodyGaps_ShowFloorAndMarkingsLieBelowRobots) {
   SceneSnapshot scene = scene_of(1);  // at (0.5, 0.5)
   scene.robots[0].parts = {{{-0.1, -0.1}, {0.0, -0.1}, {0.0, 0.1}, {-0.1, 0.1}},
                            {{0.0, 0.04}, {0.1, 0.04}, {0.1, 0.1}, {0.0, 0.1}},
@@ -132,7 +132,7 @@ TEST(RenderParts, GapsOfABodyShowTheFloorAndMarkingsLieBeneathRobots) {
   EXPECT_NE(at(draw_scene(scene, options), 0.753, 0.45), floor);
 }
 
-TEST(RenderParts, ALargeWorldCanBeShownInASmallPart) {
+TEST(RenderParts, LargeWorld_CanBeCropped) {
   SceneSnapshot scene = scene_of(1);
   scene.arena.size = {20000.0, 20000.0};
   RenderOptions options = plain();
@@ -140,7 +140,7 @@ TEST(RenderParts, ALargeWorldCanBeShownInASmallPart) {
   EXPECT_TRUE(is_blue(pixel(draw_scene(scene, options), 300, 700)));
 }
 
-TEST(RenderParts, FollowKeepsTheRobotInTheMiddle) {
+TEST(RenderParts, Follow_KeepsRobotInMiddle) {
   SceneSnapshot scene = scene_of(2);
   RenderOptions options = plain();
   options.follow = "r2";
@@ -181,14 +181,14 @@ long changed_by_names(int robots) {
   return changed;
 }
 
-TEST(RenderParts, InACrowdNamesDoNotCoverEachOther) {
+TEST(RenderParts, CrowdedNames_DoNotOverlap) {
   const long few = changed_by_names(20);
   const long crowd = changed_by_names(60);
   EXPECT_GT(crowd, few / 20);
   EXPECT_LT(crowd, few);
 }
 
-TEST(RenderParts, CollisionsAndGoalsAreMarkedUnlessHidden) {
+TEST(RenderParts, CollisionsAndGoals_MarkedUnlessHidden) {
   SceneSnapshot scene = scene_of(1);
   scene.collisions = {{0, {2.0, 2.0}, 1.0}, {0, {2.0, 2.0}, 2.0}};
   scene.goals = {{0, {3.0, 3.0}, false, true}, {0, {1.0, 3.0}, true, false}};
@@ -214,7 +214,7 @@ TEST(RenderParts, CollisionsAndGoalsAreMarkedUnlessHidden) {
   EXPECT_EQ(draw_scene(scene, plain()).rgb, without.rgb);
 }
 
-TEST(RenderParts, ColoursFollowTheSourceThatIsAskedFor) {
+TEST(RenderParts, Colours_FollowRequestedSource) {
   const SceneSnapshot scene = scene_of(3);
   RenderOptions options = plain();
   const auto colour_of = [&](int robot) {
@@ -230,7 +230,7 @@ TEST(RenderParts, ColoursFollowTheSourceThatIsAskedFor) {
   EXPECT_LT(std::abs(colour_of(0)[0] - colour_of(0)[2]), 20);
 }
 
-TEST(RenderParts, AHundredLasersLeaveTheFloorLightAndColoured) {
+TEST(RenderParts, HundredLasers_LeaveFloorLightAndColoured) {
   SceneSnapshot scene = scene_of(100);
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
     RobotSnapshot& robot = scene.robots[i];
@@ -249,7 +249,7 @@ TEST(RenderParts, AHundredLasersLeaveTheFloorLightAndColoured) {
   EXPECT_GT(beside[0], beside[1] + 10);
 }
 
-TEST(RenderParts, MiniMapHidesTheLabelsOfTheRobotsUnderIt) {
+TEST(RenderParts, MiniMap_HidesRobotLabelsUnderIt) {
   SceneSnapshot scene = scene_of(1);
   scene.view_mode = ViewMode::kMiniMap;
   RenderOptions options;
@@ -271,7 +271,7 @@ TEST(RenderParts, MiniMapHidesTheLabelsOfTheRobotsUnderIt) {
 
 // --- Texts
 
-TEST(TextOutline, ReadsUtf8CharacterByCharacter) {
+TEST(TextOutline, Utf8_ReadByCharacter) {
   EXPECT_EQ(code_points("a\u017d\u20ac\U0001f916"),
             (std::vector<std::uint32_t>{'a', 0x17d, 0x20ac, 0x1f916}));
   // The text contains an invalid byte.
@@ -287,7 +287,7 @@ TEST(TextOutline, ReadsUtf8CharacterByCharacter) {
   EXPECT_EQ(whole, "k\u016f");
 }
 
-TEST(TextOutline, EveryCharacterHasAnOutlineOrABox) {
+TEST(TextOutline, EveryCharacter_HasOutlineOrBox) {
   // Czech, Greek and Cyrillic characters, and a character that European fonts do not contain.
   double width_px = 0.0;
   for (const char* text : {"\u017dlu\u0165ou\u010dk\u00fd", "\u0395\u03bb\u03bb\u03ac",
@@ -308,7 +308,7 @@ TEST(TextOutline, EveryCharacterHasAnOutlineOrABox) {
   EXPECT_TRUE(text_outline("\u00a0\t", 20.0).contours.empty());
 }
 
-TEST(TextOutline, NamesBeyondAsciiAreInThePictureAndTheSameEachTime) {
+TEST(TextOutline, NamesBeyondAscii_DrawnRepeatably) {
   SceneSnapshot scene = scene_of(1);
   scene.robots[0].name = "\u017dofie";
   scene.world_name = "\u017dlu\u0165ou\u010dk\u00fd k\u016f\u0148";
@@ -325,7 +325,7 @@ TEST(TextOutline, NamesBeyondAsciiAreInThePictureAndTheSameEachTime) {
 
 // --- Pages of charts
 
-TEST(Drawing, SameItemsAsPictureAndAsSvg) {
+TEST(Drawing, PictureAndSvg_SameItems) {
   Drawing page(200, 100);
   page.add_line({{10, 50}, {190, 50}}, {0xff, 0, 0, 0xff}, 4.0);
   page.add_line({{10, 80}, {190, 80}}, {0, 0, 0xff, 0xff}, 4.0, true);
@@ -351,7 +351,7 @@ TEST(Drawing, SameItemsAsPictureAndAsSvg) {
   EXPECT_THROW(Drawing(63, 100), std::invalid_argument);
 }
 
-TEST(Drawing, ColoursOfManyThingsDiffer) {
+TEST(Drawing, ManyColours_Differ) {
   for (std::size_t i = 0; i < 30; ++i) {
     for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(distinct_colour(i) == distinct_colour(k));
   }

@@ -121,7 +121,7 @@ ObstacleDescription block(ObstacleType type, ObstacleState state, const Vec2& ce
   return obstacle;
 }
 
-TEST(DrawScene, LongerSideHasTheSizeAskedFor) {
+TEST(DrawScene, LongerSide_HasRequestedSize) {
   for (const Vec2& size_m : {Vec2(3.42, 3.72), Vec2(20.0, 8.0), Vec2(20.0, 0.3), Vec2(0.3, 20.0)}) {
     for (const int size_px : {64, 333, 800, 2000}) {
       for (const bool legend : {false, true}) {
@@ -139,7 +139,7 @@ TEST(DrawScene, LongerSideHasTheSizeAskedFor) {
   }
 }
 
-TEST(DrawScene, RefusesASizeOutOfRange) {
+TEST(DrawScene, InvalidSize_Refused) {
   for (const int size_px : {-1, 0, 63, 8193}) {
     RenderOptions options;
     options.size_px = size_px;
@@ -147,13 +147,13 @@ TEST(DrawScene, RefusesASizeOutOfRange) {
   }
 }
 
-TEST(DrawScene, RefusesACanvasOfAnotherSize) {
+TEST(DrawScene, CanvasOfOtherSize_Refused) {
   SceneSnapshot scene = small_scene();
   scene.canvas.assign(39 * 40 * 4, 0);
   EXPECT_THROW((void)draw_scene(scene), std::invalid_argument);
 }
 
-TEST(DrawScene, FloorIsLightAndBorderBrown) {
+TEST(DrawScene, Floor_LightWithBrownBorder) {
   const Image image = draw_scene(small_scene(), plain_options());
   EXPECT_TRUE(is_light(pixel_at(image, {1.25, 2.75})));  // between the grid lines
   // The border is 0.035 m = 8 px thick and is outside of the floor.
@@ -162,7 +162,7 @@ TEST(DrawScene, FloorIsLightAndBorderBrown) {
   EXPECT_GT(border[1], border[2] + 20);
 }
 
-TEST(DrawScene, ExtendedBlocksAreFilledAndRetractedOnesAreNot) {
+TEST(DrawScene, ExtendedBlocks_FilledAndRetractedNot) {
   SceneSnapshot scene = small_scene();
   scene.arena.obstacles = {
       block(ObstacleType::kDynamic, ObstacleState::kExtended, {0.75, 3.25}),
@@ -180,7 +180,7 @@ TEST(DrawScene, ExtendedBlocksAreFilledAndRetractedOnesAreNot) {
   EXPECT_GT(corner[0], corner[1] + 30);
 }
 
-TEST(DrawScene, RobotStandsInItsColourWhereItsPoseSays) {
+TEST(DrawScene, Robot_DrawnAtPoseInItsColour) {
   SceneSnapshot scene = small_scene();
   scene.robots = {robot_at({1.2, 3.1, 0.7}, {10, 120, 200, 255})};
   const Image image = draw_scene(scene, plain_options());
@@ -188,7 +188,7 @@ TEST(DrawScene, RobotStandsInItsColourWhereItsPoseSays) {
   EXPECT_TRUE(is_light(pixel_at(image, {1.2, 0.9})));  // not mirrored: y points up
 }
 
-TEST(DrawScene, ArmsReachBeyondTheRobot) {
+TEST(DrawScene, Arms_ReachBeyondRobot) {
   SceneSnapshot scene = small_scene();
   scene.robots = {robot_at({2.0, 2.0, 0.5 * std::numbers::pi}, {10, 120, 200, 255})};
   scene.robots[0].arms = {{{0.0, 0.0}, {0.4, 0.0}, {0.4, 0.3}}};  // ahead, then to the left
@@ -201,7 +201,7 @@ TEST(DrawScene, ArmsReachBeyondTheRobot) {
   EXPECT_TRUE(is_light(pixel_at(image, {1.85, 2.3})));
 }
 
-TEST(DrawScene, CanvasLiesOnTheFloorCellByCell) {
+TEST(DrawScene, Canvas_CoversFloorCellByCell) {
   SceneSnapshot scene = small_scene();
   Canvas canvas(scene.canvas_description);
   const Vec2 place(2.35, 3.15);  // the centre of a cell of 0.1 m, which is 23.1 px wide
@@ -218,7 +218,7 @@ TEST(DrawScene, CanvasLiesOnTheFloorCellByCell) {
   EXPECT_TRUE(is_light(pixel_at(draw_scene(scene, options), place)));
 }
 
-TEST(DrawScene, WallsHaveHoles) {
+TEST(DrawScene, Walls_HaveHoles) {
   SceneSnapshot scene = small_scene();
   // A ring: outer square from 0.5 to 3.5 m, counter-clockwise; inner square from 1 to 3 m,
   // clockwise.
@@ -230,7 +230,7 @@ TEST(DrawScene, WallsHaveHoles) {
   EXPECT_TRUE(is_light(pixel_at(image, {0.25, 1.75})));
 }
 
-TEST(DrawScene, TrailAndFanAreDrawnWhenAskedForAndStayOnTheFloor) {
+TEST(DrawScene, TrailAndFan_DrawnOnRequestOnFloor) {
   SceneSnapshot scene = small_scene();
   RobotSnapshot robot = robot_at({2.0, 2.0, 0.0}, {0, 0, 255, 255});
   robot.trail = {{1.0, 2.2}, {3.2, 2.2}, {9.0, 2.2}};
@@ -254,7 +254,7 @@ TEST(DrawScene, TrailAndFanAreDrawnWhenAskedForAndStayOnTheFloor) {
   EXPECT_EQ(pixel_at(drawn, outside), pixel_at(bare, outside));
 }
 
-TEST(DrawScene, ConesRaysBumpersAndSightsAreDrawn) {
+TEST(DrawScene, ConesRaysBumpersAndViews_Drawn) {
   SceneSnapshot scene = small_scene();
   RobotSnapshot robot = robot_at({2.0, 2.0, 0.0}, {0, 0, 255, 255});
   constexpr double kPi = 3.14159265358979;
@@ -293,7 +293,7 @@ TEST(DrawScene, ConesRaysBumpersAndSightsAreDrawn) {
   EXPECT_TRUE(is_light(pixel_at(draw_scene(scene, plain_options()), {2.75, 2.3})));
 }
 
-TEST(DrawScene, ParticlesAreStrokesAndHypothesesEllipsesOfTwoDeviations) {
+TEST(DrawScene, ParticlesAndHypotheses_StrokesAndTwoSigmaEllipses) {
   SceneSnapshot scene = small_scene();
   RobotSnapshot robot = robot_at({2.0, 2.0, 0.0}, {0, 0, 255, 255});
   robot.particles = {{3.05, 3.05, 0.0}, {0.35, 3.55, 0.5 * std::numbers::pi}};
@@ -325,7 +325,7 @@ TEST(DrawScene, ParticlesAreStrokesAndHypothesesEllipsesOfTwoDeviations) {
 }
 
 // The trail's opacity is 0.8 at its newest end.
-TEST(DrawScene, TrailIsFaintWhereTheProgramDrawsItInColour) {
+TEST(DrawScene, Trail_FaintWhereProgramDraws) {
   SceneSnapshot scene = small_scene();
   RobotSnapshot robot = robot_at({0.5, 0.5, 0.0}, {0, 0, 255, 255});
   for (int i = 0; i <= 20; ++i) robot.trail.push_back({1.05 + 0.1 * i, 2.25});
@@ -354,7 +354,7 @@ TEST(DrawScene, TrailIsFaintWhereTheProgramDrawsItInColour) {
   EXPECT_GT(apart[2], 180);
 }
 
-TEST(DrawScene, FansAreFainterOnAFullCanvas) {
+TEST(DrawScene, Fans_FainterOnFullCanvas) {
   SceneSnapshot scene = small_scene();
   RobotSnapshot robot = robot_at({2.0, 2.0, 0.0}, {0, 0, 255, 255});
   robot.scan_origin = {2.0, 2.0};
@@ -377,7 +377,7 @@ TEST(DrawScene, FansAreFainterOnAFullCanvas) {
   EXPECT_NEAR(opacity(), 0.6 * on_floor, 0.01);
 }
 
-TEST(DrawScene, StalledRobotHasARedRing) {
+TEST(DrawScene, StalledRobot_HasRedRing) {
   SceneSnapshot scene = small_scene();
   scene.robots = {robot_at({2.25, 2.25, 0.0}, {0, 0, 255, 255})};
   scene.robots[0].stalled = true;
@@ -388,7 +388,7 @@ TEST(DrawScene, StalledRobotHasARedRing) {
   EXPECT_TRUE(is_red(pixel_at(image, {2.25 + radius_m, 2.25})));
 }
 
-TEST(DrawScene, NamesAndLegendChangeOnlyWhatTheyShould) {
+TEST(DrawScene, NamesAndLegend_ChangeNothingElse) {
   SceneSnapshot scene = small_scene();
   scene.robots = {robot_at({2.0, 2.0, 0.0}, {0, 0, 255, 255})};
   RenderOptions options = plain_options();
@@ -406,7 +406,7 @@ TEST(DrawScene, NamesAndLegendChangeOnlyWhatTheyShould) {
   EXPECT_TRUE(std::equal(at_0.rgb.begin(), at_0.rgb.begin() + footer, at_7.rgb.begin()));
 }
 
-TEST(DrawScene, TakesExtremeContents) {
+TEST(DrawScene, ExtremeContents_Drawn) {
   SceneSnapshot scene = small_scene();
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   RobotSnapshot lost = robot_at({kNan, 1.0, 0.0}, {1, 2, 3, 255});
@@ -420,7 +420,7 @@ TEST(DrawScene, TakesExtremeContents) {
   EXPECT_EQ(draw_scene(scene).rgb.size() % 3, 0U);
 }
 
-TEST(DrawScene, SameSceneGivesTheSameBytes) {
+TEST(DrawScene, SameScene_SameBytes) {
   const TemporaryFolder folder;
   SceneSnapshot scene = small_scene();
   scene.robots = {robot_at({2.0, 2.0, 0.4}, {0, 90, 255, 255})};
@@ -460,7 +460,7 @@ class Sequence {
   std::uint64_t state_ = 5;
 };
 
-TEST(SceneRenderer, WhatIsKeptGivesTheSameBytesAsAFreshPicture) {
+TEST(SceneRenderer, CachedPicture_SameBytesAsFresh) {
   Sequence sequence;
   RenderOptions options;
   options.size_px = 300;
@@ -518,7 +518,7 @@ TEST(SceneRenderer, WhatIsKeptGivesTheSameBytesAsAFreshPicture) {
   }
 }
 
-TEST(SceneRenderer, RefusesASizeOutOfRangeAndACanvasOfAnotherSize) {
+TEST(SceneRenderer, InvalidSizeAndCanvasOfOtherSize_Refused) {
   RenderOptions options;
   options.size_px = 63;
   EXPECT_THROW(SceneRenderer{options}, std::invalid_argument);
@@ -528,7 +528,7 @@ TEST(SceneRenderer, RefusesASizeOutOfRangeAndACanvasOfAnotherSize) {
   EXPECT_THROW((void)renderer.draw(scene), std::invalid_argument);
 }
 
-TEST(DrawView, AllModesGivePicturesOfOneSize) {
+TEST(DrawView, AllModes_SameSize) {
   for (const Vec2& size_m : {Vec2(3.42, 3.72), Vec2(20.0, 0.3), Vec2(0.3, 20.0)}) {
     for (const int size_px : {64, 300}) {
       SceneSnapshot scene = small_scene();
@@ -547,7 +547,7 @@ TEST(DrawView, AllModesGivePicturesOfOneSize) {
   }
 }
 
-TEST(DrawView, FullScreenShowsEachCellAsASquareOfItsColour) {
+TEST(DrawView, FullScreen_CellsAreSquaresOfTheirColour) {
   SceneSnapshot scene = small_scene();
   scene.view_mode = ViewMode::kFullScreen;
   Sequence sequence;
@@ -571,7 +571,7 @@ TEST(DrawView, FullScreenShowsEachCellAsASquareOfItsColour) {
   }
 }
 
-TEST(DrawView, FullScreenShowsRobotsAtTheScaleOfTheCanvas) {
+TEST(DrawView, FullScreen_RobotsAtScaleOfCanvas) {
   SceneSnapshot scene = small_scene();
   scene.view_mode = ViewMode::kFullScreen;
   scene.canvas_description.origin = {1.0, 0.5};
@@ -595,7 +595,7 @@ TEST(DrawView, FullScreenShowsRobotsAtTheScaleOfTheCanvas) {
   for (int x = 0; x < 20; ++x) EXPECT_EQ(pixel(image, x, 260), pixel(empty, x, 260)) << x;
 }
 
-TEST(DrawView, FullScreenSaysNothingOfRobotsBeyondTheCanvas) {
+TEST(DrawView, FullScreen_RobotsBeyondCanvasNotDrawn) {
   SceneSnapshot scene = small_scene();
   scene.view_mode = ViewMode::kFullScreen;
   scene.canvas_description.width = 20;  // up to x = 2 m
@@ -615,7 +615,7 @@ TEST(DrawView, FullScreenSaysNothingOfRobotsBeyondTheCanvas) {
   EXPECT_FALSE(nameless.rgb == empty.rgb);
 }
 
-TEST(DrawView, FullScreenShrinksACanvasOfMoreCellsThanPixelsByAWholeNumber) {
+TEST(DrawView, FullScreen_LargeCanvasShrunkByWholeNumber) {
   SceneSnapshot scene = small_scene();
   scene.view_mode = ViewMode::kFullScreen;
   scene.canvas_description.width = 3000;
@@ -632,7 +632,7 @@ TEST(DrawView, FullScreenShrinksACanvasOfMoreCellsThanPixelsByAWholeNumber) {
   EXPECT_NE(pixel(image, 120, 500)[1], 128);
 }
 
-TEST(DrawView, MiniMapShowsTheCanvasInTheCornerThatIsFree) {
+TEST(DrawView, MiniMap_CanvasInFreeCorner) {
   SceneSnapshot scene = small_scene();
   scene.view_mode = ViewMode::kMiniMap;
   for (int i = 0; i < 40 * 40; ++i) {
@@ -653,7 +653,7 @@ TEST(DrawView, MiniMapShowsTheCanvasInTheCornerThatIsFree) {
   }
 }
 
-TEST(DrawView, MiniMapShowsWhereRobotsAre) {
+TEST(DrawView, MiniMap_ShowsRobots) {
   SceneSnapshot scene = small_scene();
   scene.view_mode = ViewMode::kMiniMap;
   scene.canvas.assign(40 * 40 * 4, 255);
@@ -689,7 +689,7 @@ bool footer_has(const Image& image, const Rgb& colour) {
   return false;
 }
 
-TEST(DrawView, LegendNamesTheVisibleLayersButTheBase) {
+TEST(DrawView, Legend_NamesVisibleLayersExceptBase) {
   SceneSnapshot scene = small_scene();
   RenderOptions options;  // of 1000 px, with a footer of 74 px
   for (const ViewMode mode : {ViewMode::kGround, ViewMode::kMiniMap, ViewMode::kFullScreen}) {
@@ -716,7 +716,7 @@ TEST(DrawView, LegendNamesTheVisibleLayersButTheBase) {
   }
 }
 
-TEST(DrawView, LegendLeavesOutTheTopmostLayersThatHaveNoRoom) {
+TEST(DrawView, Legend_LeavesOutTopLayersWithoutRoom) {
   SceneSnapshot scene = small_scene();
   RenderOptions options;
   std::vector<LayerInfo> many;
@@ -733,7 +733,7 @@ TEST(DrawView, LegendLeavesOutTheTopmostLayersThatHaveNoRoom) {
   EXPECT_EQ(std::max(draw_view(scene, options).width, draw_view(scene, options).height), 200);
 }
 
-TEST(DrawScene, MarkedRobotStandsBetweenDarkCorners) {
+TEST(DrawScene, MarkedRobot_BetweenDarkCorners) {
   SceneSnapshot scene = small_scene();
   scene.robots = {robot_at({2.25, 2.25, 0.0}, {0, 0, 255, 255})};
   // A square around the robot, 13 pixels larger than the circle of its footprint (0.1 m each way).
@@ -748,7 +748,7 @@ TEST(DrawScene, MarkedRobotStandsBetweenDarkCorners) {
   }
 }
 
-TEST(DrawCanvas, ScalesCellsAndShowsTransparentAsWhite) {
+TEST(DrawCanvas, CellsScaledAndTransparentWhite) {
   const CanvasDescription description{
       .width = 2, .height = 2, .cell_size_m = 0.02, .origin = {0.0, 0.0}};
   Canvas canvas(description);
@@ -769,7 +769,7 @@ TEST(DrawCanvas, ScalesCellsAndShowsTransparentAsWhite) {
   }
 }
 
-TEST(DrawCanvas, RefusesABadScaleOrTooFewBytes) {
+TEST(DrawCanvas, InvalidScaleOrTooFewBytes_Refused) {
   const CanvasDescription description{
       .width = 2, .height = 2, .cell_size_m = 0.02, .origin = {0.0, 0.0}};
   const std::vector<std::uint8_t> cells(16);
@@ -790,7 +790,7 @@ Image gradient(int width, int height) {
   return image;
 }
 
-TEST(WritePng, CanBeReadBack) {
+TEST(WritePng, RoundTrips) {
   const TemporaryFolder folder;
   const std::string path = folder.file("grey.png");
   write_png(gradient(40, 3), path);
@@ -801,7 +801,7 @@ TEST(WritePng, CanBeReadBack) {
   EXPECT_EQ(read.pixels[39], 156);
 }
 
-TEST(WritePng, KeepsRedAndBlueApart) {
+TEST(WritePng, RedAndBlue_NotSwapped) {
   const TemporaryFolder folder;
   const std::string path = folder.file("red.png");
   write_png({1, 1, {200, 0, 100}}, path);
@@ -809,7 +809,7 @@ TEST(WritePng, KeepsRedAndBlueApart) {
   EXPECT_EQ(load_grey_image(path).pixels, (std::vector<std::uint8_t>{71}));
 }
 
-TEST(WritePng, ErrorNamesFileAndReason) {
+TEST(WritePng, Error_NamesFileAndReason) {
   const TemporaryFolder folder;
   const std::string path = folder.file("missing/scene.png");
   const std::string error = error_of([&] { write_png(gradient(4, 4), path); });
@@ -818,7 +818,7 @@ TEST(WritePng, ErrorNamesFileAndReason) {
   EXPECT_NE(error_of([&] { write_png(Image{}, folder.file("empty.png")); }), "");
 }
 
-TEST(LoadGreyImage, ReadsPlainAndRawPgm) {
+TEST(LoadGreyImage, PlainAndRawPgm_Read) {
   const TemporaryFolder folder;
   const std::string path = folder.file("map.pgm");
   std::ofstream(path) << "P2 # plain\n# a comment\n3 1\n15\n0 5 15\n";
@@ -829,7 +829,7 @@ TEST(LoadGreyImage, ReadsPlainAndRawPgm) {
   EXPECT_EQ(load_grey_image(path).pixels, (std::vector<std::uint8_t>{1, 32, 10, 254}));
 }
 
-TEST(LoadGreyImage, SaysWhatIsWrong) {
+TEST(LoadGreyImage, InvalidFile_Explained) {
   const TemporaryFolder folder;
   const std::string path = folder.file("map.pgm");
   const auto error_with = [&](const std::string& bytes) {
@@ -870,7 +870,7 @@ FilmContents read_film(const std::string& path) {
   return contents;
 }
 
-TEST(FilmWriter, WritesFramesThatCanBeReadBack) {
+TEST(FilmWriter, Frames_CanBeReadBack) {
   const TemporaryFolder folder;
   for (const char* name : {"film.mp4", "film.AVI"}) {
     const std::string path = folder.file(name);
@@ -886,7 +886,7 @@ TEST(FilmWriter, WritesFramesThatCanBeReadBack) {
   }
 }
 
-TEST(FilmWriter, ErrorsNameFileAndReason) {
+TEST(FilmWriter, Errors_NameFileAndReason) {
   const TemporaryFolder folder;
   EXPECT_THAT(error_of([&] { FilmWriter(folder.file("film.gif"), 25.0); }),
               HasSubstr("film.gif: cannot write the film: unknown ending \".gif\""));
@@ -897,7 +897,7 @@ TEST(FilmWriter, ErrorsNameFileAndReason) {
               HasSubstr("frames per second"));
 }
 
-TEST(FilmWriter, AWholeFilmIsFoundWholeWhateverItsLengthAndRate) {
+TEST(FilmWriter, CompleteFilm_AcceptedAtAnyLengthAndRate) {
   const TemporaryFolder folder;
   for (const char* name : {"film.mp4", "film.avi"}) {
     for (const double rate : {1.0, 7.5, 29.97, 240.0}) {
@@ -930,7 +930,7 @@ class FileSizeLimit {
   rlimit old_limit_{};
 };
 
-TEST(FilmWriter, AFilmThatTheDiskDidNotTakeIsAnError) {
+TEST(FilmWriter, TruncatedFilm_Error) {
   const TemporaryFolder folder;
   for (const char* name : {"film.mp4", "film.avi"}) {
     FilmWriter film(folder.file(name), 25.0);
@@ -951,7 +951,7 @@ TEST(FilmWriter, AFilmThatTheDiskDidNotTakeIsAnError) {
   }
 }
 
-TEST(FilmWriter, RefusesAFrameOfAnotherSize) {
+TEST(FilmWriter, FrameOfOtherSize_Refused) {
   const TemporaryFolder folder;
   FilmWriter film(folder.file("film.mp4"), 25.0);
   film.add(gradient(64, 48));
@@ -959,7 +959,7 @@ TEST(FilmWriter, RefusesAFrameOfAnotherSize) {
               HasSubstr("a frame is 64 x 50 pixels, those before were 64 x 48"));
 }
 
-TEST(FilmWriter, WritesAFolderOfPicturesAndRemovesThoseOfAnEarlierFilm) {
+TEST(FilmWriter, Folder_WrittenAndEarlierFramesRemoved) {
   const TemporaryFolder folder;
   const std::string path = folder.file("film/pictures");
   std::filesystem::create_directories(path);
@@ -982,14 +982,14 @@ TEST(FilmWriter, WritesAFolderOfPicturesAndRemovesThoseOfAnEarlierFilm) {
   EXPECT_EQ(read.at<cv::Vec3b>(10, 30)[1], 120);  // 30 * 4
 }
 
-TEST(FilmWriter, SaysWhyAFolderCannotBeMade) {
+TEST(FilmWriter, UnwritableFolder_Explained) {
   const TemporaryFolder folder;
   std::ofstream(folder.file("taken")) << "x";
   EXPECT_THAT(error_of([&] { FilmWriter(folder.file("taken"), 25.0); }),
               HasSubstr("taken: cannot write the film: "));
 }
 
-TEST(FilmWriter, TellsFilmsByTheirNames) {
+TEST(FilmWriter, Films_RecognisedByName) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.file("run.1"));
   for (const std::string& name :
@@ -1002,7 +1002,7 @@ TEST(FilmWriter, TellsFilmsByTheirNames) {
   }
 }
 
-TEST(FilmWriter, LeavesNoFileWithoutFrames) {
+TEST(FilmWriter, NoFrames_NoFile) {
   const TemporaryFolder folder;
   const std::string path = folder.file("film.mp4");
   { const FilmWriter film(path, 25.0); }
@@ -1012,13 +1012,13 @@ TEST(FilmWriter, LeavesNoFileWithoutFrames) {
   EXPECT_FALSE(std::filesystem::exists(pictures));
 }
 
-TEST(PictureModules, OneThatIsMissingIsToldWithThePlacesWhereItWasLookedFor) {
+TEST(PictureModules, MissingModule_ErrorListsSearchedPlaces) {
   EXPECT_THAT(error_of([] { static_cast<void>(modules::load_module("libplaypen_x.so", "x")); }),
               testing::AllOf(HasSubstr("libplaypen_x.so"), HasSubstr("is missing; looked for in /"),
                              HasSubstr("lib/playpen"), HasSubstr("PLAYPEN_LIBRARIES")));
 }
 
-TEST(PictureModules, AreAlsoLookedForInTheFolderThatTheEnvironmentNames) {
+TEST(PictureModules, EnvironmentFolder_Searched) {
   const TemporaryFolder folder;
   const std::string file = folder.file("libplaypen_x.so");
   std::ofstream(file) << "this is no library";
@@ -1029,7 +1029,7 @@ TEST(PictureModules, AreAlsoLookedForInTheFolderThatTheEnvironmentNames) {
   EXPECT_THAT(error, testing::AllOf(HasSubstr(file), HasSubstr("cannot be loaded")));
 }
 
-TEST(PictureModules, OneWithoutTheFunctionIsRefused) {
+TEST(PictureModules, MissingFunction_Refused) {
   EXPECT_THAT(
       error_of([] { static_cast<void>(modules::load_module("libplaypen_text.so", "no_such")); }),
       testing::AllOf(HasSubstr("libplaypen_text.so"), HasSubstr("no_such")));

@@ -52,7 +52,7 @@ bool lies_within(const Polygon& footprint, const Vec2& p) {
   return true;
 }
 
-TEST(ShippedModels, AreTheFilesOfTheFolderAndSound) {
+TEST(ShippedModels, MatchFilesAndValid) {
   std::vector<std::string> names;
   for (const ShippedModel& shipped : shipped_models()) {
     names.emplace_back(shipped.name);
@@ -81,7 +81,7 @@ TEST(ShippedModels, AreTheFilesOfTheFolderAndSound) {
 }
 
 // Robots turn about their axles, which may differ from the centres of their bodies.
-TEST(ShippedModels, TurnAndArcAboutTheirAxles) {
+TEST(ShippedModels, TurnAndArcAboutAxles) {
   for (const char* name : {"pioneer2dx", "pioneer3dx", "epuck", "omni", "roomba", "scorpion"}) {
     SCOPED_TRACE(name);
     Simulation simulation(world_with(name));
@@ -101,7 +101,7 @@ TEST(ShippedModels, TurnAndArcAboutTheirAxles) {
   }
 }
 
-TEST(Pioneers, CarryWhatTheirDataSheetsSay) {
+TEST(Pioneers, MatchDataSheets) {
   const std::vector<double> angles_deg = {90,  50,   30,   10,   -10, -30, -50, -90,
                                           -90, -130, -150, -170, 170, 150, 130, 90};
   for (const char* name : {"pioneer2dx", "pioneer3dx"}) {
@@ -141,7 +141,7 @@ TEST(Pioneers, CarryWhatTheirDataSheetsSay) {
   EXPECT_NEAR(high.y() - low.y(), 0.381, 1e-9);
 }
 
-TEST(Pioneers, TakeThe361BeamsOfTheLasersFineMode) {
+TEST(Pioneers, LaserFineMode_Has361Beams) {
   const WorldDescription world = load_world_text(
       R"({"arena": {"size": [6, 6]}, "robots": [{"model": "pioneer2dx",
           "devices": {"laser": {"beams": 361, "resolution_deg": 0.5}}}]})");
@@ -168,7 +168,7 @@ std::vector<std::uint8_t> pressed_by_wall_ahead(const std::string& yaw_deg) {
   return {};
 }
 
-TEST(Roomba, FeelsAWallAheadWithBothBumpersAndOneAsideWithThatOne) {
+TEST(Roomba, Wall_PressesBumpersOnItsSide) {
   EXPECT_THAT(pressed_by_wall_ahead("0"), ElementsAre(1, 1));
   EXPECT_THAT(pressed_by_wall_ahead("15"), ElementsAre(0, 1));  // the wall is on its right
   EXPECT_THAT(pressed_by_wall_ahead("-15"), ElementsAre(1, 0));
@@ -176,7 +176,7 @@ TEST(Roomba, FeelsAWallAheadWithBothBumpersAndOneAsideWithThatOne) {
   EXPECT_THAT(pressed_by_wall_ahead("-60"), ElementsAre(1, 0));
 }
 
-TEST(Roomba, HasALaserOf361BeamsAcrossAHalfCircle) {
+TEST(Roomba, Laser_Has361BeamsAcrossHalfCircle) {
   const auto laser = settings_of<LaserParams>(world_with("roomba"), "laser");
   EXPECT_EQ(laser.beam_count, 361);
   EXPECT_NEAR(laser.resolution_rad * 360.0, M_PI, 1e-9);
@@ -185,7 +185,7 @@ TEST(Roomba, HasALaserOf361BeamsAcrossAHalfCircle) {
 // A file cannot refer to s1r and change parts of it, so the repeated parts must stay equal.
 // The poses that the Scorpion's driver for Player ("ersp") reports, in the order of its header
 // scorpion.h; its angles in radians are -1.134, 1.134, 0, -0.611, 0.611, 0.175, -0.262, ...
-TEST(Scorpion, HasThe13RangersOfItsPlayerDriver) {
+TEST(Scorpion, Has13RangersOfPlayerDriver) {
   const WorldDescription world = world_with("scorpion");
   const auto rangers = settings_of<InfraredParams>(world, "infrared");
   const std::vector<Pose> expected = {
@@ -204,7 +204,7 @@ TEST(Scorpion, HasThe13RangersOfItsPlayerDriver) {
   EXPECT_DOUBLE_EQ(rangers.range_max_m, 0.8);
 }
 
-TEST(S1rModels, DifferFromTheS1rInWhatTheyCarryOnly) {
+TEST(S1rModels, DifferFromS1rInDevicesOnly) {
   const RobotModel s1r = s1r_model();
   for (const char* name : {"s1r_full", "s1r_sonar"}) {
     SCOPED_TRACE(name);
@@ -230,7 +230,7 @@ constexpr const char* kModel = R"({
   "devices": {"motion": {"max_speed": 1.5}, "eye": {"type": "laser", "beams": 9}}
 })";
 
-TEST(ModelFiles, AreFoundBesideTheWorldsFile) {
+TEST(ModelFiles, FoundBesideWorldFile) {
   test_support::TemporaryFolder folder;
   folder.write("robots/box.json", kModel);
   const std::string file = folder.write(
@@ -266,7 +266,7 @@ std::vector<ConfigIssue> issues_of(const std::string& model) {
   return {};
 }
 
-TEST(ModelFiles, AreToldOfOnceWithTheirOwnLines) {
+TEST(ModelFiles, Errors_ReportedOnceWithTheirLines) {
   const std::vector<ConfigIssue> issues = issues_of(
       "{\"name\": \"bad\",\n\"footprint\": [[0, 0], [1, 0], [1, 1]],\n\"hight\": 2,\n"
       "\"devices\": {\"laser\": {\"beams\": 0}}}");
@@ -279,7 +279,7 @@ TEST(ModelFiles, AreToldOfOnceWithTheirOwnLines) {
   EXPECT_EQ(issues[1].line, 4);
 }
 
-TEST(ModelFiles, CanBeReadOnTheirOwn) {
+TEST(ModelFiles, ReadAlone) {
   for (const ShippedModel& model : shipped_models()) {
     const std::string file =
         std::string(PLAYPEN_SOURCE_DIR) + "/worlds/models/" + model.name + ".json";
@@ -301,7 +301,7 @@ TEST(ModelFiles, CanBeReadOnTheirOwn) {
   EXPECT_THROW(static_cast<void>(load_model(folder / "none.json")), ConfigError);
 }
 
-TEST(ModelFiles, AreNotReadFromDevices) {
+TEST(ModelFiles, DeviceFile_NotRead) {
   try {
     static_cast<void>(load_world_text(R"({"robots": [{"model": "/dev/zero"}]})"));
     FAIL() << "a device was read";
@@ -312,7 +312,7 @@ TEST(ModelFiles, AreNotReadFromDevices) {
   }
 }
 
-TEST(ModelFiles, MustHaveAnOutlineThatASolidCanHave) {
+TEST(ModelFiles, InvalidOutline_Refused) {
   const auto id_of = [](const std::string& footprint) {
     const auto issues = issues_of(R"({"name": "bad", "footprint": )" + footprint + "}");
     return issues.size() == 1 ? issues[0].id : std::to_string(issues.size()) + " issues";

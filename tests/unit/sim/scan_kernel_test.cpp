@@ -120,7 +120,7 @@ int expect_like_reference(const ScanGeometry& geometry, const EdgeBuffer& edges,
   return met_count;
 }
 
-TEST(ScanKernelTest, SeesAWallAheadAtOneMetreOverTheCosine) {
+TEST(ScanKernelTest, WallAhead_DistanceOverCosine) {
   EdgeBuffer edges;
   edges.add(1.0F, 10.0F, 1.0F, -10.0F);  // directed downwards: its left, the solid, is x > 1
   const std::vector<double> ranges_m = scan(kHokuyo, edges, 0.0);
@@ -132,7 +132,7 @@ TEST(ScanKernelTest, SeesAWallAheadAtOneMetreOverTheCosine) {
   }
 }
 
-TEST(ScanKernelTest, BeamZeroIsTheRightmostAndTheSensorTurnsWithItsYaw) {
+TEST(ScanKernelTest, BeamZero_RightmostAndTurnsWithSensor) {
   const ScanGeometry geometry{3, 0.5 * kPi, 5.0};  // right, ahead, left
   EdgeBuffer edges;
   edges.add(1.0F, 1.0F, 1.0F, -1.0F);  // a wall in the east, 1 m away
@@ -148,14 +148,14 @@ TEST(ScanKernelTest, BeamZeroIsTheRightmostAndTheSensorTurnsWithItsYaw) {
   EXPECT_EQ(north[2], 5.0);
 }
 
-TEST(ScanKernelTest, SeesTheNearestOfSeveralEdges) {
+TEST(ScanKernelTest, SeveralEdges_NearestCounts) {
   const ScanGeometry geometry{1, 0.1, 5.0};
   EdgeBuffer edges;
   for (const float x : {3.0F, 2.0F, 4.0F}) edges.add(x, 1.0F, x, -1.0F);
   EXPECT_NEAR(scan(geometry, edges, 0.0)[0], 2.0, 2.0 * kRelativeError);
 }
 
-TEST(ScanKernelTest, IgnoresEdgesFromTheirSolidSideEdgeOnAndWithoutLength) {
+TEST(ScanKernelTest, BackEdgeOnAndEmptyEdges_Ignored) {
   EdgeBuffer edges;
   edges.add(1.0F, -1.0F, 1.0F, 1.0F);   // the solid is on the sensor's side
   edges.add(1.0F, 0.0F, 2.0F, 0.0F);    // in line with the sensor
@@ -167,7 +167,7 @@ TEST(ScanKernelTest, IgnoresEdgesFromTheirSolidSideEdgeOnAndWithoutLength) {
   EXPECT_THAT(scan(whole_turn(720), edges, 0.3), Each(5.0));
 }
 
-TEST(ScanKernelTest, ReadsRangeMaxExactlyWhereNothingIsWithinRange) {
+TEST(ScanKernelTest, NothingInRange_ReadsRangeMaxExactly) {
   const ScanGeometry geometry{682, 0.005, 4.095};
   EdgeBuffer edges;
   EXPECT_THAT(scan(geometry, edges, 1.0), Each(4.095));
@@ -175,7 +175,7 @@ TEST(ScanKernelTest, ReadsRangeMaxExactlyWhereNothingIsWithinRange) {
   EXPECT_THAT(scan(geometry, edges, 0.0), Each(4.095));
 }
 
-TEST(ScanKernelTest, ReadsZeroEverywhereInsideASolid) {
+TEST(ScanKernelTest, InsideSolid_ReadsZeroEverywhere) {
   EdgeBuffer edges;
   edges.add(1.0F, 1.0F, 1.0F, -1.0F);
   edges.inside = true;
@@ -184,7 +184,7 @@ TEST(ScanKernelTest, ReadsZeroEverywhereInsideASolid) {
   EXPECT_THAT(scan(kHokuyo, edges, 0.0), Each(5.0));
 }
 
-TEST(ScanKernelTest, AnEdgeBehindAcrossTheCutIsSeenFromBothEndsOfAWholeTurn) {
+TEST(ScanKernelTest, WholeTurn_EdgeBehindSeenAtBothEnds) {
   EdgeBuffer edges;
   edges.add(-1.0F, -1.0F, -1.0F, 1.0F);           // directed upwards: its left is x < -1
   const ScanGeometry geometry = whole_turn(361);  // beams 1 degree apart
@@ -197,14 +197,14 @@ TEST(ScanKernelTest, AnEdgeBehindAcrossTheCutIsSeenFromBothEndsOfAWholeTurn) {
   }
 }
 
-TEST(ScanKernelTest, ASingleBeamNeedsNoResolution) {
+TEST(ScanKernelTest, SingleBeam_NeedsNoResolution) {
   EdgeBuffer edges;
   edges.add(1.5F, 0.01F, 1.5F, -0.01F);
   EXPECT_NEAR(scan({1, 0.0, 5.0}, edges, 0.0)[0], 1.5, 1.5 * kRelativeError);
   EXPECT_EQ(scan({1, 0.0, 5.0}, edges, 0.5)[0], 5.0);
 }
 
-TEST(ScanKernelTest, StaysExactAlongAWallThatItNearlyTouches) {
+TEST(ScanKernelTest, GrazedWall_Exact) {
   for (const float gap_m : {0.1F, 1e-3F, 1e-6F}) {
     for (const double yaw_rad : {0.0, 0.01, 1.0, 3.1}) {
       EdgeBuffer edges;
@@ -216,7 +216,7 @@ TEST(ScanKernelTest, StaysExactAlongAWallThatItNearlyTouches) {
   }
 }
 
-TEST(ScanKernelTest, ABeamThroughACornerMeetsEitherEdgeOfIt) {
+TEST(ScanKernelTest, BeamThroughCorner_MeetsEitherEdge) {
   const ScanGeometry geometry{9, 0.25, 5.0};  // beam 4 points ahead, with no rounding
   EdgeBuffer left;
   left.add(1.0F, 1.0F, 1.0F, 0.0F);
@@ -226,7 +226,7 @@ TEST(ScanKernelTest, ABeamThroughACornerMeetsEitherEdgeOfIt) {
   EXPECT_NEAR(scan(geometry, right, 0.0)[4], 1.0, kRelativeError);
 }
 
-TEST(ScanKernelTest, TellsTheSideOfACornerBeyondSinglePrecision) {
+TEST(ScanKernelTest, CornerBeyondSinglePrecision_SideExact) {
   // Corners 2 m away whose angle equals that of a beam except for the rounding to floats, about
   // 1e-7 rad: less than the error of an angle computed in floats. The edges are to the left or
   // right.
@@ -253,7 +253,7 @@ TEST(ScanKernelTest, TellsTheSideOfACornerBeyondSinglePrecision) {
   EXPECT_LT(met_count, 700);
 }
 
-TEST(ScanKernelTest, NothingIsSeenThroughSharedCorners) {
+TEST(ScanKernelTest, SharedCorners_Opaque) {
   // Rings of short edges around the sensor, with the solid outside. Some corners are on beams:
   // exactly, or within the rounding of a float. No beam may pass through.
   Random random(20261121);
@@ -291,7 +291,7 @@ struct NamedGeometry {
 
 class ScanKernelGeometryTest : public ::testing::TestWithParam<NamedGeometry> {};
 
-TEST_P(ScanKernelGeometryTest, AgreesWithTheReferenceInRandomScenes) {
+TEST_P(ScanKernelGeometryTest, RandomScenes_MatchReference) {
   const ScanGeometry& geometry = GetParam().geometry;
   const int scenes = std::clamp(40000 / geometry.beam_count, 4, 400);
   Random random(7);
@@ -319,7 +319,7 @@ INSTANTIATE_TEST_SUITE_P(
                       NamedGeometry{"LongRange", {541, 0.0087, 60.0}}),
     [](const auto& test) { return test.param.name; });
 
-TEST(ScanKernelTest, CopiesGiveTheSameScan) {
+TEST(ScanKernelTest, Copies_GiveSameScan) {
   Random random(11);
   const EdgeBuffer edges = random_scene(random, 30);
   ScanKernel original(kHokuyo);
@@ -332,7 +332,7 @@ TEST(ScanKernelTest, CopiesGiveTheSameScan) {
   EXPECT_THAT(first, Not(Each(5.0)));
 }
 
-TEST(ScanKernelTest, ValuesThatAreNotFiniteDoNoHarm) {
+TEST(ScanKernelTest, NonFiniteValues_Harmless) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
   EdgeBuffer edges;
@@ -378,7 +378,7 @@ void add_all(EdgeBuffer& to, const EdgeBuffer& from) {
   for (const Edge& e : from.edges()) to.add(e.x0_m, e.y0_m, e.x1_m, e.y1_m);
 }
 
-TEST(ScanKernelTest, PartsWithoutWhatIsHiddenGiveTheSameBits) {
+TEST(ScanKernelTest, HiddenPartsLeftOut_SameBits) {
   Random random(5);
   std::size_t listed = 0;
   std::size_t all = 0;
@@ -429,7 +429,7 @@ TEST(ScanKernelTest, PartsWithoutWhatIsHiddenGiveTheSameBits) {
   EXPECT_GT(listed, all / 50);
 }
 
-TEST(ScanKernelTest, GroupsOfDiscsThatAreHiddenOrOutOfViewAreNotListed) {
+TEST(ScanKernelTest, HiddenOrOutOfViewDiscs_NotListed) {
   // Rows of eight robots: within reach before a wall, behind the wall, beside it, behind the
   // sensor, far away.
   DiscBuffer discs;
@@ -455,7 +455,7 @@ TEST(ScanKernelTest, GroupsOfDiscsThatAreHiddenOrOutOfViewAreNotListed) {
   }
 }
 
-TEST(ScanKernelTest, DiscsThatAreNoNumbersAreListed) {
+TEST(ScanKernelTest, NonFiniteDiscs_Listed) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   DiscBuffer discs;
   discs.add(nan, 0.0F, 0.1F);
@@ -471,7 +471,7 @@ TEST(ScanKernelTest, DiscsThatAreNoNumbersAreListed) {
   }
 }
 
-TEST(ScanKernelTest, TakesNoMemoryInSteadyState) {
+TEST(ScanKernelTest, SteadyState_NoAllocation) {
   Random random(3);
   const EdgeBuffer scene = random_scene(random, 40);
   ScanKernel kernel(kHokuyo);
@@ -492,7 +492,7 @@ TEST(ScanKernelTest, TakesNoMemoryInSteadyState) {
   EXPECT_EQ(allocation_count(), after_first);
 }
 
-TEST(EdgeBufferTest, AppendsInBulkAndGivesBackTheRest) {
+TEST(EdgeBufferTest, BulkAppend_UnusedRoomReturned) {
   EdgeBuffer edges;
   edges.add(1.0F, 2.0F, 3.0F, 4.0F);
   Edge* const room = edges.append(1000);

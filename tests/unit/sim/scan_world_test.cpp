@@ -24,7 +24,7 @@ bool near_corner(const PhysicsWorld& physics, const Vec2& p_WL, double angle_rad
   return false;
 }
 
-TEST(ScanOfTheWorld, AgreesWithRayCastOnTenThousandPosesAmongThirteenRobots) {
+TEST(ScanOfTheWorld, ThirteenRobots_MatchRayCastsAtTenThousandPoses) {
   const WorldDescription world =
       load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/thirteen_robots.json");
   PhysicsWorld physics(world.arena);
@@ -63,7 +63,7 @@ TEST(ScanOfTheWorld, AgreesWithRayCastOnTenThousandPosesAmongThirteenRobots) {
   EXPECT_LE(at_corners, beams / 500) << "of " << beams;  // 0.2 %
 }
 
-TEST(ScanOfTheWorld, LeavesOutHiddenRobotsOfACrowdWithoutADifference) {
+TEST(ScanOfTheWorld, HiddenRobotsOfCrowd_LeftOutWithoutDifference) {
   const WorldDescription world = load_world(PLAYPEN_SOURCE_DIR "/worlds/cave.json");
   const RobotModel& model = *find_robot_model(world, "pioneer2dx");
   test::Random random(2);
@@ -92,7 +92,7 @@ TEST(ScanOfTheWorld, LeavesOutHiddenRobotsOfACrowdWithoutADifference) {
   }
 }
 
-TEST(ScanOfTheWorld, CollectsOnlyWhatIsInRangeFromAHundredThousandEdges) {
+TEST(ScanOfTheWorld, HundredThousandEdges_InRangeOnlyCollected) {
   // 25 000 boxes of 0.1 m, one per metre, on 158 x 158 m.
   ArenaDescription arena;
   arena.size = {159.0, 159.0};
@@ -120,7 +120,7 @@ TEST(ScanOfTheWorld, CollectsOnlyWhatIsInRangeFromAHundredThousandEdges) {
   }
 }
 
-TEST(ScanOfTheWorld, KnowsTheInsideOfAMapsWallsAndOfTheirHoles) {
+TEST(ScanOfTheWorld, MapWalls_InsideAndHolesKnown) {
   // A square ring: outer 1..3 counter-clockwise, hole 1.5..2.5 clockwise.
   ArenaDescription arena;
   arena.size = {4.0, 4.0};

@@ -67,14 +67,14 @@ void run(Simulation& simulation, int steps) {
 constexpr const char* kBlock =
     R"("obstacles": [{"name": "block", "center": [1.8, 2], "size": [0.4, 0.4]}])";
 
-TEST(LaserReading, BeforeTheFirstScanNothingIsNear) {
+TEST(LaserReading, BeforeFirstScan_NothingNear) {
   LaserReading reading;
   reading.range_max_m = 5.0;
   EXPECT_EQ(reading.least_range_m(), 5.0);
   EXPECT_EQ(reading.least_angle_rad(), 0.0);
 }
 
-TEST(CollisionSensor, TellsAContactThatBeganAndEndedBetweenTwoReadings) {
+TEST(CollisionSensor, ContactBetweenReadings_Reported) {
   Simulation simulation(
       room(robot("r1", 1.463, 2, 0, R"({"collision": {"frequency": 1}})"), kBlock));
   drive(simulation, 0.5);
@@ -91,7 +91,7 @@ TEST(CollisionSensor, TellsAContactThatBeganAndEndedBetweenTwoReadings) {
   EXPECT_THAT(reading<CollisionReading>(simulation, "collision").objects, IsEmpty());
 }
 
-TEST(CollisionSensor, TellsAContactThatLastsInEachReading) {
+TEST(CollisionSensor, LastingContact_InEachReading) {
   Simulation simulation(room(robot("r1", 1.463, 2, 0, R"({"collision": {}})"), kBlock));
   run(simulation, 10);
   EXPECT_FALSE(reading<CollisionReading>(simulation, "collision").collision);
@@ -107,7 +107,7 @@ TEST(CollisionSensor, TellsAContactThatLastsInEachReading) {
   EXPECT_THAT(reading<CollisionReading>(simulation, "collision").objects, ElementsAre("block"));
 }
 
-TEST(CollisionSensor, NamesEachThingOnceInOrder) {
+TEST(CollisionSensor, EachObject_NamedOnceInOrder) {
   // r1 is 1 mm from the left and the bottom border, and r2 is 1 mm ahead of it. All distances are
   // below the 2 mm that count as touching.
   Simulation simulation(room(robot("r1", 0.088, 0.082, 0, R"({"collision": {}})") + "," +
@@ -119,7 +119,7 @@ TEST(CollisionSensor, NamesEachThingOnceInOrder) {
               ElementsAre("border", "r1"));
 }
 
-TEST(CollisionSensor, KnowsDockSeparatorsAndTheWallsOfAMap) {
+TEST(CollisionSensor, DockSeparatorsAndMapWalls_Named) {
   WorldDescription world = room(
       robot("r1", 0.912, 1.5, 0, R"({"collision": {}})") + "," +
           robot("r2", 3, 3, 0, R"({"collision": {}})"),
@@ -134,7 +134,7 @@ TEST(CollisionSensor, KnowsDockSeparatorsAndTheWallsOfAMap) {
 
 // --- battery
 
-TEST(BatteryLoad, GrowsWithTheSpeedOfTheWheels) {
+TEST(BatteryLoad, GrowsWithWheelSpeed) {
   BatteryParams params;
   params.idle_power_w = 6.0;
   params.drive_power_ws_per_m = 8.0;
@@ -149,14 +149,14 @@ TEST(BatteryLoad, GrowsWithTheSpeedOfTheWheels) {
   EXPECT_DOUBLE_EQ(battery_load_w(params, {0.3, 0.0, -0.4}, 0.14), 10.0);
 }
 
-TEST(BatteryVoltage, IsLinearInTheCharge) {
+TEST(BatteryVoltage, LinearInCharge) {
   const BatteryParams params;
   EXPECT_DOUBLE_EQ(battery_voltage_v(params, 0.0), 9.0);
   EXPECT_DOUBLE_EQ(battery_voltage_v(params, 0.5), 10.8);
   EXPECT_DOUBLE_EQ(battery_voltage_v(params, 1.0), 12.6);
 }
 
-TEST(Dock, HoldsWhatIsOnItsTurnedArea) {
+TEST(Dock, RotatedArea_ContainsRobot) {
   DockDescription dock;
   dock.pose = {1.0, 2.0, 30.0 * kDegrees};
   dock.size = {0.4, 0.2};
@@ -167,7 +167,7 @@ TEST(Dock, HoldsWhatIsOnItsTurnedArea) {
   EXPECT_FALSE(is_on_dock(dock, {1.0 + 0.199, 2.0 + 0.099}));  // on it without the rotation
 }
 
-TEST(Battery, DrainsWithTimeAndWithDriving) {
+TEST(Battery, DrainsWithTimeAndDriving) {
   Simulation simulation(
       room(robot("r1", 0.5, 2, 0, R"({"battery": {"capacity": 1, "initial_charge": 60}})")));
   run(simulation, 1000);
@@ -183,7 +183,7 @@ TEST(Battery, DrainsWithTimeAndWithDriving) {
   EXPECT_EQ(battery.sequence, 200U);
 }
 
-TEST(Battery, OfAStalledRobotDrainsAsIfItDrove) {
+TEST(Battery, StalledRobot_DrainsLikeDriving) {
   const std::string devices = R"({"battery": {"capacity": 1}})";
   Simulation simulation(
       room(robot("r1", 1.5, 2, 0, devices) + "," + robot("r2", 0.5, 1, 0, devices), kBlock));
@@ -196,7 +196,7 @@ TEST(Battery, OfAStalledRobotDrainsAsIfItDrove) {
             reading<BatteryReading>(simulation, "battery", 1).charge_percent);
 }
 
-TEST(Battery, FillsInADockAndNowhereElse) {
+TEST(Battery, Dock_ChargesOnlyThere) {
   Simulation simulation(
       room(robot("r1", 1, 1, 0, R"({"battery": {"capacity": 0.02, "initial_charge": 0}})"),
            R"("docks": [{"pose": {"x": 1, "y": 1, "yaw_deg": 90}}])"));
@@ -219,7 +219,7 @@ TEST(Battery, FillsInADockAndNowhereElse) {
   EXPECT_NEAR(battery.energy_wh * 3600.0, 72.0 - 0.6 - 0.65, 0.06);
 }
 
-TEST(Battery, ThatIsEmptyOnlyReadsSo) {
+TEST(Battery, Empty_RobotStillDrives) {
   Simulation simulation(
       room(robot("r1", 0.5, 2, 0, R"({"battery": {"capacity": 0.001, "initial_charge": 50}})")));
   drive(simulation, 0.5);
@@ -229,7 +229,7 @@ TEST(Battery, ThatIsEmptyOnlyReadsSo) {
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.5, 1e-9);
 }
 
-TEST(BatteryStatus, HasMorsesWords) {
+TEST(BatteryStatus, HasWordsOfMorse) {
   EXPECT_EQ(to_string(BatteryStatus::kCharged), "Charged");
   EXPECT_EQ(to_string(BatteryStatus::kCharging), "Charging");
   EXPECT_EQ(to_string(BatteryStatus::kDischarging), "Discharging");
@@ -239,7 +239,7 @@ TEST(BatteryStatus, HasMorsesWords) {
 
 using Neighbour = ProximityReading::Neighbour;
 
-TEST(Proximity, TellsRobotsWithinRangeByName) {
+TEST(Proximity, RobotsInRange_ReportedByName) {
   Simulation simulation(room(robot("me", 1, 1, 0, R"({"proximity": {}})") + "," +
                              robot("zoe", 1, 2, 0) + "," +        // exactly 1 m: near
                              robot("amy", 1.375, 1.5, 0) + "," +  // 0.375, 0.5: 0.625 m
@@ -249,7 +249,7 @@ TEST(Proximity, TellsRobotsWithinRangeByName) {
               ElementsAre(Neighbour{"amy", 0.625}, Neighbour{"zoe", 1.0}));
 }
 
-TEST(Proximity, FollowsRobotsThatDrive) {
+TEST(Proximity, DrivingRobots_Followed) {
   Simulation simulation(
       room(robot("me", 1, 1, 0, R"({"proximity": {}})") + "," + robot("far", 2.1, 1, 180)));
   drive(simulation, 0.5, 0.0, 1);
@@ -259,7 +259,7 @@ TEST(Proximity, FollowsRobotsThatDrive) {
   EXPECT_NEAR(near[0].distance_m, 1.1 - 0.25, 1e-9);
 }
 
-TEST(Proximity, TellsObstaclesThatStandThereIfAsked) {
+TEST(Proximity, Obstacles_ReportedOnRequest) {
   Simulation simulation(
       room(robot("me", 1, 1, 0, R"({"proximity": {"obstacles": true, "range": 2}})") + "," +
                robot("block", 1, 2.5, 0),
@@ -281,7 +281,7 @@ TEST(Proximity, TellsObstaclesThatStandThereIfAsked) {
 
 // --- infrared and sonar
 
-TEST(Infrared, RingSeesTheRoomRoundTheRobot) {
+TEST(Infrared, Ring_MeasuresRoom) {
   Simulation simulation(load_world_text(R"({"arena": {"size": [1, 1]}, "robots": [)" +
                                         robot("r1", 0.5, 0.5, 0, R"({"infrared": {}})") + "]}"));
   run(simulation, 10);
@@ -299,7 +299,7 @@ TEST(Infrared, RingSeesTheRoomRoundTheRobot) {
   EXPECT_EQ(ring.field_of_view_rad, 0.0);
 }
 
-TEST(Infrared, ReadsTheLimitWhereNothingIsMet) {
+TEST(Infrared, NothingMet_ReadsLimit) {
   Simulation simulation(room(robot("r1", 2, 2, 30, R"({"infrared": {"noise": 0.1}})")));
   run(simulation, 10);
   for (const double range : reading<RangerReading>(simulation, "infrared").ranges_m) {
@@ -307,7 +307,7 @@ TEST(Infrared, ReadsTheLimitWhereNothingIsMet) {
   }
 }
 
-TEST(Infrared, LooksOverWhatIsLowerThanItself) {
+TEST(Infrared, LowObjects_NotSeen) {
   const std::string sill =
       R"("obstacles": [{"name": "sill", "center": [2.5, 2], "size": [0.2, 2], "height": 0.049}])";
   const std::string mounts = R"("mounts": [{"x": 0.05}])";
@@ -321,7 +321,7 @@ TEST(Infrared, LooksOverWhatIsLowerThanItself) {
   EXPECT_NEAR(reading<RangerReading>(below, "infrared").ranges_m[0], 0.35, 1e-6);
 }
 
-TEST(Infrared, ReadsZeroInsideASolidWithThatTransducerAlone) {
+TEST(Infrared, TransducerInsideSolid_ReadsZeroAlone) {
   Simulation simulation(room(
       robot("r1", 1.4, 2, 0, R"({"infrared": {"mounts": [{"x": 0.3}, {"x": 0.1}]}})"), kBlock));
   run(simulation, 10);
@@ -330,7 +330,7 @@ TEST(Infrared, ReadsZeroInsideASolidWithThatTransducerAlone) {
   EXPECT_NEAR(ranges[1], 0.1, 1e-6);  // at x = 1.5
 }
 
-TEST(Infrared, ARobotMayHaveSeveralAndSeesOtherRobotsNotItself) {
+TEST(Infrared, Several_SeeOtherRobotsNotOwn) {
   Simulation simulation(room(robot("r1", 1, 2, 0,
                                    R"({"front": {"type": "infrared", "mounts": [{"x": -0.05}]},
                      "rear": {"type": "infrared", "mounts": [{"x": -0.05, "yaw_deg": 180}]}})") +
@@ -345,7 +345,7 @@ TEST(Infrared, ARobotMayHaveSeveralAndSeesOtherRobotsNotItself) {
 
 using Pressed = std::vector<std::uint8_t>;
 
-TEST(BumperSegments, GoRoundTheFootprint) {
+TEST(BumperSegments, SurroundFootprint) {
   const std::vector<BumperSegment> sides = segments_round(s1r_model().footprint);
   ASSERT_EQ(sides.size(), 8U);
   // The front side, from (0.087, -0.045) to (0.087, 0.045), faces ahead.
@@ -360,7 +360,7 @@ TEST(BumperSegments, GoRoundTheFootprint) {
   EXPECT_NEAR(std::abs(sides[4].X_BS.yaw_rad), std::numbers::pi, 1e-12);
 }
 
-TEST(BumperSegments, KnowHowFarAPointIs) {
+TEST(BumperSegments, DistanceToPoint_Known) {
   const BumperSegment straight{{0.2, 0.1, 0.0}, 0.1, 0.0};  // x = 0.2, y from 0.05 to 0.15
   EXPECT_NEAR(distance_to_segment_m(straight, {0.25, 0.12}), 0.05, 1e-12);
   EXPECT_NEAR(distance_to_segment_m(straight, {0.23, 0.01}), 0.05, 1e-12);  // 3, 4, 5
@@ -375,7 +375,7 @@ TEST(BumperSegments, KnowHowFarAPointIs) {
   EXPECT_NEAR(distance_to_segment_m(turned, {0.0, -0.1}), 0.2 * std::sin(22.5 * kDegrees), 1e-12);
 }
 
-TEST(BumperSegments, ArePressedWhereATouchIsNearest) {
+TEST(BumperSegments, Touch_PressesNearest) {
   // Three along x = 0.1: y from -0.15 to -0.05, to 0.05, to 0.15.
   const std::vector<BumperSegment> row = {
       {{0.1, -0.1, 0.0}, 0.1, 0.0}, {{0.1, 0.0, 0.0}, 0.1, 0.0}, {{0.1, 0.1, 0.0}, 0.1, 0.0}};
@@ -396,7 +396,7 @@ Pressed pressed(const Simulation& simulation, int robot = 0) {
   return reading<BumperReading>(simulation, "bumper", robot).pressed;
 }
 
-TEST(Bumper, FeelsAFlatWallWithItsFlatFront) {
+TEST(Bumper, FlatWall_PressesFlatFront) {
   Simulation simulation(room(robot("r1", 3.5, 2, 0, R"({"bumper": {}})")));
   run(simulation, 10);
   EXPECT_EQ(pressed(simulation), Pressed(8, 0));
@@ -411,7 +411,7 @@ TEST(Bumper, FeelsAFlatWallWithItsFlatFront) {
   EXPECT_EQ(pressed(simulation), Pressed(8, 0));
 }
 
-TEST(Bumper, TellsTheSideThatACornerTouches) {
+TEST(Bumper, Corner_PressesTouchedSide) {
   // A block whose corner (2.5, 2.02) touches the front, 2 cm left of its centre.
   const std::string tip = R"("obstacles": [{"name": "tip", "center": [)" +
                           fixed_text(2.5 + 0.2 * std::sqrt(0.5), 6) +
@@ -424,7 +424,7 @@ TEST(Bumper, TellsTheSideThatACornerTouches) {
   EXPECT_EQ(pressed(simulation), (Pressed{1, 0}));
 }
 
-TEST(Bumper, TellsATouchThatBeganAndEndedBetweenTwoReadings) {
+TEST(Bumper, TouchBetweenReadings_Reported) {
   Simulation simulation(room(robot("r1", 3.9, 2, 0, R"({"bumper": {"frequency": 1}})")));
   drive(simulation, 0.5);  // 13 mm to the border
   run(simulation, 30);
@@ -437,7 +437,7 @@ TEST(Bumper, TellsATouchThatBeganAndEndedBetweenTwoReadings) {
   EXPECT_EQ(pressed(simulation), Pressed(8, 0));
 }
 
-TEST(Bumper, FeelsOtherRobotsOnBothSides) {
+TEST(Bumper, OtherRobots_PressBothSides) {
   Simulation simulation(room(robot("r1", 1.0, 2, 0, R"({"bumper": {}})") + "," +
                              robot("r2", 1.3, 2, 0, R"({"bumper": {}})")));
   drive(simulation, 0.3);
@@ -465,7 +465,7 @@ void add_box(EdgeBuffer& edges, const Pose& X_WO, double half_x, double half_y) 
   }
 }
 
-TEST(LeastRangeInCone, IsThatOfTheFootTheSideOrTheCorner) {
+TEST(LeastRangeInCone, FootSideOrCorner_Nearest) {
   EdgeBuffer edges;
   add_box(edges, {3.0, 0.0, 0.0}, 1.0, 1.0);  // its face at x = 2, y from -1 to 1
   const auto least = [&](double yaw_deg, double field_deg) {
@@ -489,7 +489,7 @@ TEST(LeastRangeInCone, IsThatOfTheFootTheSideOrTheCorner) {
   EXPECT_DOUBLE_EQ(least_range_in_cone_m(edges.edges(), {3.0, 0.0, 0.0, 1.0}, 5.0), 5.0);
 }
 
-TEST(LeastRangeInCone, SeesThingsNarrowerThanAnyBeam) {
+TEST(LeastRangeInCone, NarrowObjects_Seen) {
   EdgeBuffer edges;
   add_box(edges, {4.0, 0.5, 0.0}, 0.0005, 0.0005);  // 1 mm wide, 0.014 degrees
   EXPECT_NEAR(least_range_in_cone_m(edges.edges(), {0, 0, 0, 30.0 * kDegrees}, 5.0),
@@ -507,7 +507,7 @@ double least_of_beams(const EdgeBuffer& edges, double yaw_rad, double field_of_v
   return *std::min_element(ranges.begin(), ranges.end());
 }
 
-TEST(LeastRangeInCone, IsThatOfBeamsAndCorners) {
+TEST(LeastRangeInCone, MatchesBeamsAndCorners) {
   RandomStream random(7, "cones");
   const auto in = [&](double low, double high) { return low + (high - low) * random.uniform(); };
   int met = 0;
@@ -537,7 +537,7 @@ TEST(LeastRangeInCone, IsThatOfBeamsAndCorners) {
   EXPECT_GT(met, 1500);
 }
 
-TEST(LeastRangeInCone, OfARayIsThatOfABeam) {
+TEST(LeastRangeInCone, ZeroWidth_MatchesBeam) {
   RandomStream random(7, "rays");
   for (int round = 0; round < 2000; ++round) {
     EdgeBuffer edges;
@@ -556,7 +556,7 @@ TEST(LeastRangeInCone, OfARayIsThatOfABeam) {
 }
 
 // Rays that end exactly at corners of a closed outline never pass through them.
-TEST(LeastRangeInCone, RaysDoNotLookThroughJoints) {
+TEST(LeastRangeInCone, Joints_Opaque) {
   EdgeBuffer edges;
   constexpr int kCorners = 360;
   const auto corner = [](int i) {
@@ -578,7 +578,7 @@ TEST(LeastRangeInCone, RaysDoNotLookThroughJoints) {
   }
 }
 
-TEST(InfraredVoltage, GoesThroughTheDataSheetsTypicalValues) {
+TEST(InfraredVoltage, MatchesTypicalValuesOfDataSheet) {
   const InfraredParams params;
   const auto voltage = [&](double range_m) {
     return infrared_voltage_v(range_m, params.voltage_gain_vm, params.voltage_shift_m);
@@ -595,7 +595,7 @@ double sonar_range(const Simulation& simulation) {
   return reading<RangerReading>(simulation, "sonar").ranges_m.at(0);
 }
 
-TEST(Sonar, ReadsTheLeastRangeWithinItsCone) {
+TEST(Sonar, LeastRangeInCone_Read) {
   // A wall 2 m ahead. At 10 degrees its foot is inside the cone.
   Simulation within(room(robot("r1", 2, 2, 10, kSonar)));
   run(within, 10);
@@ -606,7 +606,7 @@ TEST(Sonar, ReadsTheLeastRangeWithinItsCone) {
   EXPECT_NEAR(sonar_range(beside), 2.0 / std::cos(5.0 * kDegrees), 1e-6);
 }
 
-TEST(Sonar, SeesACornerThatIsInTheConeAndNotOneBesideIt) {
+TEST(Sonar, Corner_SeenOnlyInsideCone) {
   // A box on its corner: the corner that faces the robot is at (3, 2.2), 11.3 degrees to the left.
   const std::string side = fixed_text(0.4 / std::sqrt(2.0), 6);
   const auto tip = [&](double y) {
@@ -624,7 +624,7 @@ TEST(Sonar, SeesACornerThatIsInTheConeAndNotOneBesideIt) {
   EXPECT_NEAR(sonar_range(beside), 2.0, 1e-6);
 }
 
-TEST(Sonar, DefaultLooksLeftAheadAndRight) {
+TEST(Sonar, Default_LeftAheadAndRight) {
   Simulation simulation(room(robot("r1", 2, 3.5, 0, R"({"sonar": {}})")));
   run(simulation, 10);
   const auto& sonar = reading<RangerReading>(simulation, "sonar");
@@ -639,7 +639,7 @@ TEST(Sonar, DefaultLooksLeftAheadAndRight) {
   EXPECT_NEAR(sonar.field_of_view_rad, 30.0 * kDegrees, 1e-12);
 }
 
-TEST(Sonar, ScattersByItsNoise) {
+TEST(Sonar, Noise_HasDeviation) {
   Simulation simulation(room(
       robot("r1", 2, 2, 0, R"({"sonar": {"mounts": [{}], "noise": 0.02, "frequency": 100}})")));
   constexpr int kReadings = 10000;
@@ -656,7 +656,7 @@ TEST(Sonar, ScattersByItsNoise) {
   EXPECT_NEAR(std::sqrt(squares / kReadings), 0.02, 4.0 * 0.02 / std::sqrt(2.0 * kReadings));
 }
 
-TEST(Sonar, NoiseStaysWithinTheRange) {
+TEST(Sonar, Noise_StaysInRange) {
   // 2 m to the wall, and a limit of 2.01 m: half of all errors of 0.1 m would be beyond it.
   Simulation simulation(room(
       robot("r1", 2, 2, 0,
@@ -690,7 +690,7 @@ std::uint64_t hash_of_a_drive(WorldDescription world) {
   return simulation.state_hash();
 }
 
-TEST(AddedSensors, GiveEqualRunsForEqualSeeds) {
+TEST(AddedSensors, EqualSeeds_EqualRuns) {
   WorldDescription world =
       room(robot("r1", 1.2, 2, 0, kAll) + "," + robot("r2", 1.2, 2.3, -20, kAll), kBlock);
   const std::uint64_t first = hash_of_a_drive(world);
@@ -699,7 +699,7 @@ TEST(AddedSensors, GiveEqualRunsForEqualSeeds) {
   EXPECT_NE(hash_of_a_drive(world), first);
 }
 
-TEST(AddedSensors, AreInTheHash) {
+TEST(AddedSensors, IncludedInHash) {
   const auto hash = [](const std::string& devices) {
     return hash_of_a_drive(
         room(robot("r1", 1.2, 2, 0, devices) + "," + robot("r2", 1.2, 2.3, -20), kBlock));
@@ -711,7 +711,7 @@ TEST(AddedSensors, AreInTheHash) {
   EXPECT_NE(hash(R"({"sonar": {}})"), hash(R"({"sonar": {"noise": 0.01}})"));
 }
 
-TEST(AddedSensors, LeaveTheNoiseOfOthersAlone) {
+TEST(AddedSensors, NoiseOfOthers_Unchanged) {
   const std::string laser = R"("laser": {"noise": 0.01})";
   Simulation alone(room(robot("r1", 2, 2, 0, "{" + laser + "}")));
   Simulation with_sonar(room(robot("r1", 2, 2, 0, "{" + laser + R"(, "sonar": {"noise": 0.02}})")));
@@ -734,7 +734,7 @@ void PrintTo(const BadSettings& bad, std::ostream* out) { *out << bad.type << ba
 
 class BadSensor : public testing::TestWithParam<BadSettings> {};
 
-TEST_P(BadSensor, IsRefusedWithIdPlaceAndReason) {
+TEST_P(BadSensor, RefusedWithIdPlaceAndReason) {
   const BadSettings& bad = GetParam();
   try {
     static_cast<void>(
@@ -794,7 +794,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSettings{"sonar", R"({"range_max": 0})", "world/out-of-range", "/range_max", "m"},
         BadSettings{"sonar", R"({"noise": -0.1})", "world/out-of-range", "/noise", "m"}));
 
-TEST(Rangers, HaveNoMoreThan1024Transducers) {
+TEST(Rangers, AtMost1024Transducers) {
   const auto issues = [](int count) {
     std::string mounts = "{}";
     for (int i = 1; i < count; ++i) mounts += ", {}";

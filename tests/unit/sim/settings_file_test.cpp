@@ -27,7 +27,7 @@ std::vector<ConfigIssue> issues_of(const std::function<void()>& reading) {
   return {};
 }
 
-TEST(ReadSettings, HandsOverTheRootOfAFileWithComments) {
+TEST(ReadSettings, Comments_Accepted) {
   const TemporaryFolder folder;
   const std::string file = folder.write("a.json", "// why\n{\"n\": 2 /* here */}\n");
   double n = 0.0;
@@ -39,7 +39,7 @@ TEST(ReadSettings, HandsOverTheRootOfAFileWithComments) {
   EXPECT_EQ(n, 2.0);
 }
 
-TEST(ReadSettings, ThrowsAllThatTheParserRecordedInTheOrderOfLines) {
+TEST(ReadSettings, Issues_AllThrownInOrderOfLines) {
   const std::vector<ConfigIssue> issues = issues_of([] {
     read_settings_text("{\n\"a\": 1,\n\"n\": \"x\"}", "t.json", "task", [](Reader& root) {
       static_cast<void>(root.number("n", 0.0));
@@ -54,7 +54,7 @@ TEST(ReadSettings, ThrowsAllThatTheParserRecordedInTheOrderOfLines) {
   EXPECT_EQ(issues[1].file, "t.json");
 }
 
-TEST(ReadSettings, CallsTheFileWhatItIs) {
+TEST(ReadSettings, Kind_NamedInErrors) {
   const auto nothing = [](Reader&) { FAIL() << "there is nothing to parse"; };
   const TemporaryFolder folder;
   const auto missing = issues_of([&] { read_settings(folder / "no.json", "task", nothing); });
@@ -71,7 +71,7 @@ TEST(ReadSettings, CallsTheFileWhatItIs) {
   EXPECT_THAT(more[0].hint, HasSubstr("a task file holds one object"));
 }
 
-TEST(ReadSettings, RefusesTextsBeyondTheLimit) {
+TEST(ReadSettings, LongText_Refused) {
   const auto issues = issues_of([] {
     read_settings_text(std::string((16U << 20U) + 1, ' '), "t.json", "task", [](Reader&) {});
   });

@@ -86,7 +86,7 @@ void run(Simulation& simulation, int steps) {
   for (int i = 0; i < steps; ++i) simulation.step();
 }
 
-TEST(Shapes, LaserSeesACircleExactly) {
+TEST(Shapes, Circle_LaserExact) {
   Simulation simulation(three_shapes(R"({"laser": {"noise": 0, "range_max": 6}})"));
   run(simulation, 20);
   const LaserReading& scan = device<Laser>(simulation, 0, "laser").reading();
@@ -104,7 +104,7 @@ TEST(Shapes, LaserSeesACircleExactly) {
   EXPECT_NEAR(met, 2.0 * std::asin(0.4 / (3.0 - X_WL.x_m)) / scan.resolution_rad, 2.0);
 }
 
-TEST(Shapes, ScansAgreeWithRayCastsInSmallAndLargeWorlds) {
+TEST(Shapes, Scans_MatchRayCastsInSmallAndLargeWorlds) {
   for (const int boxes : {0, 200}) {
     std::vector<ObstacleDescription> obstacles{circle("c", {3, 1}, 0.4),
                                                polygon("wedge", {1, 3}, {{0, 0}, {1, 0}, {0, 1}}),
@@ -138,7 +138,7 @@ TEST(Shapes, ScansAgreeWithRayCastsInSmallAndLargeWorlds) {
   }
 }
 
-TEST(Shapes, InsideIsExact) {
+TEST(Shapes, Inside_Exact) {
   const PhysicsWorld physics(
       floor_of(6.0, {circle("c", {3, 1}, 0.4), polygon("notch", {3, 3.5}, kNotch),
                      polygon("wedge", {1, 3}, {{0, 0}, {1, 0}, {0, 1}})}));
@@ -153,7 +153,7 @@ TEST(Shapes, InsideIsExact) {
   EXPECT_FALSE(physics.is_inside_solid({1.6, 3.6}, 0.1, -1));
 }
 
-TEST(Shapes, LinesOfSightPassACircleByAHair) {
+TEST(Shapes, LinesOfSight_PassCircleClosely) {
   const PhysicsWorld physics(floor_of(6.0, {circle("c", {3, 3}, 0.5)}));
   const auto is_free = [&](double y) {
     return physics.is_line_free({1, y}, {5, y}, 0.1, -1, kNothing);
@@ -169,7 +169,7 @@ TEST(Shapes, LinesOfSightPassACircleByAHair) {
   EXPECT_FALSE(physics.is_line_free({2.4995, 3}, {5, 3}, 0.1, -1, kNothing));
 }
 
-TEST(Shapes, SonarAndInfraredReadTheDistanceToACircle) {
+TEST(Shapes, SonarAndInfrared_MeasureCircle) {
   // Sonar 1 looks ahead from 0.081 m before the axle's centre, with a cone of 30 degrees.
   Simulation simulation(three_shapes(
       R"({"sonar": {"type": "sonar", "noise": 0}, "infrared": {"type": "infrared", "noise": 0, "range_max": 2}})"));
@@ -180,7 +180,7 @@ TEST(Shapes, SonarAndInfraredReadTheDistanceToACircle) {
               1e-9);
 }
 
-TEST(Shapes, BlobfinderSeesACircleBetweenItsTangents) {
+TEST(Shapes, Blobfinder_SeesCircleBetweenTangents) {
   Simulation simulation(three_shapes(
       R"({"blobfinder": {"image": [200, 100], "field_of_view_deg": 60, "noise": 0, "pose": {"x": 0}, "height": 0.1}})"));
   run(simulation, 20);
@@ -200,7 +200,7 @@ TEST(Shapes, BlobfinderSeesACircleBetweenItsTangents) {
   EXPECT_NEAR(blob.range_m, sum_m / 70.0, 1e-9);
 }
 
-TEST(Shapes, CameraSeesTheTopOfALowCircle) {
+TEST(Shapes, Camera_SeesTopOfLowCircle) {
   Simulation simulation(three_shapes(
       R"({"camera": {"image": [200, 100], "field_of_view_deg": 60, "pose": {"x": 0}, "height": 0.3}})"));
   run(simulation, 20);
@@ -218,7 +218,7 @@ TEST(Shapes, CameraSeesTheTopOfALowCircle) {
   EXPECT_FALSE(is_red(100, 58));
 }
 
-TEST(Shapes, FiducialOfACircleIsSeenBehindNothing) {
+TEST(Shapes, Fiducial_OfCircleSeenUnlessHidden) {
   Simulation simulation(three_shapes(
       R"({"fiducial": {"noise": 0, "noise_bearing_deg": 0, "noise_yaw_deg": 0, "pose": {"x": 0}}})"));
   run(simulation, 30);
@@ -230,7 +230,7 @@ TEST(Shapes, FiducialOfACircleIsSeenBehindNothing) {
 
 // --- physics
 
-TEST(Shapes, RobotStopsInFrontOfACircle) {
+TEST(Shapes, Robot_StopsAtCircle) {
   PhysicsWorld world(floor_of(6.0, {circle("c", {3, 3}, 0.3)}));
   world.add_robot(s1r_model(), {2.0, 3.0, 0.0});
   world.set_target(0, {0.5, 0.0, 0.0});
@@ -246,7 +246,7 @@ TEST(Shapes, RobotStopsInFrontOfACircle) {
   EXPECT_NEAR((touches[0].p_WA - Vec2(2.7, 3.0)).norm(), 0.0, 2e-3);
 }
 
-TEST(Shapes, RobotIsTurnedAwayByACircleThatItGrazes) {
+TEST(Shapes, GrazedCircle_TurnsRobot) {
   for (const double radius_m : {0.05, 0.3, 1.0}) {
     PhysicsWorld world(floor_of(8.0, {circle("c", {4, 4}, radius_m)}));
     const double start_x = 4.0 - radius_m - 0.4;
@@ -264,7 +264,7 @@ TEST(Shapes, RobotIsTurnedAwayByACircleThatItGrazes) {
   }
 }
 
-TEST(Shapes, RobotsAtRandomNeverSinkIntoCircles) {
+TEST(Shapes, RandomRobots_DoNotOverlapCircles) {
   std::vector<ObstacleDescription> obstacles;
   Random random(5);
   for (int i = 0; i < 12; ++i) {
@@ -291,7 +291,7 @@ TEST(Shapes, RobotsAtRandomNeverSinkIntoCircles) {
   EXPECT_LT(deepest_m, 0.002) << "some touched";
 }
 
-TEST(Shapes, SpinningBesideALargeCircleDoesNotSinkIn) {
+TEST(Shapes, SpinBesideLargeCircle_DoesNotOverlap) {
   for (const double radius_m : {0.1, 0.5, 1.0, 3.0}) {
     PhysicsWorld world(floor_of(12.0, {circle("c", {6, 6}, radius_m)}));
     world.add_robot(s1r_model(), {6.0 - radius_m - 0.2, 6.0, 0.0});
@@ -307,7 +307,7 @@ TEST(Shapes, SpinningBesideALargeCircleDoesNotSinkIn) {
   }
 }
 
-TEST(Shapes, RobotDrivesIntoANotchAndStopsAtItsEnd) {
+TEST(Shapes, Notch_RobotStopsAtItsEnd) {
   PhysicsWorld world(floor_of(6.0, {polygon("notch", {2, 2}, kNotch)}));
   world.add_robot(s1r_model(), {2.7, 4.0, -0.5 * kPi});
   world.set_target(0, {0.4, 0.0, 0.0});
@@ -318,7 +318,7 @@ TEST(Shapes, RobotDrivesIntoANotchAndStopsAtItsEnd) {
   EXPECT_FALSE(world.contacts_of(0).empty());
 }
 
-TEST(Shapes, RobotSlidesAlongAPolygonOfManySides) {
+TEST(Shapes, PolygonOfManySides_RobotSlidesAlong) {
   // A disc of 40 sides: the joints between its sides do not stop a robot.
   Polygon outline;
   for (int i = 0; i < 40; ++i) {
@@ -336,7 +336,7 @@ TEST(Shapes, RobotSlidesAlongAPolygonOfManySides) {
   EXPECT_GT(world.body(0).X_WB.x_m, 3.0);
 }
 
-TEST(Shapes, ClearanceIsTheDistanceToTheOutline) {
+TEST(Shapes, Clearance_DistanceToOutline) {
   PhysicsWorld world(
       floor_of(8.0, {circle("c", {5, 4}, 0.3), polygon("notch", {3.4, 0.5}, kNotch)}));
   world.add_robot(s1r_model(), {4.0, 4.0, 0.0});
@@ -345,7 +345,7 @@ TEST(Shapes, ClearanceIsTheDistanceToTheOutline) {
   EXPECT_NEAR(world.clearance_m(0, 3.0, 3.0), 0.5 - 0.087, 1e-5);
 }
 
-TEST(Shapes, RobotWithinIsExactExceptForTheSkins) {
+TEST(Shapes, RobotWithin_ExactExceptForSkins) {
   PhysicsWorld world(floor_of(8.0, {}));
   world.add_robot(s1r_model(), {4.0, 4.0, 0.0});
   EXPECT_EQ(world.robot_within(circle("c", {4.387 + 0.003, 4.0}, 0.3)), -1);
@@ -360,7 +360,7 @@ TEST(Shapes, RobotWithinIsExactExceptForTheSkins) {
 
 // --- simulations
 
-TEST(Shapes, ADynamicCircleAndPolygonWaitForTheRobotOnThem) {
+TEST(Shapes, DynamicCircleAndPolygon_RefuseToRiseUnderRobot) {
   for (
       const char* shape :
       {R"("shape": "circle", "radius": 0.3)",
@@ -380,7 +380,7 @@ TEST(Shapes, ADynamicCircleAndPolygonWaitForTheRobotOnThem) {
   }
 }
 
-TEST(Shapes, SizesScaleCirclesAndPolygons) {
+TEST(Shapes, Size_ScalesCirclesAndPolygons) {
   Simulation simulation(three_shapes("{}"));
   EXPECT_EQ(simulation.find_object("pillar")->size, Vec2(0.8, 0.8));
   EXPECT_THAT(simulation.set_block_size("pillar", {1.0, 0.9}, 0.2).value(), HasSubstr("a circle"));
@@ -393,7 +393,7 @@ TEST(Shapes, SizesScaleCirclesAndPolygons) {
   EXPECT_THAT(simulation.set_block_size("wedge", {2.0, 1e-3}, 0.2).value(), HasSubstr("0.001"));
 }
 
-TEST(Shapes, BumperAndCollisionSensorFeelACircle) {
+TEST(Shapes, BumperAndCollisionSensor_FeelCircle) {
   Simulation simulation(three_shapes(R"({"bumper": {}, "collision": {}})"));
   const int motion = simulation.find_device(0, "motion").value();
   ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.4, 0.0, 0.0}}));
@@ -410,7 +410,7 @@ TEST(Shapes, BumperAndCollisionSensorFeelACircle) {
               testing::ElementsAre("pillar"));
 }
 
-TEST(Shapes, GripperTakesAPuckThatOthersStillSee) {
+TEST(Shapes, GrippedPuck_VisibleToOthers) {
   Simulation simulation(three_shapes(
       R"({"gripper": {"length": 0.08, "opening": 0.12, "travel_time": 1}})",
       R"(, {"name": "r2", "pose": {"x": 1.5, "y": 2, "yaw_deg": -90}, "devices": {"laser": {"noise": 0}}})"));
@@ -448,7 +448,7 @@ TEST(Shapes, GripperTakesAPuckThatOthersStillSee) {
   EXPECT_LT(simulation.world().arena.obstacles[3].carried_by, 0);
 }
 
-TEST(Shapes, ReachAcrossFollowsTheOutline) {
+TEST(Shapes, ReachAcross_FollowsOutline) {
   const auto round = reach_across({0.1, 0.05, 0.3}, circle("c", {0, 0}, 0.05), 0.13, 0.2);
   ASSERT_TRUE(round);
   EXPECT_NEAR(round->first, 0.05 - 0.04, 1e-12);  // 0.03 m beside the centre: a half chord of 0.04
@@ -461,7 +461,7 @@ TEST(Shapes, ReachAcrossFollowsTheOutline) {
   EXPECT_NEAR(wedge->second, 0.5, 1e-12);
 }
 
-TEST(Shapes, TrueMapHasEachCellThatAShapeReachesInto) {
+TEST(Shapes, TrueMap_HasEachTouchedCell) {
   const ArenaDescription arena =
       floor_of(4.0, {circle("c", {1.03, 1.01}, 0.47), polygon("n", {2, 2}, kNotch, 0.3)});
   CanvasDescription grid;
@@ -500,7 +500,7 @@ TEST(Shapes, TrueMapHasEachCellThatAShapeReachesInto) {
   }
 }
 
-TEST(Shapes, SnapshotsRestoreThem) {
+TEST(Shapes, Snapshots_RestoreShapes) {
   const auto make = [] {
     return Simulation(three_shapes(R"({"laser": {}, "sonar": {"type": "sonar"}})",
                                    R"(, {"name": "r2", "pose": {"x": 1.5, "y": 2}})"));
@@ -539,7 +539,7 @@ int red_pixels(const std::string& shape) {
   return count;
 }
 
-TEST(Shapes, PicturesShowTheirAreas) {
+TEST(Shapes, Pictures_ShowAreas) {
   const double box = red_pixels(R"("size": [1.4, 1.2])");
   ASSERT_GT(box, 10'000.0);
   // Pixels at the edge count by halves: 1 % is several times their part of the area.

@@ -62,7 +62,7 @@ std::string wiring_error(const std::string& first) {
 
 // --- digital lines
 
-TEST(Dio, ShowsConstantsAndItsRobotsState) {
+TEST(Dio, ConstantsAndRobotState_Read) {
   Simulation simulation = two_robots(R"("dio": {"inputs": [true, false, "dock", "contact"]})");
   run(simulation, 10);
   const Dio& dio = device<Dio>(simulation, 0, "dio");
@@ -77,7 +77,7 @@ TEST(Dio, ShowsConstantsAndItsRobotsState) {
   EXPECT_EQ(dio.reading().inputs & 0b1000U, 0b1000U);
 }
 
-TEST(Dio, SetsItsFirstOutputsAndKeepsTheOthers) {
+TEST(Dio, FirstOutputs_SetAndOthersKept) {
   Simulation simulation = two_robots(R"("dio": {"outputs": 3})");
   const auto id = id_of(simulation, 0, "dio");
   ASSERT_FALSE(simulation.apply(id, DigitalOutputCommand{3, 0b101U}));
@@ -89,7 +89,7 @@ TEST(Dio, SetsItsFirstOutputsAndKeepsTheOthers) {
 }
 
 // A robot's output appears at the other's input in the same step, in either order of robots.
-TEST(Dio, WiresLeadFromRobotToRobot) {
+TEST(Dio, Wires_ConnectRobots) {
   Simulation simulation =
       two_robots(R"("dio": {"inputs": ["r2.dio.1"], "frequency": 100})",
                  R"("dio": {"inputs": ["r1.dio.0", "dio.1"], "frequency": 100})");
@@ -103,7 +103,7 @@ TEST(Dio, WiresLeadFromRobotToRobot) {
   EXPECT_EQ(device<Dio>(simulation, 1, "dio").reading().inputs, 0U);
 }
 
-TEST(Dio, RefusesWiresThatEndNowhere) {
+TEST(Dio, WiresToNothing_Refused) {
   EXPECT_THAT(wiring_error(R"("dio": {"inputs": ["r2.dio.0"]})"),
               HasSubstr("/robots/0/devices/dio"));
   EXPECT_THAT(wiring_error(R"("dio": {"inputs": ["dio.8"]})"), HasSubstr("dio.8"));
@@ -126,7 +126,7 @@ TEST(Dio, RefusesWiresThatEndNowhere) {
 
 // --- analog lines
 
-TEST(Aio, ShowsConstantsSpeedsBatteryRangesAndOutputs) {
+TEST(Aio, ConstantsSpeedsBatteryRangesAndOutputs_Read) {
   Simulation simulation = two_robots(
       R"("battery": {"initial_charge": 100, "idle_power": 0}, "abc": {"type": "aio", "inputs":
          [5, "speed", "battery", "laser.341", "abc.1", "r2.aio.0", "turn_rate"]})",
@@ -152,7 +152,7 @@ TEST(Aio, ShowsConstantsSpeedsBatteryRangesAndOutputs) {
   EXPECT_NEAR(device<Aio>(simulation, 0, "abc").reading().inputs_v[6], 0.5, 1e-9);
 }
 
-TEST(Aio, ScattersByItsNoise) {
+TEST(Aio, Noise_HasDeviation) {
   Simulation simulation =
       two_robots(R"("aio": {"inputs": [3, 3], "noise": 0.2, "frequency": 100})");
   constexpr int kReadings = 10000;
@@ -177,7 +177,7 @@ TEST(Aio, ScattersByItsNoise) {
 
 // --- speech
 
-TEST(Speech, StandsOverTheRobotForItsTime) {
+TEST(Speech, ShownOverRobotForItsTime) {
   std::vector<std::string> log;
   Simulation simulation =
       two_robots(R"("speech": {"shown": 0.5})", "", "",
@@ -206,7 +206,7 @@ TEST(Speech, StandsOverTheRobotForItsTime) {
 
 // --- lights
 
-TEST(Blinkenlight, IsLitForItsShareOfEachPeriod) {
+TEST(Blinkenlight, LitForDutyCycleOfEachPeriod) {
   const auto ms = [](int t) { return from_seconds(t / 1000.0); };
   EXPECT_TRUE(is_lit(0.5, 0.4, ms(0)));
   EXPECT_TRUE(is_lit(0.5, 0.4, ms(199)));
@@ -218,7 +218,7 @@ TEST(Blinkenlight, IsLitForItsShareOfEachPeriod) {
   EXPECT_TRUE(is_lit(0.5, 1.0, ms(499)));  // always
 }
 
-TEST(Blinkenlight, ChangesWhatItIsToldAndNothingElse) {
+TEST(Blinkenlight, Commands_ChangeGivenPartsOnly) {
   Simulation simulation = two_robots(R"("blinkenlight": {"period": 0, "colour": "#010203"})");
   const auto id = id_of(simulation, 0, "blinkenlight");
   const Blinkenlight& light = device<Blinkenlight>(simulation, 0, "blinkenlight");
@@ -252,7 +252,7 @@ std::string text_of(const OpaqueReading& reading) {
 
 OpaqueCommand message(const std::string& text) { return {{text.begin(), text.end()}}; }
 
-TEST(Opaque, EchoesWhatItSendsUnlessItHearsOthers) {
+TEST(Opaque, SentMessage_EchoedUnlessConnected) {
   Simulation simulation = two_robots(R"("opaque": {})", R"("opaque": {"from": ["r1"]})");
   const Opaque& first = device<Opaque>(simulation, 0, "opaque");
   const Opaque& second = device<Opaque>(simulation, 1, "opaque");
@@ -269,7 +269,7 @@ TEST(Opaque, EchoesWhatItSendsUnlessItHearsOthers) {
   EXPECT_EQ(second.reading().lost, 0U);
 }
 
-TEST(Opaque, ArrivesInTheSameStepWhoeverComesFirst) {
+TEST(Opaque, Arrival_InSameStepInAnyOrder) {
   Simulation simulation = two_robots(R"("opaque": {"from": ["r2"], "frequency": 100})",
                                      R"("opaque": {"from": ["r1.opaque"], "frequency": 100})");
   for (int i = 0; i < 5; ++i) {
@@ -282,7 +282,7 @@ TEST(Opaque, ArrivesInTheSameStepWhoeverComesFirst) {
   }
 }
 
-TEST(Opaque, LosesTheOldestWhenTheQueueIsFull) {
+TEST(Opaque, FullQueue_DropsOldest) {
   Simulation simulation = two_robots(R"("opaque": {})");
   const auto id = id_of(simulation, 0, "opaque");
   for (std::size_t i = 0; i < Opaque::kMaxQueue + 3; ++i) {
@@ -305,7 +305,7 @@ double range_ahead(Simulation& simulation) {
   return device<Laser>(simulation, 0, "laser").reading().ranges_m[341];
 }
 
-TEST(PlaceObject, MovesABlockForSensorsAndWheels) {
+TEST(PlaceObject, MovedBlock_AffectsSensorsAndWheels) {
   Simulation simulation = two_robots("", "", kBlock);
   const std::uint64_t before = simulation.state_hash();
   // The laser is at 1.035, the block's near side at 1.4. Beam 341 is 0.2 degrees off straight
@@ -333,7 +333,7 @@ TEST(PlaceObject, MovesABlockForSensorsAndWheels) {
   EXPECT_NEAR(range_ahead(simulation), 0.365, 1e-4);
 }
 
-TEST(PlaceObject, RefusesWhatCannotBe) {
+TEST(PlaceObject, InvalidPlaces_Refused) {
   Simulation simulation = two_robots("", "", kBlock);
   EXPECT_THAT(simulation.place_object("b", {1.0, 1.0, 0.0}).value(), HasSubstr("robot r1"));
   EXPECT_THAT(simulation.place_object("b", {4.0, 1.0, 0.0}).value(), HasSubstr("right side"));
@@ -359,7 +359,7 @@ TEST(PlaceObject, RefusesWhatCannotBe) {
               HasSubstr("stands on it"));
 }
 
-TEST(Fiducials, AreStateUntilAReset) {
+TEST(Fiducials, Reset_RestoresNumbers) {
   Simulation simulation = two_robots("", "", kBlock);
   const std::uint64_t before = simulation.state_hash();
   ASSERT_FALSE(simulation.set_object_fiducial("b", 5));
@@ -374,7 +374,7 @@ TEST(Fiducials, AreStateUntilAReset) {
   EXPECT_EQ(simulation.state_hash(), before);
 }
 
-TEST(PlaceObject, LetsARobotsMotorsGoOn) {
+TEST(PlaceObject, Motors_KeepDriving) {
   Simulation simulation = two_robots("");
   ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{0.2, 0.0}}));
   run(simulation, 10);
@@ -404,7 +404,7 @@ bool has_colour(const render::Image& image, Colour colour) {
   return false;
 }
 
-TEST(Pictures, ShowWhatRobotsSayAndTheirLights) {
+TEST(Pictures, ShowSpeechAndLights) {
   Simulation simulation = two_robots(R"("speech": {}, "blinkenlight": {"period": 0})", "", kBlock);
   const render::Image quiet = render::draw_view(simulation.snapshot(), {.size_px = 600});
   ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "speech"), SayCommand{"hello"}));
@@ -425,7 +425,7 @@ TEST(Pictures, ShowWhatRobotsSayAndTheirLights) {
   EXPECT_GT(changed(quiet, render::draw_view(simulation.snapshot(), {.size_px = 600})), 20);
 }
 
-TEST(Pictures, ShowABlocksOwnColour) {
+TEST(Pictures, ShowBlockColour) {
   Simulation simulation = two_robots("", "", kBlock);
   render::SceneRenderer renderer({.size_px = 600});
   constexpr Colour kOwn{0x12, 0x34, 0x56, 0xff};
@@ -435,7 +435,7 @@ TEST(Pictures, ShowABlocksOwnColour) {
 }
 
 // Pictures must cope with any text at any place.
-TEST(Pictures, TakeAnyText) {
+TEST(Pictures, AnyText_Drawn) {
   Simulation simulation = two_robots(R"("speech": {})");
   SceneSnapshot scene = simulation.snapshot();
   for (const std::string& text :

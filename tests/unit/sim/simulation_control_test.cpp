@@ -93,7 +93,7 @@ int steps_until_over(Simulation& simulation, int limit) {
 // --- Waypoint
 // ----------------------------------------------------------------------------------
 
-TEST(WaypointTwist, TurnsToTheGoalDrivesAndSlowsDown) {
+TEST(WaypointTwist, TurnsDrivesAndSlowsDown) {
   const WaypointParams params;  // gains 4 and 2 a second, at most 2 rad/s
   const auto twist = [&](double x, double y) {
     return waypoint_twist({0.0, 0.0, 0.0}, {{x, y}, 0.1, 0.4}, params);
@@ -113,14 +113,14 @@ TEST(WaypointTwist, TurnsToTheGoalDrivesAndSlowsDown) {
   EXPECT_EQ(twist(-1.0, -1e-3).omega_radps, -2.0);  // the shorter turn
 }
 
-TEST(WaypointTwist, KnowsWhereTheRobotLooks) {
+TEST(WaypointTwist, RobotHeading_Used) {
   // At (1, 1) facing along y, the goal is 0.5 m straight ahead.
   const Twist twist = waypoint_twist({1.0, 1.0, 0.5 * kPi}, {{1.0, 1.5}, 0.1, 0.3}, {});
   EXPECT_DOUBLE_EQ(twist.v_mps, 0.3);
   EXPECT_NEAR(twist.omega_radps, 0.0, 1e-12);
 }
 
-TEST(Waypoint, ReachesAGoalAheadInTheExpectedTime) {
+TEST(Waypoint, GoalAhead_ReachedInExpectedTime) {
   Simulation simulation(room());
   EXPECT_EQ(waypoint(simulation).status(), WaypointStatus::kArrived);
   EXPECT_EQ(waypoint(simulation).goal_number(), 0U);
@@ -141,7 +141,7 @@ TEST(Waypoint, ReachesAGoalAheadInTheExpectedTime) {
   EXPECT_EQ(simulation.body(0).twist, Twist{});
 }
 
-TEST(Waypoint, ReachesGoalsOnAllSidesWithinTheirTolerance) {
+TEST(Waypoint, GoalsOnAllSides_ReachedWithinTolerance) {
   for (const double angle : {0.7, 0.5 * kPi, 2.5, kPi, -2.0, -0.5 * kPi, -0.3}) {
     Simulation simulation(room());
     command(simulation, "teleport", PlaceCommand{{2.0, 2.0, 0.4}});
@@ -155,14 +155,14 @@ TEST(Waypoint, ReachesGoalsOnAllSidesWithinTheirTolerance) {
   }
 }
 
-TEST(Waypoint, IsLimitedByTheMotors) {
+TEST(Waypoint, Motors_LimitSpeed) {
   Simulation simulation(room(R"("motion": {"max_speed": 0.2})"));
   command(simulation, "waypoint", GotoCommand{{3.0, 2.0}});  // requests 1 m/s
   run(simulation, 10);
   EXPECT_DOUBLE_EQ(simulation.body(0).twist.v_mps, 0.2);
 }
 
-TEST(Waypoint, HasArrivedAtOnceWhereTheGoalIsNearEnough) {
+TEST(Waypoint, NearGoal_ReachedAtOnce) {
   Simulation simulation(room());
   drive(simulation, 0.3, 0.0);
   command(simulation, "waypoint", GotoCommand{{1.2, 2.0}, 0.5, 1.0});
@@ -173,7 +173,7 @@ TEST(Waypoint, HasArrivedAtOnceWhereTheGoalIsNearEnough) {
   EXPECT_EQ(simulation.body(0).X_WB, (Pose{1.0, 2.0, 0.0}));
 }
 
-TEST(Waypoint, StopsAndGoesOn) {
+TEST(Waypoint, StopAndResume_Work) {
   Simulation simulation(room());
   command(simulation, "waypoint", GotoCommand{{2.5, 2.0}, 0.1, 0.4});
   run(simulation, 100);
@@ -191,7 +191,7 @@ TEST(Waypoint, StopsAndGoesOn) {
   EXPECT_EQ(waypoint(simulation).goal_number(), 1U);
 }
 
-TEST(Waypoint, ALaterTwistEndsTheTransitAndALaterGoalTheTwist) {
+TEST(Waypoint, LaterCommand_ReplacesEarlier) {
   Simulation simulation(room());
   command(simulation, "waypoint", GotoCommand{{3.0, 2.0}, 0.1, 0.4});
   run(simulation, 50);
@@ -212,7 +212,7 @@ TEST(Waypoint, ALaterTwistEndsTheTransitAndALaterGoalTheTwist) {
   EXPECT_EQ(simulation.body(0).twist.omega_radps, 2.0);
 }
 
-TEST(Waypoint, TheLaterOfTwoWaypointDevicesSteers) {
+TEST(Waypoint, TwoDevices_LaterCommandSteers) {
   Simulation simulation(room(R"("other": {"type": "waypoint"})"));
   command(simulation, "waypoint", GotoCommand{{3.0, 2.0}, 0.1, 0.4});
   command(simulation, "other", GotoCommand{{2.0, 2.0}, 0.1, 0.2});
@@ -222,7 +222,7 @@ TEST(Waypoint, TheLaterOfTwoWaypointDevicesSteers) {
   EXPECT_DOUBLE_EQ(simulation.body(0).twist.v_mps, 0.2);
 }
 
-TEST(Waypoint, WaitsWhileTheMotorsAreOff) {
+TEST(Waypoint, MotorsOff_Waits) {
   Simulation simulation(room());
   command(simulation, "waypoint", GotoCommand{{3.0, 2.0}, 0.1, 0.4});
   command(simulation, "motion", MotorEnableCommand{false});
@@ -235,7 +235,7 @@ TEST(Waypoint, WaitsWhileTheMotorsAreOff) {
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.04, 1e-9);
 }
 
-TEST(Waypoint, StaysInTransitBeforeAWall) {
+TEST(Waypoint, Wall_StaysInTransit) {
   Simulation simulation(room());
   command(simulation, "waypoint", GotoCommand{{5.0, 2.0}, 0.1, 0.5});
   run(simulation, 1000);
@@ -243,7 +243,7 @@ TEST(Waypoint, StaysInTransitBeforeAWall) {
   EXPECT_TRUE(simulation.body(0).stalled);
 }
 
-TEST(Waypoint, RefusesWhatCannotBeMeant) {
+TEST(Waypoint, InvalidCommands_Refused) {
   Simulation simulation(room());
   const auto why = [&](const Command& what) { return refusal(simulation, "waypoint", what); };
   EXPECT_THAT(why(GotoCommand{{kNan, 0.0}}), HasSubstr("finite"));
@@ -264,7 +264,7 @@ TEST(Waypoint, RefusesWhatCannotBeMeant) {
   run(unmoved, 10);
 }
 
-TEST(Waypoint, ReadingsTellHowItGoes) {
+TEST(Waypoint, Readings_ReportProgress) {
   Simulation simulation(room(R"("slow": {"type": "waypoint", "frequency": 5})"));
   run(simulation, 10);
   const WaypointReading& reading = waypoint(simulation).reading();
@@ -289,7 +289,7 @@ TEST(Waypoint, ReadingsTellHowItGoes) {
 // --- Teleport
 // ----------------------------------------------------------------------------------
 
-TEST(Teleport, PutsTheRobotThereAtRest) {
+TEST(Teleport, RobotPlacedAtRest) {
   Simulation simulation(room(R"("laser": {"range_max": 9})"));
   drive(simulation, 0.4, 0.0);
   run(simulation, 50);  // to x = 1.2
@@ -312,7 +312,7 @@ TEST(Teleport, PutsTheRobotThereAtRest) {
   EXPECT_NEAR(simulation.statistics(0).path_length_m, 0.4, 1e-9);
 }
 
-TEST(Teleport, TranslatesAlongTheWorldsAxesAndRotatesOnTheSpot) {
+TEST(Teleport, Translate_AlongWorldAxesAndRotateInPlace) {
   Simulation simulation(room());
   command(simulation, "teleport", RotateCommand{0.5 * kPi});
   command(simulation, "teleport", TranslateCommand{{0.5, -0.25}});
@@ -324,7 +324,7 @@ TEST(Teleport, TranslatesAlongTheWorldsAxesAndRotatesOnTheSpot) {
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.5, 1e-12);
 }
 
-TEST(Teleport, EndsATransitAndLocalisationCanBeSetRightAfterIt) {
+TEST(Teleport, Transit_EndedAndOdometryCanBeSet) {
   Simulation simulation(room());
   command(simulation, "waypoint", GotoCommand{{3.0, 2.0}});
   run(simulation, 10);
@@ -337,7 +337,7 @@ TEST(Teleport, EndsATransitAndLocalisationCanBeSetRightAfterIt) {
   EXPECT_EQ(simulation.body(0).X_WB, (Pose{2.0, 1.0, 0.0}));
 }
 
-TEST(Teleport, RefusesAPlaceThatIsTakenAndNamesWhatStandsThere) {
+TEST(Teleport, OccupiedPlace_RefusedWithName) {
   Simulation simulation(room("", R"(, {"name": "r2", "pose": {"x": 3, "y": 3}})",
                              R"(, "obstacles": [
                                  {"name": "block", "center": [2, 1], "size": [0.2, 0.2]},
@@ -373,7 +373,7 @@ TEST(Teleport, RefusesAPlaceThatIsTakenAndNamesWhatStandsThere) {
   EXPECT_THAT(why(2.0, 3.0), HasSubstr("obstacle gate"));
 }
 
-TEST(Teleport, RefusesAPlaceInAMapsWall) {
+TEST(Teleport, MapWall_Refused) {
   WorldDescription world = room();
   world.arena.walls.push_back({{{2.0, 1.0}, {3.0, 1.0}, {3.0, 3.0}, {2.0, 3.0}}});
   Simulation simulation(world);
@@ -383,7 +383,7 @@ TEST(Teleport, RefusesAPlaceInAMapsWall) {
               HasSubstr("a wall of the map stands there"));
 }
 
-TEST(Teleport, LeavesAGapInATrail) {
+TEST(Teleport, Trail_HasGap) {
   Simulation simulation(room(R"("pen": {"trail": true, "colour": "#ff0000"})"));
   run(simulation, 1);
   command(simulation, "teleport", PlaceCommand{{3.0, 2.0, 0.0}});
@@ -400,7 +400,7 @@ TEST(Teleport, LeavesAGapInATrail) {
   for (double x_m = 1.1; x_m < 2.9; x_m += 0.1) EXPECT_EQ(alpha(x_m), 0) << x_m;
 }
 
-TEST(Teleport, FindsContactsAnew) {
+TEST(Teleport, Contacts_FoundAnew) {
   Simulation simulation(
       room("", "", R"(, "obstacles": [{"name": "block", "center": [2, 2], "size": [0.4, 0.4]}])"));
   drive(simulation, 0.5, 0.0);
@@ -421,7 +421,7 @@ TEST(Teleport, FindsContactsAnew) {
 // --- Odometry since the last reading
 // -----------------------------------------------------------
 
-TEST(OdometryIncrement, IsTheArcSinceTheLastReading) {
+TEST(OdometryIncrement, ArcSinceLastReading) {
   Simulation simulation(room());
   drive(simulation, 0.2, 0.5);
   run(simulation, 10);
@@ -446,7 +446,7 @@ TEST(OdometryIncrement, IsTheArcSinceTheLastReading) {
   EXPECT_EQ(odometry.path_length_m, 0.0);
 }
 
-TEST(OdometryIncrement, CountsTheWayForthAndBack) {
+TEST(OdometryIncrement, BackAndForth_CountsWholePath) {
   Simulation simulation(room());
   drive(simulation, 0.2, 0.0);
   run(simulation, 5);
@@ -457,7 +457,7 @@ TEST(OdometryIncrement, CountsTheWayForthAndBack) {
   EXPECT_NEAR(odometry.increment.x_m, 0.0, 1e-12);
 }
 
-TEST(OdometryIncrement, IsInTheFrameOfTheLastReadingAndItsShiftInTheStarts) {
+TEST(OdometryIncrement, FrameOfLastReading_WithShiftInStartFrame) {
   Simulation simulation(room());
   const double quarter = 0.5 * kPi;
   drive(simulation, 0.0, quarter);  // a quarter turn in a second
@@ -480,7 +480,7 @@ TEST(OdometryIncrement, IsInTheFrameOfTheLastReadingAndItsShiftInTheStarts) {
   EXPECT_NEAR(odometry.path_length_m, 0.02, 1e-12);
 }
 
-TEST(OdometryLevel, IsReadAndToldToClients) {
+TEST(OdometryLevel, ReadAndReportedToClients) {
   const auto level = [](const std::string& settings) {
     const WorldDescription world = room("\"odometry\": {" + settings + "}");
     for (const DeviceDescription& d : world.robots.at(0).devices) {
@@ -536,7 +536,7 @@ void expect_same_reading(const PoseReading& a, const PoseReading& b) {
   EXPECT_EQ(a.path_length_m, b.path_length_m);
 }
 
-TEST(Reset, GivesTheFutureOfANewSimulation) {
+TEST(Reset, SameFutureAsNewSimulation) {
   Simulation fresh(busy_room());
   Simulation used(busy_room());
   // 237 steps: not a multiple of any sensor's period.
@@ -579,7 +579,7 @@ TEST(Reset, GivesTheFutureOfANewSimulation) {
   EXPECT_EQ(waypoint(used).status(), waypoint(fresh).status());
 }
 
-TEST(Reset, LetsClockSequencesAndStatisticsGoOn) {
+TEST(Reset, ClockSequencesAndStatistics_Continue) {
   Simulation simulation(busy_room());
   const LayerId layer = simulation.layers().add(LayerKind::kColour, {"plan"}, 1);
   drive(simulation, 0.4, 0.0);
@@ -603,7 +603,7 @@ TEST(Reset, LetsClockSequencesAndStatisticsGoOn) {
   EXPECT_EQ(simulation.statistics(0).collisions, 0);
 }
 
-TEST(Reset, BlanksTheCanvasButForTheFirstMarkOfATrail) {
+TEST(Reset, Canvas_ClearedExceptFirstMarkOfTrail) {
   Simulation simulation(busy_room());
   const std::vector<std::uint8_t> at_start = simulation.canvas().data();
   drive(simulation, 0.4, 0.0);
@@ -617,7 +617,7 @@ TEST(Reset, BlanksTheCanvasButForTheFirstMarkOfATrail) {
   EXPECT_EQ(simulation.canvas().width(), 50);
 }
 
-TEST(Reset, TakesGoalsAwaySoThatTheirOwnersSeeIt) {
+TEST(Reset, Goals_CancelledVisibly) {
   Simulation simulation(room());
   command(simulation, "waypoint", GotoCommand{{3.0, 2.0}});
   run(simulation, 10);
@@ -631,7 +631,7 @@ TEST(Reset, TakesGoalsAwaySoThatTheirOwnersSeeIt) {
   EXPECT_EQ(waypoint(simulation).goal_number(), 3U);
 }
 
-TEST(Reset, BeforeTheFirstStepChangesNothing) {
+TEST(Reset, BeforeFirstStep_ChangesNothing) {
   Simulation fresh(busy_room());
   Simulation reset(busy_room());
   reset.reset();
@@ -644,7 +644,7 @@ TEST(Reset, BeforeTheFirstStepChangesNothing) {
 // --- Switching devices off
 // ---------------------------------------------------------------------
 
-TEST(SetActive, ASensorThatIsOffKeepsItsSchedule) {
+TEST(SetActive, InactiveSensor_KeepsSchedule) {
   Simulation simulation(room());
   const auto pose = id_of(simulation, "pose");
   run(simulation, 15);
@@ -661,7 +661,7 @@ TEST(SetActive, ASensorThatIsOffKeepsItsSchedule) {
   EXPECT_EQ(pose_reading(simulation, "pose").time_ns, 700'000'000);
 }
 
-TEST(SetActive, AnActuatorThatIsOffStopsAndRefusesCommands) {
+TEST(SetActive, InactiveActuator_StopsAndRefusesCommands) {
   Simulation simulation(room());
   const auto motion = id_of(simulation, "motion");
   drive(simulation, 0.4, 0.0);
@@ -682,7 +682,7 @@ TEST(SetActive, AnActuatorThatIsOffStopsAndRefusesCommands) {
   EXPECT_THAT(refusal(simulation, "teleport", RotateCommand{1.0}), HasSubstr("switched off"));
 }
 
-TEST(SetActive, AWaypointThatIsOffStopsAndKeepsItsGoal) {
+TEST(SetActive, InactiveWaypoint_StopsAndKeepsGoal) {
   Simulation simulation(room());
   const auto id = id_of(simulation, "waypoint");
   command(simulation, "waypoint", GotoCommand{{3.0, 2.0}, 0.1, 0.4});
@@ -699,7 +699,7 @@ TEST(SetActive, AWaypointThatIsOffStopsAndKeepsItsGoal) {
 }
 
 // As in programs for MORSE, where motion and waypoint would both control the robot.
-TEST(SetActive, AWaypointDrivesThoughTheMotionDeviceIsOff) {
+TEST(SetActive, InactiveMotion_WaypointStillDrives) {
   Simulation simulation(room());
   simulation.set_active(id_of(simulation, "motion"), false);
   command(simulation, "waypoint", GotoCommand{{3.0, 2.0}, 0.1, 0.4});
@@ -707,7 +707,7 @@ TEST(SetActive, AWaypointDrivesThoughTheMotionDeviceIsOff) {
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.04, 1e-9);
 }
 
-TEST(SetActive, APenThatIsOffLeavesNoTrail) {
+TEST(SetActive, InactivePen_LeavesNoTrail) {
   Simulation simulation(room(R"("pen": {"trail": true})"));
   const auto pen = id_of(simulation, "pen");
   simulation.set_active(pen, false);
@@ -721,7 +721,7 @@ TEST(SetActive, APenThatIsOffLeavesNoTrail) {
   EXPECT_EQ(canvas.pixel(canvas.column(1.75), row).value().a, 255);
 }
 
-TEST(SetActive, CountsInTheStateHash) {
+TEST(SetActive, StateHash_Included) {
   Simulation simulation(room());
   const std::uint64_t on = simulation.state_hash();
   simulation.set_active(id_of(simulation, "pose"), false);
@@ -737,7 +737,7 @@ TEST(SetActive, CountsInTheStateHash) {
 // --- Suspending dynamics
 // -----------------------------------------------------------------------
 
-TEST(Dynamics, ASuspendedWorldStandsStillWhileTimeGoesOn) {
+TEST(Dynamics, SuspendedWorld_StandsWhileTimeAdvances) {
   Simulation simulation(busy_room());
   drive(simulation, 0.4, 0.0);
   run(simulation, 10);
@@ -758,7 +758,7 @@ TEST(Dynamics, ASuspendedWorldStandsStillWhileTimeGoesOn) {
   EXPECT_NEAR(simulation.body(1).X_WB.x_m, 2.97, 1e-9);
 }
 
-TEST(Dynamics, ASuspendedRobotStandsLikeAWall) {
+TEST(Dynamics, SuspendedRobot_IsObstacle) {
   Simulation simulation(busy_room());
   ASSERT_FALSE(simulation.set_robot_dynamics(1, false));
   drive(simulation, 0.5, 0.0);
@@ -775,7 +775,7 @@ TEST(Dynamics, ASuspendedRobotStandsLikeAWall) {
   EXPECT_EQ(simulation.statistics(1).collisions, 1);
 }
 
-TEST(Dynamics, AGoalWaitsAndASuspendedRobotCanBePlaced) {
+TEST(Dynamics, SuspendedRobot_KeepsGoalAndCanBePlaced) {
   Simulation simulation(room());
   command(simulation, "waypoint", GotoCommand{{3.0, 2.0}, 0.1, 0.4});
   ASSERT_FALSE(simulation.set_object_dynamics("r1", false));
@@ -791,7 +791,7 @@ TEST(Dynamics, AGoalWaitsAndASuspendedRobotCanBePlaced) {
   EXPECT_EQ(simulation.body(0).X_WB, (Pose{2.0, 3.0, 0.0}));
 }
 
-TEST(Dynamics, SaysWhyAThingHasNone) {
+TEST(Dynamics, MissingDynamics_Explained) {
   Simulation simulation(room("", "", R"(, "obstacles": [
       {"name": "block", "center": [2, 1], "size": [0.2, 0.2]},
       {"name": "gate", "type": "dynamic", "center": [2, 3], "size": [0.2, 0.2]}])"));
@@ -809,7 +809,7 @@ TEST(Dynamics, SaysWhyAThingHasNone) {
 // --- The scene
 // ---------------------------------------------------------------------------------
 
-TEST(SceneObjects, AreAllThatIsSolid) {
+TEST(SceneObjects, AreAllSolids) {
   WorldDescription world = room("", "", R"(, "obstacles": [
       {"name": "block", "center": [2, 1], "size": [0.2, 0.4], "yaw_deg": 90},
       {"name": "gate", "type": "dynamic", "center": [2, 3], "size": [0.2, 0.2],

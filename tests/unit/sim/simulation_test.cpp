@@ -50,7 +50,7 @@ void run(Simulation& simulation, int steps) {
   for (int i = 0; i < steps; ++i) simulation.step();
 }
 
-TEST(Simulation, FirstReadingsComeOnePeriodAfterTheStartAllInPhase) {
+TEST(Simulation, FirstReadings_OnePeriodAfterStartInPhase) {
   Simulation simulation(room());
   run(simulation, 9);
   EXPECT_TRUE(simulation.updated().empty());
@@ -63,19 +63,19 @@ TEST(Simulation, FirstReadingsComeOnePeriodAfterTheStartAllInPhase) {
   EXPECT_EQ(reading<PoseReading>(simulation, "pose").sequence, 2U);
 }
 
-TEST(Simulation, AFrequencyThatIsNoMultipleOfTheStepIsKeptOnAverage) {
+TEST(Simulation, FrequencyOffStep_KeptOnAverage) {
   Simulation simulation(room(R"({"laser": {"frequency": 30}})"));
   run(simulation, 1000);
   EXPECT_EQ(reading<LaserReading>(simulation, "laser").sequence, 300U);
 }
 
-TEST(Simulation, ASensorFasterThanTheStepMeasuresOnceAStep) {
+TEST(Simulation, SensorFasterThanStep_MeasuresOncePerStep) {
   Simulation simulation(room(R"({"pose": {"frequency": 1000}})"));
   run(simulation, 50);
   EXPECT_EQ(reading<PoseReading>(simulation, "pose").sequence, 50U);
 }
 
-TEST(Simulation, PoseIsTrueAndOdometryStartsAtZero) {
+TEST(Simulation, Pose_TrueAndOdometryStartsAtZero) {
   Simulation simulation(room());
   drive(simulation, 0.5, 0.0);
   run(simulation, 100);
@@ -85,7 +85,7 @@ TEST(Simulation, PoseIsTrueAndOdometryStartsAtZero) {
   EXPECT_NEAR(reading<PoseReading>(simulation, "odometry").twist.v_mps, 0.5, 1e-9);
 }
 
-TEST(Simulation, OdometryFollowsTheArcThatTheRobotDrives) {
+TEST(Simulation, Odometry_FollowsArc) {
   Simulation simulation(room());
   drive(simulation, 0.3, 0.6);
   run(simulation, 500);  // 3 rad on a circle of 0.5 m
@@ -95,7 +95,7 @@ TEST(Simulation, OdometryFollowsTheArcThatTheRobotDrives) {
   EXPECT_NEAR(pose.yaw_rad, 3.0, 1e-9);
 }
 
-TEST(Simulation, OdometryCanBeSetAndThenGoesOnFromThere) {
+TEST(Simulation, Odometry_ContinuesFromSetPose) {
   Simulation simulation(room());
   command(simulation, "odometry", SetPoseCommand{{1.0, -2.0, std::numbers::pi / 2.0}});
   drive(simulation, 0.5, 0.0);
@@ -105,7 +105,7 @@ TEST(Simulation, OdometryCanBeSetAndThenGoesOnFromThere) {
   EXPECT_NEAR(pose.y_m, -1.5, 1e-9);
 }
 
-TEST(Simulation, PoseCanBeRebasedSoThatThePresentPoseReadsAsGiven) {
+TEST(Simulation, Pose_RebasedToGivenPose) {
   Simulation simulation(room());
   run(simulation, 10);
   command(simulation, "pose", SetPoseCommand{{0.0, 0.0, 0.0}});
@@ -115,7 +115,7 @@ TEST(Simulation, PoseCanBeRebasedSoThatThePresentPoseReadsAsGiven) {
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.5, 1e-9);
 }
 
-TEST(Simulation, TwistsAreClampedToTheLimits) {
+TEST(Simulation, Twists_ClampedToLimits) {
   Simulation simulation(room());
   drive(simulation, 9.0, -9.0);
   run(simulation, 1);
@@ -123,7 +123,7 @@ TEST(Simulation, TwistsAreClampedToTheLimits) {
   EXPECT_EQ(simulation.body(0).commanded.omega_radps, -3.0);
 }
 
-TEST(Simulation, MotorsOffStopTheRobotUntilTheyAreOnAndToldAgain) {
+TEST(Simulation, MotorsOff_StopUntilOnAndCommanded) {
   Simulation simulation(room());
   drive(simulation, 0.3, 0.0);
   run(simulation, 10);
@@ -139,7 +139,7 @@ TEST(Simulation, MotorsOffStopTheRobotUntilTheyAreOnAndToldAgain) {
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.06, 1e-9);
 }
 
-TEST(Simulation, AccelerationLimitRampsTheSpeed) {
+TEST(Simulation, AccelerationLimit_RampsSpeed) {
   Simulation simulation(room(R"({"motion": {"max_acceleration": 0.5}})"));
   drive(simulation, 0.4, 0.0);
   run(simulation, 40);  // 0.5 m/s^2 for 0.4 s: 0.2 m/s
@@ -148,7 +148,7 @@ TEST(Simulation, AccelerationLimitRampsTheSpeed) {
   EXPECT_NEAR(simulation.body(0).twist.v_mps, 0.4, 1e-6);
 }
 
-TEST(Simulation, AnActuatorRefusesWhatItDoesNotTake) {
+TEST(Simulation, Actuator_RefusesForeignCommands) {
   Simulation simulation(room());
   const auto refusal = simulation.apply({0, simulation.find_device(0, "pen").value()},
                                         TwistCommand{{0.1, 0.0, 0.0}});
@@ -156,7 +156,7 @@ TEST(Simulation, AnActuatorRefusesWhatItDoesNotTake) {
   EXPECT_THAT(*refusal, HasSubstr("pen"));
 }
 
-TEST(Simulation, LaserOfTheS1rMeasuresTheWallAheadFromItsMount) {
+TEST(Simulation, S1rLaser_MeasuresWallFromItsMount) {
   Simulation simulation(room());
   run(simulation, 10);
   const LaserReading& scan = reading<LaserReading>(simulation, "laser");
@@ -172,7 +172,7 @@ TEST(Simulation, LaserOfTheS1rMeasuresTheWallAheadFromItsMount) {
   EXPECT_NEAR(std::abs(scan.least_angle_rad()), half, 1e-12);  // either of the two
 }
 
-TEST(Simulation, LaserInsideAnObstacleReadsZero) {
+TEST(Simulation, LaserInsideObstacle_ReadsZero) {
   // Mounted 0.5 m ahead of the axle, in the middle of a block.
   Simulation simulation(load_world_text(
       R"({"arena": {"size": [4, 4], "obstacles": [{"name": "b", "center": [2.5, 2], "size": [0.2, 0.2]}]},
@@ -181,7 +181,7 @@ TEST(Simulation, LaserInsideAnObstacleReadsZero) {
   EXPECT_THAT(reading<LaserReading>(simulation, "laser").ranges_m, testing::Each(0.0));
 }
 
-TEST(Simulation, LaserLooksOverLowObstaclesAndThroughRetractedOnes) {
+TEST(Simulation, Laser_OverLowAndThroughRetractedObstacles) {
   Simulation simulation(load_world_text(
       R"({"arena": {"size": [4, 4], "obstacles": [
             {"name": "low", "center": [2.5, 2], "size": [0.2, 0.4], "height": 0.1},
@@ -194,7 +194,7 @@ TEST(Simulation, LaserLooksOverLowObstaclesAndThroughRetractedOnes) {
   EXPECT_NEAR(reading<LaserReading>(simulation, "laser").ranges_m[340], 0.865, 1e-3);
 }
 
-TEST(Simulation, BlocksRefuseToRiseUnderARobotOrWhenStaticOrUnknown) {
+TEST(Simulation, Blocks_RefuseToRiseUnderRobotOrIfStaticOrUnknown) {
   Simulation simulation(load_world_text(
       R"({"arena": {"size": [4, 4], "obstacles": [
             {"name": "s", "center": [1, 1], "size": [0.2, 0.2]},
@@ -208,7 +208,7 @@ TEST(Simulation, BlocksRefuseToRiseUnderARobotOrWhenStaticOrUnknown) {
               HasSubstr("no obstacle"));
 }
 
-TEST(Simulation, LaserNoiseHasTheDeviationAskedFor) {
+TEST(Simulation, LaserNoise_HasRequestedDeviation) {
   Simulation simulation(room(R"({"laser": {"noise": 0.02}})"));
   Simulation exact(room());
   // 682 beams x 100 scans: standard error of the deviation is 0.02 / sqrt(2 n).
@@ -230,7 +230,7 @@ TEST(Simulation, LaserNoiseHasTheDeviationAskedFor) {
   EXPECT_NEAR(std::sqrt(squares / n), 0.02, 4.0 * 0.02 / std::sqrt(2.0 * n));
 }
 
-TEST(Simulation, PoseNoiseHasTheDeviationAskedFor) {
+TEST(Simulation, PoseNoise_HasRequestedDeviation) {
   Simulation simulation(room(R"({"pose": {"noise": 0.05, "noise_yaw_deg": 2, "frequency": 100}})"));
   double x2 = 0.0;
   double yaw2 = 0.0;
@@ -247,7 +247,7 @@ TEST(Simulation, PoseNoiseHasTheDeviationAskedFor) {
   EXPECT_NEAR(std::sqrt(yaw2 / kCount), two_degrees, two_degrees * tolerance);
 }
 
-TEST(Simulation, OdometryNoiseGrowsWithTheRootOfTheWay) {
+TEST(Simulation, OdometryNoise_GrowsWithRootOfDistance) {
   // Straight ahead for 1 m with noise 0.03: the path of each wheel has an error of 0.03 m (1
   // sigma), so their mean has one of 0.03 / sqrt(2). 400 robots one after another, seeds 1 to 400.
   double squares = 0.0;
@@ -269,7 +269,7 @@ TEST(Simulation, OdometryNoiseGrowsWithTheRootOfTheWay) {
   EXPECT_NEAR(std::sqrt(squares / kRuns), sigma, sigma * 4.0 / std::sqrt(2.0 * kRuns) + 0.005);
 }
 
-TEST(Simulation, ANewSensorLeavesTheNoiseOfOthersUnchanged) {
+TEST(Simulation, NewSensor_KeepsNoiseOfOthers) {
   Simulation plain(room(R"({"laser": {"noise": 0.02}})"));
   Simulation more(room(R"({"laser": {"noise": 0.02}, "second": {"type": "laser", "noise": 0.1}})"));
   run(plain, 50);
@@ -278,7 +278,7 @@ TEST(Simulation, ANewSensorLeavesTheNoiseOfOthersUnchanged) {
             reading<LaserReading>(more, "laser").ranges_m);
 }
 
-TEST(Simulation, CollisionsAreCountedWithTimeAndPartner) {
+TEST(Simulation, Collisions_CountedWithTimeAndPartner) {
   Simulation simulation(room());
   drive(simulation, 0.5, 0.0);
   run(simulation, 500);
@@ -292,7 +292,7 @@ TEST(Simulation, CollisionsAreCountedWithTimeAndPartner) {
   EXPECT_NEAR(simulation.statistics(0).path_length_m, 1.913, 0.003);
 }
 
-TEST(Simulation, LeastClearanceIsExactThoughSeldomMeasured) {
+TEST(Simulation, LeastClearance_ExactDespiteRareMeasurement) {
   Simulation simulation(room());
   drive(simulation, 0.5, 0.0);
   run(simulation, 300);
@@ -302,7 +302,7 @@ TEST(Simulation, LeastClearanceIsExactThoughSeldomMeasured) {
   EXPECT_NEAR(simulation.statistics(0).least_clearance_m, 4.0 - 3.587, 1e-4);
 }
 
-TEST(Simulation, PenWithATrailDrawsTheWay) {
+TEST(Simulation, PenWithTrail_DrawsPath) {
   Simulation simulation(room(R"({"pen": {"trail": true, "colour": "#ff0000"}})"));
   drive(simulation, 0.5, 0.0);
   run(simulation, 50);
@@ -311,7 +311,7 @@ TEST(Simulation, PenWithATrailDrawsTheWay) {
   EXPECT_EQ(canvas.pixel(canvas.column(2.5), canvas.row(2.0)), (Colour{0, 0, 0, 0}));
 }
 
-TEST(Simulation, SnapshotComposesTheLayersAndListsThem) {
+TEST(Simulation, Snapshot_ComposesAndListsLayers) {
   Simulation simulation(room());
   const LayerId layer = simulation.layers().add(LayerKind::kBinary, {.name = "path"}, 0);
   const DrawOperation dot{.layer = layer, .x0 = 3, .y0 = 2, .value = CellValue::of(true)};
@@ -332,7 +332,7 @@ TEST(Simulation, SnapshotComposesTheLayersAndListsThem) {
   EXPECT_EQ(canvas[(2 * 200 + 3) * 4 + 3], 255);
 }
 
-TEST(Simulation, LayersAndViewModeLeaveTheHashAlone) {
+TEST(Simulation, LayersAndViewMode_KeepHash) {
   Simulation simulation(room());
   const std::uint64_t bare = simulation.state_hash();
   const LayerId layer = simulation.layers().add(LayerKind::kGrey, {.name = "map"}, 0);
@@ -344,7 +344,7 @@ TEST(Simulation, LayersAndViewModeLeaveTheHashAlone) {
   EXPECT_NE(simulation.state_hash(), bare);
 }
 
-TEST(Simulation, ViewModeStartsAsTheWorldSaysAndMayBeChanged) {
+TEST(Simulation, ViewMode_StartsFromWorldAndChanges) {
   Simulation simulation(room("{}", R"(, "canvas": {"view_mode": "mini-map"})"));
   EXPECT_EQ(simulation.view_mode(), ViewMode::kMiniMap);
   EXPECT_EQ(simulation.set_view_mode(ViewMode::kFullScreen), std::nullopt);
@@ -352,7 +352,7 @@ TEST(Simulation, ViewModeStartsAsTheWorldSaysAndMayBeChanged) {
   EXPECT_EQ(simulation.snapshot().view_mode, ViewMode::kFullScreen);
 }
 
-TEST(Simulation, ALockedViewModeStays) {
+TEST(Simulation, LockedViewMode_Stays) {
   Simulation simulation(
       room("{}", R"(, "canvas": {"view_mode": "full-screen", "lock_view_mode": true})"));
   EXPECT_EQ(simulation.set_view_mode(ViewMode::kFullScreen), std::nullopt);
@@ -362,7 +362,7 @@ TEST(Simulation, ALockedViewModeStays) {
   EXPECT_EQ(simulation.snapshot().view_mode, ViewMode::kFullScreen);
 }
 
-TEST(Simulation, FinishesAtItsDuration) {
+TEST(Simulation, Duration_EndsSimulation) {
   Simulation simulation(room("{}", R"(, "simulation": {"duration": 0.05})"));
   run(simulation, 4);
   EXPECT_FALSE(simulation.finished());
@@ -370,7 +370,7 @@ TEST(Simulation, FinishesAtItsDuration) {
   EXPECT_TRUE(simulation.finished());
 }
 
-TEST(Simulation, RefusesAWorldInWhichRobotsOverlap) {
+TEST(Simulation, OverlappingRobots_Refused) {
   WorldDescription world = room();
   world.robots.push_back(world.robots[0]);
   world.robots[1].name = "r2";
@@ -378,7 +378,7 @@ TEST(Simulation, RefusesAWorldInWhichRobotsOverlap) {
   EXPECT_THROW(Simulation{world}, ConfigError);
 }
 
-TEST(Simulation, SnapshotShowsObstaclesRobotsAndScan) {
+TEST(Simulation, Snapshot_ShowsObstaclesRobotsAndScan) {
   Simulation simulation(room());
   run(simulation, 10);
   const SceneSnapshot scene = simulation.snapshot();
@@ -412,7 +412,7 @@ WorldDescription thirteen_robots() {
   return load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/thirteen_robots.json");
 }
 
-TEST(SimulationHash, TwoRunsOfThirteenRobotsAreEqualToTheBit) {
+TEST(SimulationHash, TwoRunsOfThirteenRobots_Equal) {
   const std::uint64_t first = hash_after_random_drive(thirteen_robots(), 10'000);
   EXPECT_EQ(hash_after_random_drive(thirteen_robots(), 10'000), first);
 }
@@ -434,7 +434,7 @@ std::uint64_t library_fingerprint() {
   return hash.value();
 }
 
-TEST(SimulationDevices, ThatDoNothingInAStepAreAskedOnce) {
+TEST(SimulationDevices, DevicesWithoutWork_AskedOnce) {
   Simulation simulation(room());
   const auto device = [&](const char* name) -> const Device& {
     return simulation.device(0, simulation.find_device(0, name).value());
@@ -452,7 +452,7 @@ TEST(SimulationDevices, ThatDoNothingInAStepAreAskedOnce) {
 }
 
 // The golden value holds for Debug and Release, gcc and clang, static and shared libraries.
-TEST(SimulationHash, IsTheGoldenOneInEveryBuild) {
+TEST(SimulationHash, GoldenInEveryBuild) {
   std::ifstream golden(PLAYPEN_SOURCE_DIR "/tests/golden/thirteen_robots.txt");
   std::uint64_t library = 0;
   std::uint64_t state = 0;
@@ -466,7 +466,7 @@ TEST(SimulationHash, IsTheGoldenOneInEveryBuild) {
       << hash_after_random_drive(thirteen_robots(), 10'000);
 }
 
-TEST(SimulationHash, DependsOnSeedOnlyWhereThereIsNoise) {
+TEST(SimulationHash, Seed_MattersWithNoiseOnly) {
   WorldDescription world = room();
   const std::uint64_t quiet = hash_after_random_drive(world, 200);
   world.simulation.seed = 2;

@@ -53,7 +53,7 @@ void send(Simulation& simulation, const std::string& name, const Command& comman
   EXPECT_EQ(simulation.apply(id_of(simulation, name), command), std::nullopt);
 }
 
-TEST(Elevation, AnglesComeBackFromTheirRotation) {
+TEST(Elevation, Angles_RoundTripThroughRotation) {
   const EulerAngles angles = euler_angles_of(rotation_of(0.3, -0.4, 2.5));
   EXPECT_NEAR(angles.roll_rad, 0.3, 1e-12);
   EXPECT_NEAR(angles.pitch_rad, -0.4, 1e-12);
@@ -62,7 +62,7 @@ TEST(Elevation, AnglesComeBackFromTheirRotation) {
   EXPECT_LT(rotation_of(0.0, 0.1, 0.0)(2, 0), 0.0);
 }
 
-TEST(Elevation, RatesOfTheBodyFollowFromThoseOfTheAngles) {
+TEST(Elevation, BodyRates_FollowFromAngleRates) {
   // Upright, yaw alone is a turn about z; with the nose up by a quarter turn it is one about x.
   EXPECT_THAT(body_rates({0, 0, 1}, {0, 0, 0.5}), ElementsAre(0.0, 0.0, 0.5));
   const auto up = body_rates({0, -0.5 * kPi, 0}, {0, 0, 0.5});
@@ -70,7 +70,7 @@ TEST(Elevation, RatesOfTheBodyFollowFromThoseOfTheAngles) {
   EXPECT_NEAR(up[2], 0.0, 1e-12);
 }
 
-TEST(Elevation, IsAValueThatThePhysicsIgnores) {
+TEST(Elevation, PhysicsIgnoresIt) {
   const std::string devices = R"("teleport": {}, "pose": {"frequency": 100})";
   Simulation simulation(room_with(devices, R"(, "elevation": {"z": 5, "pitch_deg": 90})"));
   step(simulation, 2);
@@ -86,7 +86,7 @@ TEST(Elevation, IsAValueThatThePhysicsIgnores) {
   EXPECT_DOUBLE_EQ(simulation.body(0).X_WB.x_m, 8.0);
 }
 
-TEST(Mounting, MovesAPoseSensorOnTheBody) {
+TEST(Mounting, PoseSensor_MovedOnBody) {
   Simulation simulation(room_with(R"("pose": {"x": 1, "z": 0.5, "yaw_deg": 90})"));
   step(simulation, 20);
   const auto& reading = device<PoseSensor>(simulation, "pose").reading();
@@ -95,7 +95,7 @@ TEST(Mounting, MovesAPoseSensorOnTheBody) {
   EXPECT_NEAR(reading.elevation.z_m, 0.5, 1e-12);
 }
 
-TEST(Mounting, RefusesACarrierThatIsNone) {
+TEST(Mounting, InvalidCarrier_Refused) {
   try {
     Simulation simulation(room_with(R"("gyroscope": {"on": "odometry"})"));
     FAIL() << "an odometry carries a gyroscope";
@@ -104,7 +104,7 @@ TEST(Mounting, RefusesACarrierThatIsNone) {
   }
 }
 
-TEST(Gyroscope, TurnsWithTheHeadThatCarriesIt) {
+TEST(Gyroscope, TurnsWithItsCarrier) {
   Simulation simulation(room_with(R"("head": {"type": "ptz"}, "gyroscope": {"on": "head"},)"
                                   R"("posture": {"of": "head"})"));
   send(simulation, "head", PointCommand{0.5, 0.3, 0.0, 0.0, 0.0});
@@ -118,7 +118,7 @@ TEST(Gyroscope, TurnsWithTheHeadThatCarriesIt) {
   EXPECT_THAT(posture.positions, ElementsAre(0.5, 0.3));
 }
 
-TEST(Velocity, IsAlongTheAxesOfTheSensor) {
+TEST(Velocity, AxesOfSensor_Used) {
   Simulation simulation(room_with(R"("velocity": {"yaw_deg": 90, "pitch_deg": 90})"));
   send(simulation, "motion", TwistCommand{{0.5, 0.3, 0.0}});
   step(simulation, 200);
@@ -131,7 +131,7 @@ TEST(Velocity, IsAlongTheAxesOfTheSensor) {
   EXPECT_NEAR(reading.world_mps[0], 0.5 * std::cos(yaw), 1e-9);
 }
 
-TEST(Accelerometer, MeasuresTheMeanSinceItsLastReading) {
+TEST(Accelerometer, MeanSinceLastReading) {
   Simulation simulation(
       room_with(R"("accelerometer": {}, "motion": {"max_acceleration": 2, "max_speed": 1})"));
   send(simulation, "motion", TwistCommand{{1.0, 0.0, 0.0}});
@@ -143,7 +143,7 @@ TEST(Accelerometer, MeasuresTheMeanSinceItsLastReading) {
   EXPECT_NEAR(reading.distance_m, 0.05, 0.002);
 }
 
-TEST(Attitude, MeasuresAnglesAndRates) {
+TEST(Attitude, AnglesAndRates_Measured) {
   Simulation simulation(room_with(R"("attitude": {}, "orientation": {"speed_deg": 10})"));
   OrientCommand wanted;
   wanted.yaw_rad = 1.0;
@@ -154,7 +154,7 @@ TEST(Attitude, MeasuresAnglesAndRates) {
   EXPECT_NEAR(reading.rate_radps[2], 10.0 * kPi / 180.0, 1e-9);
 }
 
-TEST(Orientation, TurnsTheShortWayAndStops) {
+TEST(Orientation, ShortWay_TurnsAndStops) {
   Simulation simulation(room_with(R"("orientation": {"speed_deg": 90, "tolerance_deg": 0})"));
   OrientCommand wanted;
   wanted.yaw_rad = -0.75 * kPi;
@@ -172,7 +172,7 @@ TEST(Orientation, TurnsTheShortWayAndStops) {
   EXPECT_TRUE(simulation.apply(id_of(simulation, "orientation"), wanted).has_value());
 }
 
-TEST(Barometer, FollowsTheStandardAtmosphere) {
+TEST(Barometer, MatchesStandardAtmosphere) {
   // The table of the standard atmosphere: 1013.25 hPa at sea level, 898.76 hPa at 1000 m.
   EXPECT_DOUBLE_EQ(pressure_at_pa(101325.0, 0.0), 101325.0);
   EXPECT_NEAR(pressure_at_pa(101325.0, 1000.0), 89876.0, 10.0);  // 5 Pa: g is 9.81, not 9.80665
@@ -187,7 +187,7 @@ TEST(Barometer, FollowsTheStandardAtmosphere) {
   EXPECT_NEAR(device<Barometer>(simulation, "barometer").reading().pressure_pa, 100129.0, 0.5);
 }
 
-TEST(Airspeed, IsHalfTheDensityTimesTheSquareOfTheSpeed) {
+TEST(Airspeed, HalfDensityTimesSquaredSpeed) {
   Simulation simulation(room_with(R"("airspeed": {"yaw_deg": 60})"));
   send(simulation, "motion", TwistCommand{{1.0, 0.0, 0.0}});
   step(simulation, 200);
@@ -195,7 +195,7 @@ TEST(Airspeed, IsHalfTheDensityTimesTheSquareOfTheSpeed) {
   EXPECT_NEAR(device<Airspeed>(simulation, "airspeed").reading().pressure_pa, 0.153125, 1e-9);
 }
 
-TEST(Altimeter, MeasuresDownToTheFloorOrAnObstacle) {
+TEST(Altimeter, DistanceToFloorOrObstacle_Measured) {
   const std::string box = R"(, "obstacles": [{"center": [15, 10], "size": [2, 2], "height": 2}])";
   Simulation simulation(room_with(R"("altimeter": {"range": 25}, "teleport": {})",
                                   R"(, "elevation": {"z": 20})", box));
@@ -210,7 +210,7 @@ TEST(Altimeter, MeasuresDownToTheFloorOrAnObstacle) {
   EXPECT_FALSE(altimeter.reading().in_range);
 }
 
-TEST(Thermometer, FeelsTaggedFires) {
+TEST(Thermometer, TaggedFires_Felt) {
   const std::string fire = R"(, "obstacles": [{"center": [15, 10], "tags": ["Fire"]},)"
                            R"({"center": [10, 15]}])";
   Simulation simulation(room_with(R"("thermometer": {"air": 25})", "", fire));
@@ -220,14 +220,14 @@ TEST(Thermometer, FeelsTaggedFires) {
               25.0 + 200.0 * std::exp(-1.0), 1e-9);
 }
 
-TEST(Clock, TicksAtItsFrequency) {
+TEST(Clock, TicksAtFrequency) {
   Simulation simulation(room_with(R"("clock": {"frequency": 20})"));
   step(simulation, 100);
   EXPECT_EQ(device<ClockSensor>(simulation, "clock").reading().sequence, 20U);
   EXPECT_EQ(device<ClockSensor>(simulation, "clock").reading().time_ns, kNanosecondsPerSecond);
 }
 
-TEST(SemanticCamera, NamesTaggedObjectsInSight) {
+TEST(SemanticCamera, VisibleTaggedObjects_Named) {
   const std::string boxes =
       R"(, "obstacles": [{"name": "red", "center": [14, 10], "height": 1, "tags": ["Object"]},)"
       R"({"name": "hidden", "center": [17, 10], "height": 1, "tags": ["Object"]},)"
@@ -253,7 +253,7 @@ TEST(SemanticCamera, NamesTaggedObjectsInSight) {
   EXPECT_EQ(device<SemanticCamera>(simulation, "through").reading().objects.size(), 2U);
 }
 
-TEST(Proximity, LooksForATagThatChanges) {
+TEST(Proximity, ChangingTag_Found) {
   const std::string boxes = R"(, "obstacles": [{"name": "a", "center": [12, 10], "tags": ["one"]},)"
                             R"({"name": "b", "center": [10, 14], "tags": ["two"]}])";
   Simulation simulation(
@@ -269,7 +269,7 @@ TEST(Proximity, LooksForATagThatChanges) {
   EXPECT_TRUE(simulation.apply(id_of(simulation, "proximity"), TrackCommand{-1.0, {}}).has_value());
 }
 
-TEST(Waypoint, RollsOutAfterAStop) {
+TEST(Waypoint, Stop_RollsOut) {
   Simulation simulation(room_with(R"("waypoint": {"stop_deceleration": 1, "approach_gain": 50})"));
   send(simulation, "waypoint", GotoCommand{{18.0, 10.0}, 0.1, 1.0});
   step(simulation, 200);
@@ -282,7 +282,7 @@ TEST(Waypoint, RollsOutAfterAStop) {
   EXPECT_EQ(simulation.body(0).twist.v_mps, 0.0);
 }
 
-TEST(Coordinates, AreThoseOfTheEarth) {
+TEST(Coordinates, MatchEarth) {
   CoordinateParams ecef;
   ecef.ecef = true;
   // MORSE keeps these in single precision.
@@ -305,7 +305,7 @@ TEST(Coordinates, AreThoseOfTheEarth) {
   EXPECT_NEAR((from_message(geodetic, g) - Eigen::Vector3d(100.0, 200.0, 50.0)).norm(), 0.0, 1e-6);
 }
 
-TEST(Coordinates, NedFeetAndUtmAreInvertible) {
+TEST(Coordinates, NedFeetAndUtm_Invertible) {
   CoordinateParams params;
   params.ned = params.feet = params.utm = true;
   params.utm_offset_m = {1.0, 2.0, 3.0};
@@ -315,7 +315,7 @@ TEST(Coordinates, NedFeetAndUtmAreInvertible) {
   EXPECT_NEAR((from_message(params, p) - Eigen::Vector3d(10.0, 20.0, 30.0)).norm(), 0.0, 1e-9);
 }
 
-TEST(Gps, HasItsPositionInTheWorldAndTheHeight) {
+TEST(Gps, PositionInWorldAndHeight_Read) {
   Simulation simulation(room_with(R"("gps": {})", R"(, "elevation": {"z": 4})"));
   step(simulation, 20);
   const auto& reading = device<Gps>(simulation, "gps").reading();
@@ -326,7 +326,7 @@ TEST(Gps, HasItsPositionInTheWorldAndTheHeight) {
   EXPECT_NEAR(reading.heading_rad, 0.5 * kPi, 1e-9);  // east
 }
 
-TEST(Tags, AreNames) {
+TEST(Tags, Blanks_Refused) {
   try {
     static_cast<void>(room_with(R"("pose": {})", R"(, "tags": ["no blanks"])"));
     FAIL() << "a tag with a blank was read";

@@ -28,7 +28,7 @@ RobotModel model_of(const std::string& position) {
 }
 
 // The laser of 0.15 x 0.16 x 0.19 m stands on the body of 0.22 m.
-TEST(StageBodies, ALaserOnTheBodyIsASuperstructure) {
+TEST(StageBodies, LaserOnBody_IsSuperstructure) {
   const RobotModel model = model_of(
       "size [0.4 0.4 0.22] ranger ( size [0.15 0.16 0.19] pose [0.1 0 0 0] "
       "block ( points 4 point[0] [0 0] point[1] [0 1] point[2] [1 1] point[3] [1 0] z [0 1] ) "
@@ -40,7 +40,7 @@ TEST(StageBodies, ALaserOnTheBodyIsASuperstructure) {
   EXPECT_NEAR(area_m2(model.superstructures[0].outline), 0.15 * 0.16, 1e-9);
 }
 
-TEST(StageBodies, WhatIsNotHigherThanTheBodyAddsNothing) {
+TEST(StageBodies, LowerParts_AddNothing) {
   const RobotModel model =
       model_of("size [0.4 0.4 0.5] model ( size [0.1 0.1 0.1] pose [0 0 -0.4 0] )");
   EXPECT_NEAR(model.height_m, 0.5, 1e-9);
@@ -48,14 +48,14 @@ TEST(StageBodies, WhatIsNotHigherThanTheBodyAddsNothing) {
 }
 
 // As in Stage, a point that is missing is at [0 0]: a triangle of 1 x 1 becomes a square.
-TEST(StageBodies, APointThatIsMissingIsAtTheOrigin) {
+TEST(StageBodies, MissingPoint_AtOrigin) {
   const RobotModel model = model_of(
       "size [0.4 0.4 0.2] block ( points 4 point[0] [1 0] point[1] [1 1] point[2] [0 1] z [0 1] )");
   EXPECT_NEAR(area_m2(model.footprint), 0.16, 1e-9);
 }
 
 // The paddles take 0.66 of the length, so the base is 0.068 x 0.3 m.
-TEST(StageBodies, TheBaseOfAGripperIsAPartOfTheBody) {
+TEST(StageBodies, GripperBase_PartOfBody) {
   const std::string gripper = "gripper ( size [0.2 0.3 0.2] pose [0.3 0 -0.5 0] ";
   const RobotModel solid = model_of("size [0.4 0.4 0.5] " + gripper + ")");
   double front_m = 0.0;
@@ -73,7 +73,7 @@ TEST(StageBodies, TheBaseOfAGripperIsAPartOfTheBody) {
 }
 
 // Teeth of half the height before a body: together they are 1 x 0.8 m, the body alone 0.8 x 0.8 m.
-TEST(StageBodies, ALowPartBeforeTheBodyKeepsItsHeight) {
+TEST(StageBodies, LowPartInFront_KeepsHeight) {
   const RobotModel model = model_of(
       "size [1 0.8 0.6] "
       "block ( points 4 point[0] [0 0] point[1] [8 0] point[2] [8 8] point[3] [0 8] z [0 6] ) "
@@ -97,7 +97,7 @@ const char* const kBigbob =
     "block ( points 4 point[3] [1 0.375] point[2] [1.25 0.375] point[1] [1.25 0.25] "
     "point[0] [1 0.25] z [0 0.5] ) drive \"diff\" ";
 
-TEST(StageBodies, TeethArePartsOfTheirOwn) {
+TEST(StageBodies, Teeth_SeparateParts) {
   const RobotModel model = model_of(kBigbob);
   ASSERT_THAT(model.parts, SizeIs(3));
   EXPECT_NEAR(area_m2(model.parts[0]), 1.0 - 0.25 * 0.25, 1e-9);
@@ -115,7 +115,7 @@ TEST(StageBodies, TeethArePartsOfTheirOwn) {
 }
 
 // An L, as one concave block: 0.4 x 0.4 m without a quarter.
-TEST(StageBodies, AConcaveBlockIsDivided) {
+TEST(StageBodies, ConcaveBlock_Divided) {
   const RobotModel model = model_of(
       "size [0.4 0.4 0.2] block ( points 6 point[0] [0 0] point[1] [2 0] point[2] [2 1] "
       "point[3] [1 1] point[4] [1 2] point[5] [0 2] z [0 1] )");
@@ -129,7 +129,7 @@ TEST(StageBodies, AConcaveBlockIsDivided) {
 // and stops at its body. Its front is at 0.5 m then, and x = 1.425 - 0.5 = 0.925. The laser looks
 // across from one tooth to the other, 0.625 m ahead. A convex body would stop 0.25 m earlier. The
 // gripper's paddles reach from x = 0.55 to 0.75; they hold the orange, and carry it back.
-TEST(StageBodies, BigbobHoldsAnOrangeBetweenItsTeeth) {
+TEST(StageBodies, Bigbob_HoldsOrangeBetweenTeeth) {
   test_support::TemporaryFolder folder;
   Simulation simulation(load_world(folder.write(
       "w.world",
@@ -165,7 +165,7 @@ TEST(StageBodies, BigbobHoldsAnOrangeBetweenItsTeeth) {
               simulation.body(0).X_WB.x_m + 0.575, 0.005);
 }
 
-TEST(StageBodies, PartsThatRangersDoNotSeeAreSolidOnly) {
+TEST(StageBodies, PartsInvisibleToRangers_SolidOnly) {
   const RobotModel model = model_of(
       "size [0.4 0.4 0.2] "
       "model ( size [0.6 0.6 0.1] pose [0 0 0 0] ranger_return -1 ) "
@@ -179,7 +179,7 @@ TEST(StageBodies, PartsThatRangersDoNotSeeAreSolidOnly) {
 }
 
 // A bumper that is seen but not solid, before the body and not higher than it.
-TEST(StageBodies, PartsThatAreSeenBeyondTheFootprintStayVisible) {
+TEST(StageBodies, VisiblePartsBeyondFootprint_StayVisible) {
   const RobotModel model = model_of(
       "size [0.4 0.4 0.2] model ( size [0.1 0.1 0.1] pose [0.25 0 -0.1 0] obstacle_return 0 )");
   EXPECT_NEAR(area_m2(model.footprint), 0.16, 1e-9);
@@ -191,7 +191,7 @@ TEST(StageBodies, PartsThatAreSeenBeyondTheFootprintStayVisible) {
   EXPECT_NEAR(model.superstructures[1].height_m, 0.2, 1e-9);
 }
 
-TEST(StageBodies, HaveAtMostThirtyTwoSuperstructures) {
+TEST(StageBodies, Superstructures_AtMost32) {
   std::string parts = "size [0.4 0.4 0.2] ";
   for (int i = 0; i < 40; ++i) {
     parts += "model ( size [0.02 0.02 0.1] pose [" + shortest_text(0.04 * (i % 8) - 0.16) + ' ' +
@@ -200,7 +200,7 @@ TEST(StageBodies, HaveAtMostThirtyTwoSuperstructures) {
   EXPECT_THAT(model_of(parts).superstructures, SizeIs(32));
 }
 
-TEST(StageBodies, PartsWithinHigherOnesAreNotListed) {
+TEST(StageBodies, PartsWithinHigherOnes_NotListed) {
   const RobotModel model = model_of(
       "size [0.4 0.4 0.2] model ( size [0.2 0.2 0.3] ) model ( size [0.1 0.1 0.2] ) "
       "model ( size [0.1 0.1 0.4] )");

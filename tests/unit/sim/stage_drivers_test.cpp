@@ -37,7 +37,7 @@ WorldDescription read(const std::string& drivers, const std::string& scanner = k
                      " )\nposition ( name \"r1\" size [0.4 0.4 0.2] pose [2 0 0 0] )"));
 }
 
-TEST(StageDrivers, OptionsOfVfhKeepTheirMeaning) {
+TEST(StageDrivers, Vfh_OptionsKeepMeaning) {
   const WorldDescription world = read(
       "driver ( name \"vfh\" provides [\"position2d:1\"] requires [\"position2d:0\" \"ranger:0\"]\n"
       "  max_speed 0.3 max_turnrate_0ms 90 sector_angle 10 distance_epsilon 0.25\n"
@@ -58,7 +58,7 @@ TEST(StageDrivers, OptionsOfVfhKeepTheirMeaning) {
               Contains(HasSubstr("options of the driver \"vfh\" are left out: escape_speed")));
 }
 
-TEST(StageDrivers, PairsOfNdAreTwoSettings) {
+TEST(StageDrivers, Nd_PairsAreTwoSettings) {
   const WorldDescription world = read(
       "driver ( name \"nd\" provides [\"position2d:2\"]\n"
       "  requires [\"output:::position2d:0\" \"input:::position2d:0\" \"ranger:0\"]\n"
@@ -75,7 +75,7 @@ TEST(StageDrivers, PairsOfNdAreTwoSettings) {
 }
 
 // As in Stage's wavefront-remote.cfg: the drivers run on a second server.
-TEST(StageDrivers, WavefrontFollowsAmclAndDrivesByVfh) {
+TEST(StageDrivers, Wavefront_FollowsAmclAndDrivesByVfh) {
   const WorldDescription world = read(
       "driver ( name \"wavefront\" provides [\"7000:planner:0\"] requires\n"
       "  [\"output::7000:position2d:1\" \"input::7000:position2d:2\" \"7000:map:0\"]\n"
@@ -112,7 +112,7 @@ TEST(StageDrivers, WavefrontFollowsAmclAndDrivesByVfh) {
 }
 
 // As in the documentation of Player's vfh and wavefront.
-TEST(StageDrivers, WavefrontWhoseInputIsVfhUsesTheRobotsPosition) {
+TEST(StageDrivers, WavefrontWithVfhInput_UsesRobotPosition) {
   const WorldDescription world = read(
       "driver ( name \"vfh\" provides [\"position2d:1\"] requires [\"position2d:0\" \"ranger:0\"] "
       ")\n"
@@ -124,7 +124,7 @@ TEST(StageDrivers, WavefrontWhoseInputIsVfhUsesTheRobotsPosition) {
   EXPECT_FALSE(settings.contains("position")) << "by default it is the robot's first one";
 }
 
-TEST(StageDrivers, ThatNeedALaserAreLeftOutWithoutOne) {
+TEST(StageDrivers, MissingLaser_DriverLeftOut) {
   for (const char* name : {"nd", "vfh", "snd", "amcl"}) {
     const WorldDescription world = read(std::string("driver ( name \"") + name +
                                             "\" provides [\"position2d:1\"] "
@@ -136,7 +136,7 @@ TEST(StageDrivers, ThatNeedALaserAreLeftOutWithoutOne) {
   }
 }
 
-TEST(StageDrivers, AmclUsesTheLaserInPlaceOfSonars) {
+TEST(StageDrivers, Amcl_UsesLaserInsteadOfSonars) {
   const WorldDescription world = read(
       "driver ( name \"mapfile\" provides [\"map:1\"] filename \"x.png\" )\n"
       "driver ( name \"mapscale\" provides [\"map:0\"] requires [\"map:1\"] )\n"
@@ -149,7 +149,7 @@ TEST(StageDrivers, AmclUsesTheLaserInPlaceOfSonars) {
   EXPECT_THAT(world.notes, Each(Not(HasSubstr("mapscale"))));
 }
 
-TEST(StageDrivers, ThatMakeScansAreFurtherLasers) {
+TEST(StageDrivers, ScanDrivers_AreFurtherLasers) {
   const WorldDescription world = read(
       "driver ( name \"rangertolaser\" provides [\"laser:0\"] requires [\"ranger:0\"] )\n"
       "driver ( name \"lasercspace\" provides [\"laser:2\"] requires [\"laser:0\"]\n"
@@ -173,7 +173,7 @@ TEST(StageDrivers, ThatMakeScansAreFurtherLasers) {
   EXPECT_THAT(world.notes, Each(Not(HasSubstr("localbb"))));
 }
 
-TEST(StageDrivers, ThatReadTheScansOfADriverAreLeftOut) {
+TEST(StageDrivers, ScanReaders_LeftOut) {
   const WorldDescription world = read(
       "driver ( name \"laserposeinterpolator\" provides [\"laser:1\"]\n"
       "  requires [\"ranger:0\" \"position2d:0\"] )\n"
@@ -182,7 +182,7 @@ TEST(StageDrivers, ThatReadTheScansOfADriverAreLeftOut) {
   EXPECT_THAT(world.notes, Contains(HasSubstr("\"lasercspace\" is left out: it can use only")));
 }
 
-TEST(StageDrivers, OthersAreLeftOutWithAMessage) {
+TEST(StageDrivers, OtherDrivers_LeftOutWithMessage) {
   const WorldDescription world = read(
       "driver ( name \"mbicp\" provides [\"position2d:1\"] requires [\"position2d:0\"] )\n"
       "driver ( name \"nd\" provides [\"position2d:1\"] requires [\"position2d:7\"] )");
@@ -190,7 +190,7 @@ TEST(StageDrivers, OthersAreLeftOutWithAMessage) {
   EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:4: the driver \"nd\" is left out")));
 }
 
-TEST(StageDrivers, WhoseRequirementsAreNotMetAreLeftOut) {
+TEST(StageDrivers, UnmetRequirements_LeftOut) {
   // The robot has one position; what Playpen adds is not in Player's file.
   const WorldDescription world = read(
       "driver ( name \"laserposeinterpolator\" provides [\"laser:1\"]\n"
@@ -213,7 +213,7 @@ TEST(StageDrivers, WhoseRequirementsAreNotMetAreLeftOut) {
                                               "provides \"position2d:3\"")));
 }
 
-TEST(StageDrivers, AddressesThatNothingProvidesHaveALine) {
+TEST(StageDrivers, UnprovidedAddresses_HaveLine) {
   const WorldDescription world = read(
       "driver ( name \"vfh\" provides [\"position2d:1\" \"truth:0\"]\n"
       "  requires [\"position2d:0\" \"ranger:0\"] )\n"
@@ -236,7 +236,7 @@ TEST(StageDrivers, AddressesThatNothingProvidesHaveALine) {
           HasSubstr("w.cfg:10: the interface \"graphics3d\" is left out")));
 }
 
-TEST(StageDrivers, RobotsThatShareAPortDrawAtTheirOwnIndexes) {
+TEST(StageDrivers, RobotsOnSamePort_KeepGraphicsButNoDrivers) {
   test_support::TemporaryFolder folder;
   folder.write("w.cfg", R"(
 driver ( name "stage" provides ["simulation:0"] worldfile "w.world" )
@@ -255,7 +255,7 @@ driver ( name "vfh" provides ["position2d:2"] requires ["position2d:0" "ranger:0
                                              "port that several robots share")));
 }
 
-TEST(StageDrivers, OneAddressIsThatOfOneDriver) {
+TEST(StageDrivers, TakenAddress_GetsNextIndex) {
   // Of two servers in Player; here all are on the robot's port.
   const WorldDescription world = read(
       "driver ( name \"vfh\" provides [\"7000:position2d:0\"]\n"
@@ -271,7 +271,7 @@ TEST(StageDrivers, OneAddressIsThatOfOneDriver) {
                                               "\"position2d:1\" here")));
 }
 
-TEST(StageDrivers, ThatConvertGiveADeviceOnlyItsInterfaces) {
+TEST(StageDrivers, Converters_LeaveDeviceItsInterfacesOnly) {
   const WorldDescription world = read(
       "driver ( name \"rangertolaser\" provides [\"laser:1\" \"sonar:0\"] requires "
       "[\"ranger:0\"] )\n"
@@ -288,7 +288,7 @@ TEST(StageDrivers, ThatConvertGiveADeviceOnlyItsInterfaces) {
                   HasSubstr("w.cfg:5: the address \"ranger:4\" is left out: it is \"ranger:0\"")));
 }
 
-TEST(StageDrivers, APlannerWhoseOutputIsTheRobotDrivesStraight) {
+TEST(StageDrivers, PlannerWithRobotOutput_DrivesStraight) {
   // Stage's position models take goals themselves (libstageplugin/p_position.cc).
   const WorldDescription world = read(
       "driver ( name \"wavefront\" provides [\"planner:0\"] requires\n"
@@ -301,7 +301,7 @@ TEST(StageDrivers, APlannerWhoseOutputIsTheRobotDrivesStraight) {
   EXPECT_THAT(world.notes, testing::ElementsAre(HasSubstr("w.cfg:3: the robot's position drives")));
 }
 
-TEST(StageDrivers, ThatReadThePositionOfAnotherDriverUseTheRobots) {
+TEST(StageDrivers, PositionOfOtherDriver_ReplacedByRobot) {
   const WorldDescription world = read(
       "driver ( name \"nd\" provides [\"position2d:1\"] requires\n"
       "  [\"output:::position2d:0\" \"input:::position2d:2\" \"ranger:0\"] )\n"
@@ -315,7 +315,7 @@ TEST(StageDrivers, ThatReadThePositionOfAnotherDriverUseTheRobots) {
                                  "\"amcl\"")));
 }
 
-TEST(StageDrivers, AnglesAreInTheUnitOfTheFile) {
+TEST(StageDrivers, Angles_UnitOfFile) {
   const WorldDescription world = read(
       "unit_angle \"radians\" unit_length \"cm\"\n"
       "driver ( name \"vfh\" provides [\"position2d:1\"] requires [\"position2d:0\" \"ranger:0\"]\n"
@@ -328,7 +328,7 @@ TEST(StageDrivers, AnglesAreInTheUnitOfTheFile) {
 }
 
 // Each property, section and driver of a configuration file has an effect or a line.
-TEST(StageDrivers, WhatHasNoEffectHasALine) {
+TEST(StageDrivers, SettingsWithoutEffect_HaveLine) {
   const std::string requires_all = "requires [\"position2d:0\" \"ranger:0\" \"map:0\"] ";
   const auto lines_of = [&](const std::string& drivers) { return read(drivers).notes; };
   const auto noted = [](int line) {
@@ -373,7 +373,7 @@ TEST(StageDrivers, WhatHasNoEffectHasALine) {
   }
 }
 
-TEST(StageDrivers, AnInterfaceThatTheModelLacksIsLeftOutIfItHasOthers) {
+TEST(StageDrivers, MissingInterface_LeftOutIfOthersExist) {
   test_support::TemporaryFolder folder;
   folder.write("w.world", "position ( name \"r0\" size [0.4 0.4 0.2] )");
   const WorldDescription world = load_world(folder.write(
@@ -383,7 +383,7 @@ TEST(StageDrivers, AnInterfaceThatTheModelLacksIsLeftOutIfItHasOthers) {
   EXPECT_THAT(world.notes, Contains(HasSubstr("some.cfg:2: no model on r0 that offers \"laser\"")));
 }
 
-TEST(StageDrivers, TheOnlyModelThatIsUnknownIsTheFirstRobot) {
+TEST(StageDrivers, SingleUnknownModel_IsFirstRobot) {
   test_support::TemporaryFolder folder;
   folder.write("w.world", "position ( name \"r0\" size [0.4 0.4 0.2] )");
   const WorldDescription world = load_world(

@@ -62,7 +62,7 @@ class StageFiles : public testing::Test {
   test_support::TemporaryFolder folder_;
 };
 
-TEST_F(StageFiles, TextsThatAreNotUtf8AreLatin1) {
+TEST_F(StageFiles, NonUtf8_ReadAsLatin1) {
   // 0xE9 is an e with an acute accent; as UTF-8 it has two bytes, and names have _ for each.
   folder_.write("w.world",
                 "position ( name \"caf\xe9\" pose [ 0 0 0 0 ] ranger ( sensor ( "
@@ -78,7 +78,7 @@ TEST_F(StageFiles, TextsThatAreNotUtf8AreLatin1) {
   EXPECT_EQ(world.robots[0].name, "caf__");
 }
 
-TEST_F(StageFiles, TheFirstDefinitionCounts) {
+TEST_F(StageFiles, FirstDefinition_Counts) {
   const WorldDescription world = read(
       "define bot position ( size [0.4 0.4 0.2] mass 3 )\n"
       "define bot position ( size [0.8 0.8 0.2] mass 9 )\n"
@@ -88,13 +88,13 @@ TEST_F(StageFiles, TheFirstDefinitionCounts) {
                                           HasSubstr("w.world:1"))));
 }
 
-TEST_F(StageFiles, AnIncludeMayBeNamedTwice) {
+TEST_F(StageFiles, RepeatedInclude_Accepted) {
   folder_.write("bot.inc", "define bot position ( size [0.4 0.4 0.2] )\n");
   const WorldDescription world = read("include \"bot.inc\"\ninclude \"bot.inc\"\nbot ( )\n");
   EXPECT_THAT(world.notes, IsEmpty());
 }
 
-TEST_F(StageFiles, NumbersAreReadAsInStage) {
+TEST_F(StageFiles, Numbers_ReadAsInStage) {
   const WorldDescription world = read(
       "position ( size [0.4.1 \"0.4\" 0.2] mass \"12.5\" name 7 pose [1 +2 0 0] drive \"tank\" "
       ")\n");
@@ -109,7 +109,7 @@ TEST_F(StageFiles, NumbersAreReadAsInStage) {
   EXPECT_THAT(world.notes, Contains(HasSubstr("\"diff\" is used, as in Stage")));
 }
 
-TEST_F(StageFiles, LineEndsBlanksAndCommentsDoNotMatter) {
+TEST_F(StageFiles, LineEndsBlanksAndComments_Ignored) {
   const std::string lines =
       "\xef\xbb\xbf# a comment (with a bracket\r\nposition#here\r\n(\t#\"\r\n\tsize [0.4 "
       "0.4\t0.2]#]\r\n"
@@ -119,7 +119,7 @@ TEST_F(StageFiles, LineEndsBlanksAndCommentsDoNotMatter) {
   EXPECT_THAT(world.notes, IsEmpty());
 }
 
-TEST_F(StageFiles, OfGazeboAreRefusedByName) {
+TEST_F(StageFiles, Gazebo_RefusedByName) {
   for (const char* text :
        {"<?xml version=\"1.0\"?>\n<sdf/>", "\xef\xbb\xbf\n  <sdf version='1.6'>"}) {
     const ConfigIssue issue = issue_of(text);
@@ -128,18 +128,18 @@ TEST_F(StageFiles, OfGazeboAreRefusedByName) {
   }
 }
 
-TEST_F(StageFiles, ModelsOfStage1AreRefusedByName) {
+TEST_F(StageFiles, Stage1Models_RefusedByName) {
   const ConfigIssue issue = issue_of("environment ( file \"cave.pnm\" )");
   EXPECT_EQ(issue.id, "stage/unknown-model");
   EXPECT_THAT(issue.hint, HasSubstr("Stage 1"));
 }
 
-TEST_F(StageFiles, DevicesOfStage2WithoutACounterpartAreLeftOut) {
+TEST_F(StageFiles, Stage2DevicesWithoutCounterpart_LeftOut) {
   const WorldDescription world = read("position ( size [0.4 0.4 0.2] speech ( ) audio ( ) )\n");
   EXPECT_THAT(world.notes, ElementsAre(HasSubstr("speech of Stage 2"), HasSubstr("audio of")));
 }
 
-TEST_F(StageFiles, BodiesOfStage2ArePolygons) {
+TEST_F(StageFiles, Stage2Bodies_ArePolygons) {
   const WorldDescription world = read(R"(
 position (
   size [0.4 0.4]
@@ -156,7 +156,7 @@ position (
   EXPECT_THAT(world.notes, ElementsAre(HasSubstr("flat")));
 }
 
-TEST_F(StageFiles, ASolidAroundARobotIsHollow) {
+TEST_F(StageFiles, SolidAroundRobot_Hollow) {
   const WorldDescription world = read(R"(
 model ( name "room" size [6 4 1] pose [1 0 0 90] )
 model ( name "box" size [1 1 1] pose [1 2 0 0] )
@@ -180,7 +180,7 @@ position ( name "r0" size [0.4 0.4 0.2] pose [1 0 0 0] )
   EXPECT_NEAR(most_y_m, 3.0, 1e-6);
 }
 
-TEST_F(StageFiles, PathsOfAnotherComputerAreLookedForBesideTheWorld) {
+TEST_F(StageFiles, ForeignPaths_SearchedBesideWorld) {
   folder_.write("bot.inc", "define bot position ( size [0.4 0.4 0.2] )\n");
   write_dark_picture("plan.pgm", 4, 4);
   const WorldDescription world = read(
@@ -191,7 +191,7 @@ TEST_F(StageFiles, PathsOfAnotherComputerAreLookedForBesideTheWorld) {
   EXPECT_THAT(world.arena.walls, SizeIs(1));
 }
 
-TEST_F(StageFiles, PixelsThatAreTooSmallBecomeCoarser) {
+TEST_F(StageFiles, SmallPixels_Coarsened) {
   write_dark_picture("fine.pgm", 400, 1);
   const WorldDescription world = read(
       "model ( bitmap \"fine.pgm\" size [0.2 5 1] pose [3 0 0 0] )\n"  // 0.5 mm a pixel
@@ -199,7 +199,7 @@ TEST_F(StageFiles, PixelsThatAreTooSmallBecomeCoarser) {
   EXPECT_THAT(world.arena.walls, Not(IsEmpty()));
 }
 
-TEST_F(StageFiles, BitmapsMayBeBmp) {
+TEST_F(StageFiles, Bmp_Accepted) {
   // 2 x 2 pixels from the lower left: dark and light, then light and light.
   const auto bmp = [](int bits, const std::string& palette, const std::string& rows) {
     const auto number = [](std::size_t value, int bytes) {
@@ -236,7 +236,7 @@ TEST_F(StageFiles, BitmapsMayBeBmp) {
   EXPECT_EQ(issue_of("model ( bitmap \"plan.bmp\" )").id, "stage/bitmap");
 }
 
-TEST_F(StageFiles, PicturesMayHaveMoreThan8192PixelsASide) {
+TEST_F(StageFiles, PicturesAbove8192Pixels_Accepted) {
   write_dark_picture("wide.pgm", 9000, 2);
   const WorldDescription world = read(
       "model ( bitmap \"wide.pgm\" size [90 1 1] pose [0 3 0 0] )\n"
@@ -244,7 +244,7 @@ TEST_F(StageFiles, PicturesMayHaveMoreThan8192PixelsASide) {
   EXPECT_THAT(world.arena.walls, Not(IsEmpty()));
 }
 
-TEST_F(StageFiles, RobotsOfOnePortHaveTheDevicesThatTheFileNames) {
+TEST_F(StageFiles, RobotsOnSamePort_HaveDevicesOfFile) {
   folder_.write("w.cfg", R"(
 driver ( name "stage" provides ["simulation:0"] worldfile "w.world" )
 driver ( name "stage" provides ["6665:position2d:0" "6665:ranger:0"] model "a" )
@@ -268,7 +268,7 @@ bot ( name "a" ) bot ( name "b" pose [2 0 0 0] )
   EXPECT_EQ(world.robots[1].proxies.at("ranger"), 1);
 }
 
-TEST_F(StageFiles, AModelHasOnePosition) {
+TEST_F(StageFiles, Model_HasOnePosition) {
   folder_.write("w.cfg", R"(
 driver ( name "stage" provides ["simulation:0"] worldfile "w.world" )
 driver ( name "stage" provides ["position2d:0" "position2d:1"] model "a" )
@@ -278,7 +278,7 @@ driver ( name "stage" provides ["position2d:0" "position2d:1"] model "a" )
   EXPECT_THAT(world.notes, Contains(HasSubstr("that offers \"position2d\"")));
 }
 
-TEST_F(StageFiles, InterfacesOfNoModelAreLeftOut) {
+TEST_F(StageFiles, InterfacesWithoutModel_LeftOut) {
   folder_.write("w.cfg", R"(
 driver ( name "stage" provides ["opaque:0"] worldfile "w.world" )
 driver ( name "stage" provides ["position2d:0"] model "a" )
@@ -287,7 +287,7 @@ driver ( name "stage" provides ["position2d:0"] model "a" )
   EXPECT_THAT(world.notes, Contains(HasSubstr("the interface \"opaque\" is left out")));
 }
 
-TEST_F(StageFiles, TheConfigurationFileIsFoundInTheFolderOfTheProgram) {
+TEST_F(StageFiles, ConfigurationFile_FoundInWorkingDirectory) {
   folder_.write("w.cfg", R"(
 driver ( name "stage" provides ["simulation:0"] worldfile "w.world" )
 driver ( name "stage" provides ["6670:position2d:0"] model "a" )
@@ -300,7 +300,7 @@ driver ( name "stage" provides ["6670:position2d:0"] model "a" )
   EXPECT_EQ(world.robots[0].port, 6670);
 }
 
-TEST_F(StageFiles, CarsAreSteeredByTheSecondNumberOfTheSpeed) {
+TEST_F(StageFiles, Cars_SteeredBySecondNumberOfSpeed) {
   const WorldDescription world =
       read("position ( size [0.4 0.4 0.2] drive \"car\" wheelbase 0.5 )\n");
   EXPECT_THAT(world.notes, IsEmpty());
@@ -327,7 +327,7 @@ std::string utf16(const std::string& text, bool big_endian) {
 
 constexpr const char* kSmallRobot = "position ( name \"a\" size [0.4 0.4 0.2] )\n";
 
-TEST_F(StageFiles, InUtf16AreRefusedByTheNameOfTheEncoding) {
+TEST_F(StageFiles, Utf16_RefusedByNameOfEncoding) {
   for (const bool big_endian : {false, true}) {
     for (const bool mark : {false, true}) {
       for (const char* text : {kSmallRobot, "# a comment\nposition ( )\n"}) {
@@ -354,7 +354,7 @@ TEST_F(StageFiles, InUtf16AreRefusedByTheNameOfTheEncoding) {
   }
 }
 
-TEST_F(StageFiles, WithLineEndsOfOldMacsHaveTheSameLines) {
+TEST_F(StageFiles, OldMacLineEnds_SameLines) {
   const std::string text = "# a comment\rposition (\r  name \"a\"\r  size [0.4 0.4 0.2]\r)\r";
   EXPECT_EQ(read(text).robots[0].name, "a");
   EXPECT_EQ(issue_of("# a comment\r# another\rposition ( size ,\r)\r").line, 3);
@@ -367,7 +367,7 @@ TEST_F(StageFiles, WithLineEndsOfOldMacsHaveTheSameLines) {
   EXPECT_THAT(world.notes, Contains(HasSubstr("w.cfg:4: the driver \"odd\"")));
 }
 
-TEST_F(StageFiles, CharactersOfTextProcessorsAreNamed) {
+TEST_F(StageFiles, TypographicCharacters_Named) {
   struct Case {
     const char* text;
     const char* found;
@@ -427,7 +427,7 @@ TEST_F(StageFiles, CharactersOfTextProcessorsAreNamed) {
             "a");
 }
 
-TEST_F(StageFiles, ThatAreEmptySaySo) {
+TEST_F(StageFiles, EmptyFile_Reported) {
   for (const char* text : {"", "\n \t\r\n", "# only a comment\n", "# a comment\r"}) {
     const ConfigIssue issue = issue_of(text);
     EXPECT_EQ(issue.id, "stage/empty") << text;
@@ -445,7 +445,7 @@ TEST_F(StageFiles, ThatAreEmptySaySo) {
 }
 
 // U+00E4 is an a with diaeresis: C3 A4 in UTF-8, E4 in ISO 8859-1.
-TEST_F(StageFiles, AreFoundByNamesWithBlanksAndUmlauts) {
+TEST_F(StageFiles, NamesWithBlanksAndUmlauts_Found) {
   for (const char* on_disk : {"my m\xc3\xa4p", "my m\xe4p"}) {
     for (const char* in_file : {"my m\xc3\xa4p", "my m\xe4p"}) {
       const test_support::TemporaryFolder folder;
@@ -475,7 +475,7 @@ TEST_F(StageFiles, AreFoundByNamesWithBlanksAndUmlauts) {
   }
 }
 
-TEST_F(StageFiles, NotesAndErrorsAboutFilesInLatin1AreInUtf8) {
+TEST_F(StageFiles, NotesAndErrorsOfLatin1_InUtf8) {
   folder_.write("m\xe4p.inc", "position ( odd 1 )\n");
   const WorldDescription world = read("include \"m\xe4p.inc\"\n");
   EXPECT_THAT(world.notes, ElementsAre(HasSubstr("m\xc3\xa4p.inc:1: the property \"odd\"")));
@@ -483,7 +483,7 @@ TEST_F(StageFiles, NotesAndErrorsAboutFilesInLatin1AreInUtf8) {
   EXPECT_THAT(issue_of("include \"m\xe4p.inc\"\n").file, testing::EndsWith("m\xc3\xa4p.inc"));
 }
 
-TEST_F(StageFiles, IncludesOfAnotherComputerAreReplacedWithANote) {
+TEST_F(StageFiles, ForeignIncludes_ReplacedWithNote) {
   std::filesystem::create_directories(folder_ / "far");
   folder_.write("far/other.inc", "define bot position ( size [0.4 0.4 0.2] mass 4 )\n");
   setenv("STAGEPATH", (folder_ / "far").c_str(), 1);
@@ -509,12 +509,12 @@ TEST_F(StageFiles, IncludesOfAnotherComputerAreReplacedWithANote) {
   unsetenv("STAGEPATH");
 }
 
-TEST_F(StageFiles, IncludesMayStandInsideAModel) {
+TEST_F(StageFiles, IncludeInsideModel_Accepted) {
   folder_.write("body.inc", "size [0.4 0.4 0.2]\nmass 3\n");
   EXPECT_EQ(model(read("position (\n  include \"body.inc\"\n  name \"a\"\n)\n"), 0).mass_kg, 3.0);
 }
 
-TEST_F(StageFiles, IncludesOfPlayersFilesAreFollowed) {
+TEST_F(StageFiles, PlayerIncludes_Followed) {
   folder_.write("w.world",
                 "position ( name \"a\" size [0.4 0.4 0.2] )\n"
                 "position ( name \"b\" size [0.4 0.4 0.2] pose [2 0 0 0] )\n");
@@ -548,7 +548,7 @@ TEST_F(StageFiles, IncludesOfPlayersFilesAreFollowed) {
 }
 
 // Each of 29 files includes the next one twice: 2^28 times the last one.
-TEST_F(StageFiles, FilesThatIncludeEachOtherTwiceAreRefused) {
+TEST_F(StageFiles, IncludeCycle_Refused) {
   for (int i = 1; i < 29; ++i) {
     const std::string next = "include \"f" + std::to_string(i + 1) + ".inc\"\n";
     folder_.write("f" + std::to_string(i) + ".inc", next + next);
@@ -565,7 +565,7 @@ TEST_F(StageFiles, FilesThatIncludeEachOtherTwiceAreRefused) {
 }
 
 // 900 times 20 kB.
-TEST_F(StageFiles, TheTextOfAllIncludesIsBounded) {
+TEST_F(StageFiles, IncludedText_Limited) {
   folder_.write("long.inc", "#" + std::string(20'000, '-') + "\n");
   std::string text;
   for (int i = 0; i < 900; ++i) text += "include \"long.inc\"\n";
@@ -579,7 +579,7 @@ TEST_F(StageFiles, TheTextOfAllIncludesIsBounded) {
 }
 
 // Ten definitions, each with the next one twice: 1024 robots.
-TEST_F(StageFiles, DefinitionsThatMakeTooManyRobotsAreRefusedAtTheFirstThatIsTooMany) {
+TEST_F(StageFiles, TooManyRobots_RefusedAtFirstExcess) {
   std::string text;
   for (int i = 1; i <= 12; ++i) {
     const std::string next = "d" + std::to_string(i + 1) + " ()";
@@ -595,7 +595,7 @@ TEST_F(StageFiles, DefinitionsThatMakeTooManyRobotsAreRefusedAtTheFirstThatIsToo
   }
 }
 
-TEST_F(StageFiles, AConfigurationFileOfThatNameThatIsWrongHasALine) {
+TEST_F(StageFiles, InvalidConfigurationFile_HasLine) {
   folder_.write("w.cfg", "driver ( name \"stage\" provides [\"simulation:0\"]\n");
   const WorldDescription world = read(kSmallRobot);
   EXPECT_THAT(world.notes, ElementsAre(AllOf(HasSubstr("w.cfg:2: the configuration file"),
@@ -605,7 +605,7 @@ TEST_F(StageFiles, AConfigurationFileOfThatNameThatIsWrongHasALine) {
   EXPECT_THAT(read(kSmallRobot).notes, IsEmpty());
 }
 
-TEST_F(StageFiles, TheWorldOfAnotherComputerIsLookedForBesideTheConfigurationFile) {
+TEST_F(StageFiles, ForeignWorldPath_SearchedBesideConfiguration) {
   folder_.write("w.world", kSmallRobot);
   const WorldDescription world = load_world(folder_.write(
       "x.cfg",
@@ -615,7 +615,7 @@ TEST_F(StageFiles, TheWorldOfAnotherComputerIsLookedForBesideTheConfigurationFil
   EXPECT_THAT(world.notes, ElementsAre(HasSubstr("x.cfg:1: there is no file \"/home/x/w.world\"")));
 }
 
-TEST_F(StageFiles, ModelsOfStage2ThatCameWithItAreBuiltIn) {
+TEST_F(StageFiles, BundledStage2Models_BuiltIn) {
   const WorldDescription world = read(R"(
 include "sick.inc"
 include "roomba.inc"
@@ -648,7 +648,7 @@ position ( name "e" size [0.4 0.4] pucktarget ( ) pose [5 5 0] )
 }
 
 // Each property of a world file has an effect or a line, in every kind of model.
-TEST_F(StageFiles, PropertiesWithoutAnEffectHaveALine) {
+TEST_F(StageFiles, PropertiesWithoutEffect_HaveLine) {
   constexpr const char* kKinds[] = {"model", "position"};
   constexpr const char* kParts[] = {
       "model",  "ranger", "laser",        "fiducial",       "fiducialfinder", "blobfinder",
@@ -675,7 +675,7 @@ TEST_F(StageFiles, PropertiesWithoutAnEffectHaveALine) {
               Contains(HasSubstr("w.world:1: the look of Stage's window is left out")));
 }
 
-TEST_F(StageFiles, TheSpeedOfStagesWindowIsAnOptionHere) {
+TEST_F(StageFiles, WindowSpeed_IsOption) {
   EXPECT_THAT(read("speedup 1\n" + std::string(kSmallRobot)).notes, IsEmpty());
   EXPECT_THAT(read("\nspeedup 10\n" + std::string(kSmallRobot)).notes,
               ElementsAre(AllOf(HasSubstr("w.world:2: speedup has no effect"),
@@ -687,7 +687,7 @@ TEST_F(StageFiles, TheSpeedOfStagesWindowIsAnOptionHere) {
               ElementsAre(HasSubstr("unless --time 2 gives")));
 }
 
-TEST_F(StageFiles, TwoRobotsCannotHaveOneAddress) {
+TEST_F(StageFiles, DuplicateAddress_Refused) {
   const std::string robots =
       "position ( name \"a\" size [0.4 0.4 0.2] )\n"
       "position ( name \"b\" size [0.4 0.4 0.2] pose [2 0 0 0] )\n";

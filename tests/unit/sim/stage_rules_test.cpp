@@ -70,7 +70,7 @@ class StageRun {
 // Stage 2.1 has no heights: laser_raytrace_match() of src/model_laser.c takes each model with
 // laser_return > 0, ranger_raytrace_match() of src/model_ranger.c each one with ranger_return. The
 // front of the box is at 3 - 0.5 = 2.5 m from the origin, where both sensors are.
-TEST(StageFlat, SensorsSeeModelsAtAnyHeight) {
+TEST(StageFlat, Sensors_SeeModelsAtAnyHeight) {
   StageRun world(R"(
 model ( name "box" size [1 1] pose [3 0 0] )
 position ( name "r0" size [0.4 0.4] pose [0 0 0]
@@ -82,7 +82,7 @@ position ( name "r0" size [0.4 0.4] pose [0 0 0]
 }
 
 // A robot on the other side, without any height in the file, is seen as well: 3 - 0.2 m.
-TEST(StageFlat, RobotsSeeEachOther) {
+TEST(StageFlat, Robots_SeeEachOther) {
   StageRun world(R"(
 define bot position ( size [0.4 0.4] laser ( samples 3 fov 90 ) )
 bot ( pose [0 0 0] )
@@ -91,7 +91,7 @@ bot ( pose [3 0 180] ))");
   EXPECT_NEAR(world.ranges("laser", 1)[1], 2.8, 1e-5);
 }
 
-TEST(StageFlat, LaserReturnIsForLasersAndRangerReturnForSonars) {
+TEST(StageFlat, LaserAndRangerReturn_ForLasersAndSonars) {
   const auto seen = [](const std::string& returns) {
     StageRun world("model ( size [1 1] pose [3 0 0] " + returns + R"()
 position ( size [0.4 0.4]
@@ -104,7 +104,7 @@ position ( size [0.4 0.4]
   EXPECT_THAT(seen("laser_return 2"), ElementsAre(true, true));
 }
 
-TEST(StageFlat, SizesOfTheWindowAndOfTheWorldAreNoSign) {
+TEST(StageFlat, WindowAndWorldSize_NotEvidenceOfFlatWorld) {
   StageRun world(R"(
 size [16 16]
 window ( size [700 700] )
@@ -117,7 +117,7 @@ position ( size [0.4 0.4 0.2] laser ( samples 3 fov 90 range_max 8 ) ))");
 // InterfaceRanger::Publish() of libstageplugin/p_ranger.cc: of several sensors each gives its first
 // sample, which lies at -fov / 2. With 60 degrees these are at -30 and at 90 - 30 = 60 degrees. The
 // walls at x = 2 and y = 3 are met at 2 / cos 30 and 3 / sin 60 degrees.
-TEST(StageRangers, SeveralSensorsGiveTheirFirstSamples) {
+TEST(StageRangers, SeveralSensors_GiveFirstSamples) {
   StageRun world(R"(
 model ( size [0.2 20 1] pose [2.1 0 0 0] )
 model ( size [4 0.2 1] pose [0 3.1 0 0] )
@@ -144,7 +144,7 @@ position ( size [0.2 0.2 0.2]
 // Each sensor has its own range and height. The wall of 0.25 m is 3 - 0.1 m away. The first sensor
 // is at 0.2 + 0.01 m and reaches only 2 m, the second one reaches it, the third one at 0.31 looks
 // over it.
-TEST(StageRangers, EachSensorHasItsRangeAndHeight) {
+TEST(StageRangers, EachSensor_HasRangeAndHeight) {
   StageRun world(R"(
 model ( size [0.2 20 0.25] pose [3 0 0 0] )
 position ( size [0.2 0.2 0.2]
@@ -159,7 +159,7 @@ position ( size [0.2 0.2 0.2]
 
 // A ray has no width, whatever fov says: it passes 0.1 m beside the post, which a cone of 30
 // degrees would meet.
-TEST(StageRangers, ASensorOfOneSampleIsARay) {
+TEST(StageRangers, SingleSample_IsRay) {
   StageRun world(R"(
 model ( size [0.2 0.2 1] pose [2 0.2 0 0] )
 position ( size [0.2 0.2 0.2] ranger ( sensor ( fov 30 samples 1 range [0 4] ) ) ))");
@@ -169,7 +169,7 @@ position ( size [0.2 0.2 0.2] ranger ( sensor ( fov 30 samples 1 range [0 4] ) )
 
 // World::Raytrace() of libstage/world.cc leaves out a block only if z < min or z > max. The sensor
 // is at 0.37 - 0.02 + 0.05 + 0.01 m; the block ends at 0.41 m, which is the same height.
-TEST(StageHeights, ASensorAtTheTopOfABlockSeesIt) {
+TEST(StageHeights, SensorAtTopOfBlock_SeesIt) {
   const auto seen = [](const std::string& top) {
     StageRun world("model ( size [1 1 " + top + R"(] pose [3 0 0 0] )
 position ( size [0.4 0.4 0.37]
@@ -182,7 +182,7 @@ position ( size [0.4 0.4 0.37]
 
 // The shelf is from 0.3 to 0.5 m high, and both heights belong to it. The robot of 0.2 m drives
 // under it, 1 m/s for 2 s.
-TEST(StageHeights, BeamsAndRobotsPassUnderABlock) {
+TEST(StageHeights, BeamsAndRobots_PassUnderBlock) {
   const auto range_m = [](const std::string& z) {
     StageRun world(R"(
 model ( size [1 1 0.2] pose [2 0 0.3 0] )
@@ -203,7 +203,7 @@ position ( size [0.4 0.4 0.1]
 }
 
 // A robot with a roof of 1 m from 0.4 to 0.5 m over a body of 0.4 m: low beams meet the body.
-TEST(StageHeights, BeamsPassUnderTheRoofOfARobot) {
+TEST(StageHeights, Beams_PassUnderRoofOfRobot) {
   const auto range_m = [](const std::string& z) {
     StageRun world(R"(
 position ( size [0.4 0.4 0.1]
@@ -217,7 +217,7 @@ position ( pose [3 0 0 0] size [0.4 0.4 0.4] model ( size [1 1 0.1] ) ))");
 }
 
 // Equal robots whose finders are as high as the tops of their bodies see each other.
-TEST(StageHeights, EqualRobotsWithAFinderOnTopSeeEachOther) {
+TEST(StageHeights, EqualRobotsWithFinderOnTop_SeeEachOther) {
   StageRun world(R"(
 define bot position ( size [0.4 0.4 0.3] fiducial_return 1
   fiducial ( range_max 8 fov 180 pose [0 0 0 0] ) )
@@ -232,7 +232,7 @@ bot ( pose [3 0 0 180] fiducial_return 5 ))");
 // ModelPosition::Update() of libstage/model_position.cc: the heading grows by (1 + a) times the
 // turn, the path by (1 + x) times the way. The file's a is in degrees, and is taken in radians:
 // 0.2 degrees are 0.003491, 20 degrees are 0.3491. 4 s at 0.5 rad/s are 114.592 degrees.
-TEST(StageOdometry, ErrorsOfThePathAndOfTheHeadingAreIndependent) {
+TEST(StageOdometry, DistanceAndHeadingErrors_Independent) {
   const auto yaw_deg = [](const std::string& error, double* path_m) {
     StageRun world("position ( size [0.4 0.4 0.2] localization \"odom\" odom_error " + error +
                    " velocity_bounds [-1 1 0 0 0 0 -90 90] )");
@@ -255,7 +255,7 @@ TEST(StageOdometry, ErrorsOfThePathAndOfTheHeadingAreIndependent) {
 }
 
 // 0.5 m/s sideways for 2 s is 1 m; y's error is 0.2, x's is 0.1.
-TEST(StageOdometry, ThePathSidewaysHasAnErrorOfItsOwn) {
+TEST(StageOdometry, SidewaysDistance_HasOwnError) {
   StageRun world(
       "position ( size [0.4 0.4 0.2] drive \"omni\" localization \"odom\" "
       "odom_error [0.1 0.2 0 0] )");

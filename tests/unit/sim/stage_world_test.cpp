@@ -95,7 +95,7 @@ Extent extent_of(const Polygon& outline) {
   return extent;
 }
 
-TEST_F(StageWorld, DefinitionsPassOnTheirPropertiesAndTheLastOneCounts) {
+TEST_F(StageWorld, Definitions_InheritAndLastCounts) {
   const WorldDescription world = read(R"(
 define base position ( size [0.4 0.2 0.3] color "red" velocity_bounds [-1 1 0 0 0 0 -90 90] )
 define fast base ( velocity_bounds [-2 2 0 0 0 0 -45 45] )
@@ -115,7 +115,7 @@ fast ( name "b" pose [2 1 0 90] color "LightBlue" )
   EXPECT_EQ(world.robots[1].port, 6666);
 }
 
-TEST_F(StageWorld, LengthsAndAnglesHaveTheUnitsOfTheFile) {
+TEST_F(StageWorld, LengthsAndAngles_UnitsOfFile) {
   const WorldDescription world = read(R"(
 unit_length "cm"
 unit_angle "radians"
@@ -127,7 +127,7 @@ position ( name "a" size [40 20 30] pose [100 50 0 1.5] )
 }
 
 // The body is the size, moved by the origin: x from -0.04 - 0.22 to -0.04 + 0.22.
-TEST_F(StageWorld, TheOriginMovesTheBodyAndNotTheRobot) {
+TEST_F(StageWorld, Origin_MovesBodyNotRobot) {
   const WorldDescription world =
       read("position ( size [0.44 0.38 0.22] origin [-0.04 0 0 0] pose [1 2 0 0] mass 23 )");
   const Extent extent = extent_of(model(world).footprint);
@@ -140,7 +140,7 @@ TEST_F(StageWorld, TheOriginMovesTheBodyAndNotTheRobot) {
 }
 
 // The two blocks together are 2 x 1, stretched to 1 x 1: the left one is 0.5 wide and half as high.
-TEST_F(StageWorld, BlocksTogetherAreStretchedToTheSize) {
+TEST_F(StageWorld, Blocks_StretchedTogetherToSize) {
   const WorldDescription world = read(R"(
 model (
   name "stair" pose [3 0 0 90] size [1 1 0.8]
@@ -162,7 +162,7 @@ model (
 }
 
 // The dark pixels are 2 x 1 of 4 x 3: they are stretched to 4 x 2 m around the model's pose.
-TEST_F(StageWorld, TheDarkPixelsOfABitmapAreStretchedToTheSize) {
+TEST_F(StageWorld, BitmapPixels_StretchedToSize) {
   write_picture("plan.pgm", {"....",  //
                              ".##.",  //
                              "...."});
@@ -177,7 +177,7 @@ TEST_F(StageWorld, TheDarkPixelsOfABitmapAreStretchedToTheSize) {
 }
 
 // The L of 2 x 2 pixels becomes one of 0.4 x 0.4 m.
-TEST_F(StageWorld, ASmallBitmapOfOnePartIsAnObstacleWithColourAndFiducial) {
+TEST_F(StageWorld, SmallBitmapOfOnePart_ObstacleWithColourAndFiducial) {
   write_picture("l.pgm", {"#.", "##"});
   const WorldDescription world = read(
       "model ( name \"l\" bitmap \"l.pgm\" size [0.4 0.4 0.2] pose [1 2 0 90] color \"orange\" "
@@ -192,7 +192,7 @@ TEST_F(StageWorld, ASmallBitmapOfOnePartIsAnObstacleWithColourAndFiducial) {
   EXPECT_EQ(obstacle.fiducial, 3);
 }
 
-TEST_F(StageWorld, ABitmapMayBeTurnedAndHasABoundary) {
+TEST_F(StageWorld, Bitmap_MayBeRotatedAndHasBoundary) {
   write_picture("plan.pgm", {"#."  //
                              ,
                              ".#"});
@@ -213,7 +213,7 @@ TEST_F(StageWorld, ABitmapMayBeTurnedAndHasABoundary) {
   EXPECT_FALSE(world.arena.border);
 }
 
-TEST_F(StageWorld, ThePixelsOfEachFormatAreJudgedByTheirFirstSample) {
+TEST_F(StageWorld, BitmapFormats_JudgedByFirstSample) {
   // Red 200, green and blue 0: light, although its luma is 60.
   folder_.write("red.ppm", std::string("P6 2 1 255\n") + std::string("\xc8\0\0\0\xff\xff", 6));
   const WorldDescription ppm = read("model ( bitmap \"red.ppm\" size [4 4 1] )");
@@ -226,7 +226,7 @@ TEST_F(StageWorld, ThePixelsOfEachFormatAreJudgedByTheirFirstSample) {
 }
 
 // On top of the body (0.22), the sensor at 0.1 plus half its height of 0.02.
-TEST_F(StageWorld, ARangerWithManySamplesIsALaserOnTopOfTheBody) {
+TEST_F(StageWorld, RangerWithManySamples_LaserOnTop) {
   const WorldDescription world = read(R"(
 position (
   size [0.44 0.38 0.22]
@@ -248,7 +248,7 @@ position (
   EXPECT_THAT(world.robots[0].interfaces.at("ranger"), ElementsAre("laser"));
 }
 
-TEST_F(StageWorld, TheSyntaxesOfStage2And3GiveTheSameDevices) {
+TEST_F(StageWorld, Stage2And3Syntax_SameDevices) {
   const WorldDescription world = read(R"(
 position (
   size [0.4 0.4 0.2]
@@ -267,7 +267,7 @@ position (
   EXPECT_THAT(world.robots[0].interfaces.at("ranger"), ElementsAre("sonar", "laser"));
 }
 
-TEST_F(StageWorld, PosesOfThreeNumbersHaveAHeadingInFilesOfStage2Only) {
+TEST_F(StageWorld, PosesOfThreeNumbers_HeadingInStage2Only) {
   EXPECT_NEAR(read("position ( size [0.4 0.4] pose [1 2 90] )").robots[0].pose.yaw_rad,
               0.5 * std::numbers::pi, 1e-9);
   const WorldDescription later =
@@ -275,7 +275,7 @@ TEST_F(StageWorld, PosesOfThreeNumbersHaveAHeadingInFilesOfStage2Only) {
   EXPECT_EQ(later.robots[0].pose.yaw_rad, 0.0);
 }
 
-TEST_F(StageWorld, LocalizationDecidesWhatPosition2dReads) {
+TEST_F(StageWorld, Localization_SelectsWhatPosition2dReads) {
   const WorldDescription world = read(R"(
 position ( name "gps" size [0.4 0.4 0.2] pose [1 0 0 0] )
 position ( name "odom" size [0.4 0.4 0.2] pose [3 0 0 90] localization "odom"
@@ -295,7 +295,7 @@ position ( name "odom" size [0.4 0.4 0.2] pose [3 0 0 90] localization "odom"
   ASSERT_TRUE(id);
 }
 
-TEST_F(StageWorld, DrivesAreThoseOfTheModel) {
+TEST_F(StageWorld, Drives_FromModel) {
   const WorldDescription world = read(R"(
 position ( size [0.4 0.4 0.2] pose [0 0 0 0] drive "omni" )
 position ( size [0.4 0.4 0.2] pose [2 0 0 0] drive "car" wheelbase 0.5 )
@@ -307,7 +307,7 @@ position ( size [0.4 0.4 0.2] pose [4 0 0 0] )
   EXPECT_EQ(model(world, 2).drive.kind, DriveKind::kDifferential);
 }
 
-TEST_F(StageWorld, OtherDevicesHaveTheirFigures) {
+TEST_F(StageWorld, OtherDevices_SettingsConverted) {
   const WorldDescription world = read(R"(
 position (
   size [0.4 0.4 0.2] joules 36000 watts 5 fiducial_return 7
@@ -338,7 +338,7 @@ position (
   EXPECT_NEAR(device<BatteryParams>(world, "battery").capacity_wh, 10.0, 1e-9);
 }
 
-TEST_F(StageWorld, ObjectsHaveTheirReturns) {
+TEST_F(StageWorld, Objects_ReturnsConverted) {
   const WorldDescription world = read(R"(
 position ( size [0.4 0.4 0.2] pose [0 0 0 0] ranger ( sensor ( samples 100 fov 180 ) ) )
 model ( name "puck" size [0.1 0.1 0.1] pose [2 0 0 0] gripper_return 1 fiducial_return 10 color "red" )
@@ -358,7 +358,7 @@ model ( name "lamp" size [0.1 0.1 0.1] pose [5 0 2 0] )
   EXPECT_EQ(world.arena.obstacles[2].height_m, 0.001) << "pictures show it, rangers do not";
 }
 
-TEST_F(StageWorld, WhatIsLeftOutIsNotedOnceWithItsPlace) {
+TEST_F(StageWorld, LeftOutParts_NotedOnceWithPlace) {
   const WorldDescription world = read(
       "window ( size [100 100] )\n"
       "position ( size [0.4 0.4 0.2] ctrl \"fasr\" gui_nose 1 swims 1 )\n"
@@ -375,7 +375,7 @@ TEST_F(StageWorld, WhatIsLeftOutIsNotedOnceWithItsPlace) {
   EXPECT_THAT(world.notes, SizeIs(4));
 }
 
-TEST_F(StageWorld, ShippedModelsAreFoundUnlessTheUserHasAFileOfThatName) {
+TEST_F(StageWorld, ShippedModels_FoundUnlessUserHasFile) {
   const std::string text = R"(
 include "pioneer.inc"
 include "sick.inc"
@@ -391,7 +391,7 @@ pioneer2dx ( name "r0" pose [0 0 0 0] sicklaser ( pose [0 0 0 0] ) )
   EXPECT_EQ(device<LaserParams>(read(text), "laser").beam_count, 9);
 }
 
-TEST_F(StageWorld, EveryShippedFileCanBeIncluded) {
+TEST_F(StageWorld, ShippedFiles_CanBeIncluded) {
   for (const char* name :
        {"beacons.inc", "chatterbox.inc", "hokuyo.inc", "irobot.inc", "map.inc", "objects.inc",
         "p3at.inc", "p3dx.inc", "pantilt.inc", "pioneer.inc", "pioneerBase.inc", "pucktarget.inc",
@@ -410,7 +410,7 @@ create ( pose [8 0 0 0] )
   EXPECT_THAT(world.robots, SizeIs(5));
 }
 
-TEST_F(StageWorld, AConfigurationFileSaysPortsAndIndexes) {
+TEST_F(StageWorld, ConfigurationFile_SetsPortsAndIndexes) {
   folder_.write("w.cfg", R"(
 driver ( name "stage" provides ["simulation:0"] plugin "stageplugin" worldfile "w.world" )
 driver ( name "stage" provides ["6670:position2d:0" "6670:ranger:0" "6670:ranger:1 "] model "b" )
@@ -438,7 +438,7 @@ bot ( name "b" pose [2 0 0 0] )
   EXPECT_EQ(same.robots[1].port, 6670);
 }
 
-TEST_F(StageWorld, RobotsOfOnePortHaveConsecutiveIndexes) {
+TEST_F(StageWorld, RobotsOnSamePort_ConsecutiveIndexes) {
   folder_.write("w.cfg", R"(
 driver ( name "stage" provides ["simulation:0"] worldfile "w.world" )
 driver ( name "stage" provides ["position2d:0"] model "a" )
@@ -454,7 +454,7 @@ driver ( name "stage" provides ["position2d:1"] model "b" )
   EXPECT_EQ(world.robots[2].port, 6666);
 }
 
-TEST_F(StageWorld, SndOfAConfigurationFileBecomesADriver) {
+TEST_F(StageWorld, Snd_BecomesDriver) {
   folder_.write("w.cfg", R"(
 driver ( name "stage" provides ["simulation:0"] worldfile "w.world" )
 driver ( name "stage" provides ["position2d:0" "laser:0"] model "a" )
@@ -470,7 +470,7 @@ driver ( name "snd" provides ["position2d:1"] requires ["input:::position2d:0" "
   EXPECT_THAT(world.robots[0].interfaces.at("position2d"), ElementsAre("pose"));
 }
 
-TEST_F(StageWorld, WanderDrivesWithoutAClientAndTheSameEachTime) {
+TEST_F(StageWorld, Wander_DrivesWithoutClientRepeatably) {
   const std::string text = R"(
 model ( name "room" size [4 4 0.5] boundary 1 noblocks 1 )
 position ( name "r0" size [0.3 0.3 0.2] ctrl "wander"
@@ -502,7 +502,7 @@ position ( name "r0" size [0.3 0.3 0.2] ctrl "wander"
   EXPECT_EQ(simulation.body(0).X_WB, last);  // the program has taken it over
 }
 
-TEST_F(StageWorld, ARobotInAWallStartsBesideIt) {
+TEST_F(StageWorld, RobotInWall_StartsBesideIt) {
   const WorldDescription world = read(
       "model ( size [1 1 1] pose [0 0 0 0] )\n"
       "position ( name \"r0\" size [0.4 0.4 0.4] pose [0.6 0 0 0] )\n");
@@ -510,7 +510,7 @@ TEST_F(StageWorld, ARobotInAWallStartsBesideIt) {
   EXPECT_GT(world.robots[0].pose.x_m, 0.69);
 }
 
-TEST_F(StageWorld, TheImportIsTheSameWorld) {
+TEST_F(StageWorld, Import_SameWorld) {
   write_picture("plan.pgm", {"#..#", "...."});
   const std::string file = folder_.write("w.world", R"(
 include "pioneer.inc"
@@ -535,7 +535,7 @@ struct BadStageWorld {
   const char* found;
 };
 
-TEST_F(StageWorld, ErrorsSayWhereTheyAre) {
+TEST_F(StageWorld, Errors_NamePlace) {
   folder_.write("loop.inc", "include \"loop.inc\"\n");
   const BadStageWorld bad[] = {
       {"model ( size [1 1 1]\n", 2, "stage/syntax", "the end of the file"},
@@ -566,7 +566,7 @@ TEST_F(StageWorld, ErrorsSayWhereTheyAre) {
   EXPECT_THAT(issue_of("positon ( )").hint, HasSubstr("did you mean \"position\"?"));
 }
 
-TEST_F(StageWorld, ErrorsOfConfigurationFilesSayWhereTheyAre) {
+TEST_F(StageWorld, ConfigurationErrors_NamePlace) {
   folder_.write("w.world", "position ( name \"r0\" size [0.4 0.4 0.2] )");
   const BadStageWorld bad[] = {
       {"driver ( name \"stage\" )", 0, "stage/no-world", "none"},

@@ -80,7 +80,7 @@ void add_controller(WorldDescription& world) {
   timer.every_s = 0.7;
   timer.jitter_s = 0.3;
   timer.actions = {BlocksAction{BlocksAction::Change::kToggle, blocks},
-                   TextAction{.text = "toggled", .place = {1.0, 1.0}, .duration_s = 0.5}};
+                   TextAction{.text = "toggled", .place = Vec2{1.0, 1.0}, .duration_s = 0.5}};
   world.controller.timers.push_back(timer);
   TrapDescription trap;
   trap.name = "trap";
@@ -301,7 +301,7 @@ Snapshot read_snapshot(const std::string& file) {
 }
 
 // The next test runs this one in another process.
-TEST(StateOfOtherProcess, GoesOn) {
+TEST(StateOfOtherProcess, Continues) {
   const char* folder = std::getenv(kFolderVariable);
   if (folder == nullptr) GTEST_SKIP() << "without " << kFolderVariable << " there is nothing to do";
   const std::string bytes = read_bytes(fs::path(folder) / "trace");
@@ -319,7 +319,7 @@ TEST(StateOfOtherProcess, GoesOn) {
   }
 }
 
-TEST(State, GoesOnInAnotherProcessToTheSameBits) {
+TEST(State, OtherProcess_ContinuesExactly) {
   const TemporaryFolder folder;
   Simulation simulation(full_world());
   const std::set<int> saved = moments();
@@ -343,7 +343,7 @@ TEST(State, GoesOnInAnotherProcessToTheSameBits) {
   test_support::ProcessOptions options;
   options.environment[kFolderVariable] = folder.path().string();
   const test_support::ProcessResult result = test_support::run_process(
-      {"/proc/self/exe", "--gtest_filter=StateOfOtherProcess.GoesOn"}, options);
+      {"/proc/self/exe", "--gtest_filter=StateOfOtherProcess.Continues"}, options);
   EXPECT_EQ(result.status, 0) << result.out << result.err;
   EXPECT_THAT(result.out, HasSubstr("[  PASSED  ] 1 test"));
 }
@@ -357,7 +357,7 @@ Simulation busy_simulation(int steps) {
   return simulation;
 }
 
-TEST(State, IsTheSameAfterSavingAndRestoring) {
+TEST(State, SaveAndRestore_Same) {
   Simulation simulation = busy_simulation(cases(100, 300));
   const Snapshot snapshot = simulation.save();
   EXPECT_EQ(simulation.save(), snapshot);
@@ -369,7 +369,7 @@ TEST(State, IsTheSameAfterSavingAndRestoring) {
   EXPECT_EQ(simulation.save(), snapshot);
 }
 
-TEST(State, OfAForkIsItsOwn) {
+TEST(State, Fork_Independent) {
   Simulation simulation = busy_simulation(80);
   Simulation fork = simulation.fork();
   const std::uint64_t before = simulation.state_hash();
@@ -411,13 +411,13 @@ void expect_same_after_restore(WorldDescription world, int steps) {
   }
 }
 
-TEST(State, OfRobotsAmongTheWallsOfAMap) {
+TEST(State, RobotsAmongMapWalls_Restored) {
   expect_same_after_restore(load_world((kWorlds / "cave.json").string()), 600);
   expect_same_after_restore(load_world((kWorlds / "examples/car.json").string()), 400);
   expect_same_after_restore(load_world((kWorlds / "examples/omni.json").string()), 400);
 }
 
-TEST(State, OfACrowdThatShovesGoesOn) {
+TEST(State, ShovingCrowd_Continues) {
   WorldDescription world = load_world((kWorlds / "examples/empty_room.json").string());
   const RobotDescription first = world.robots[0];
   world.robots.clear();
@@ -431,7 +431,7 @@ TEST(State, OfACrowdThatShovesGoesOn) {
   expect_same_after_restore(std::move(world), 800);
 }
 
-TEST(State, OfTheWorldAloneLeavesClientsTheirLayers) {
+TEST(State, WorldOnly_KeepsClientLayers) {
   Simulation simulation = busy_simulation(10);
   const LayerId before = simulation.layers().add(LayerKind::kGrey, {.name = "map"}, 1);
   const DrawOperation dot{.layer = before, .value = CellValue::of(1.0F)};
@@ -459,7 +459,7 @@ TEST(State, OfTheWorldAloneLeavesClientsTheirLayers) {
   EXPECT_GT(simulation.layers().add(LayerKind::kGrey, {}, 1), later);  // numbers are not reused
 }
 
-TEST(State, OfTheWorldAloneGoesBackWhileClocksGoOn) {
+TEST(State, WorldOnly_RestoredWhileClocksContinue) {
   Simulation simulation = busy_simulation(103);
   const Snapshot snapshot = simulation.save();
   const Pose there = simulation.body(0).X_WB;
@@ -501,7 +501,7 @@ std::string refusal(Simulation& simulation, const Snapshot& snapshot) {
   return why;
 }
 
-TEST(Snapshots, AreRefusedWithAReason) {
+TEST(Snapshots, RefusedWithReason) {
   Simulation simulation = busy_simulation(30);
   const Snapshot good = simulation.save();
   simulation.step();
@@ -529,7 +529,7 @@ TEST(Snapshots, AreRefusedWithAReason) {
 }
 
 // Valid bytes with changed parts, so that the test reaches all of the reader's checks.
-TEST(Snapshots, OfAnyBytesAreRefusedOrGoOn) {
+TEST(Snapshots, RandomBytes_RefusedOrContinue) {
   constexpr std::size_t kHeader = 56;
   WorldDescription world = full_world();
   world.robots.resize(3);

@@ -31,7 +31,7 @@ void end_with_tables_made_after_the_handler() {
   std::exit(8);
 }
 
-TEST(StaticTables, OutliveExitHandlersRegisteredBeforeThem) {
+TEST(StaticTables, OutliveEarlierExitHandlers) {
   // In a separate process, which has not created any table yet.
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(end_with_tables_made_after_the_handler(), testing::ExitedWithCode(0), "");

@@ -81,7 +81,7 @@ std::vector<double> exact_scan(const PhysicsWorld& physics, const std::vector<Ro
   return ranges;
 }
 
-TEST(Superstructures, AreSeenUpToTheirHeights) {
+TEST(Superstructures, Heights_Visible) {
   const ArenaDescription arena = floor_of(8.0);
   PhysicsWorld physics(arena);
   physics.add_robot(tall_model(), {4.0, 4.0, 0.0});
@@ -107,7 +107,7 @@ TEST(Superstructures, AreSeenUpToTheirHeights) {
   EXPECT_NEAR(range_at(0.5, 4.05), 2.05, 1e-6) << "the bar, above the laser";
 }
 
-TEST(Superstructures, GiveTheRangesOfASlowReferenceAmongAHundredRobots) {
+TEST(Superstructures, HundredRobots_MatchSlowReference) {
   const ArenaDescription arena = floor_of(12.0);
   PhysicsWorld physics(arena);
   test::Random random(3);
@@ -140,7 +140,7 @@ TEST(Superstructures, GiveTheRangesOfASlowReferenceAmongAHundredRobots) {
   EXPECT_GT(beams, 40'000);
 }
 
-TEST(Superstructures, HideWhatIsBehindThemAndAreSolidForPoints) {
+TEST(Superstructures, HideWhatIsBehindAndAreSolidForPoints) {
   PhysicsWorld physics(floor_of(8.0));
   physics.add_robot(s1r_model(), {1.0, 1.0, 0.0});
   physics.add_robot(tall_model(), {4.0, 4.0, 0.0});
@@ -166,7 +166,7 @@ TEST(Superstructures, HideWhatIsBehindThemAndAreSolidForPoints) {
   EXPECT_EQ(high, 4) << "the four sides of the bar";
 }
 
-TEST(Superstructures, CollideWithNothing) {
+TEST(Superstructures, NoCollisions) {
   PhysicsWorld physics(floor_of(8.0));
   physics.add_robot(tall_model(), {4.0, 4.0, 0.0});
   physics.add_robot(tall_model(), {4.0, 4.6, 0.0});  // the bars overlap, the bodies do not
@@ -199,7 +199,7 @@ double range_ahead_m(const WorldDescription& world) {
   return laser.reading().ranges_m[laser.reading().ranges_m.size() / 2];
 }
 
-TEST(Superstructures, OfAModelsFileAreSeenByTheLasersOfWorlds) {
+TEST(Superstructures, ModelFile_SeenByWorldLasers) {
   const WorldDescription low = two_robots("");
   // Clockwise, which is as good.
   const WorldDescription high = two_robots(
@@ -211,7 +211,7 @@ TEST(Superstructures, OfAModelsFileAreSeenByTheLasersOfWorlds) {
   EXPECT_THAT(Simulation(high).robot_snapshot(1).superstructures, testing::SizeIs(1));
 }
 
-TEST(Superstructures, ThatCannotBeMeantAreErrors) {
+TEST(Superstructures, Invalid_Errors) {
   const auto error_of = [](const std::string& part) {
     try {
       static_cast<void>(two_robots(R"(, "superstructures": [)" + part + "]"));
@@ -245,7 +245,7 @@ TEST(Superstructures, ThatCannotBeMeantAreErrors) {
   EXPECT_NE(error_of(many), "none");
 }
 
-TEST(Superstructures, OfModelsInMemoryAreCheckedToo) {
+TEST(Superstructures, ModelsInMemory_Checked) {
   WorldDescription world = two_robots("");
   auto model = std::make_shared<RobotModel>(*find_robot_model(world, "tall.json"));
   model->superstructures = {{{{0.0, 0.0}, {0.1, 0.0}, {0.0, 0.1}}, 0.1}};

@@ -162,7 +162,7 @@ Parts parts_of_floor(const std::vector<Box>& boxes, double radius_m) {
   return parts;
 }
 
-TEST(SyrotekArena, HasTheFloorAndAboutTwentyBlocks) {
+TEST(SyrotekArena, HasFloorAndAboutTwentyBlocks) {
   const ArenaDescription arena = syrotek_arena();
   EXPECT_EQ(arena.preset, "syrotek");
   EXPECT_EQ(arena.size, Vec2(3.42, 3.72));
@@ -182,7 +182,7 @@ TEST(SyrotekArena, HasTheFloorAndAboutTwentyBlocks) {
   EXPECT_LE(arena.obstacles.size(), 24U);
 }
 
-TEST(SyrotekArena, DocksStandAlongTheLeftSideWithSeparatorsBetween) {
+TEST(SyrotekArena, Docks_OnLeftSideWithSeparators) {
   const ArenaDescription arena = syrotek_arena();
   EXPECT_EQ(arena.docks.size(), 7U);
   EXPECT_EQ(arena.dock_separators.size(), 6U);
@@ -194,7 +194,7 @@ TEST(SyrotekArena, DocksStandAlongTheLeftSideWithSeparatorsBetween) {
   }
 }
 
-TEST(SyrotekArena, EachGapIsClosedOrACorridor) {
+TEST(SyrotekArena, Gaps_ClosedOrCorridors) {
   // With the dynamic blocks and without; the narrowest corridor is 0.30 m, as in the drawing.
   for (const bool extended : {true, false}) {
     const std::vector<double> widths = open_gaps(extended);
@@ -203,7 +203,7 @@ TEST(SyrotekArena, EachGapIsClosedOrACorridor) {
   }
 }
 
-TEST(SyrotekArena, WhatIsOpenIsOpenForADiscAsWideAsACorridor) {
+TEST(SyrotekArena, OpenSpace_FitsDiscAsWideAsCorridor) {
   // Another test of this rule. Inflating all solids by half a corridor (minus a grid step) must not
   // divide any part of the floor that stays connected when they are inflated by half a closed gap.
   for (const bool extended : {true, false}) {
@@ -214,13 +214,13 @@ TEST(SyrotekArena, WhatIsOpenIsOpenForADiscAsWideAsACorridor) {
   }
 }
 
-TEST(SyrotekArena, AllOfTheFloorCanBeReachedWithDynamicBlocksRetracted) {
+TEST(SyrotekArena, RetractedBlocks_AllFloorReachable) {
   EXPECT_EQ(parts_of_floor(solids(false), 0.001).count, 1);
   // An S1R can, too; its farthest corner is 0.098 m from its centre.
   EXPECT_EQ(parts_of_floor(solids(false), 0.1).count, 1);
 }
 
-TEST(SyrotekArena, StartPoseIsFreeWithALongWayAhead) {
+TEST(SyrotekArena, StartPose_FreeWithLongPathAhead) {
   for (const bool extended : {true, false}) {
     const std::vector<Box> boxes = solids(extended);
     const Pose X_WB = syrotek_start_pose();

@@ -21,7 +21,7 @@ std::string encoded(unsigned point, std::size_t length) {
   return text;
 }
 
-TEST(Utf8, KnowsEveryCharacterInItsShortestFormOnly) {
+TEST(Utf8, EveryCharacter_ShortestFormOnly) {
   for (unsigned point = 0; point <= 0x1fffff; ++point) {
     const std::size_t shortest = point < 0x80 ? 1 : point < 0x800 ? 2 : point < 0x10000 ? 3 : 4;
     const bool is_character = point <= 0x10ffff && (point < 0xd800 || point > 0xdfff);
@@ -32,7 +32,7 @@ TEST(Utf8, KnowsEveryCharacterInItsShortestFormOnly) {
   }
 }
 
-TEST(Utf8, FindsTheFirstByteThatBeginsNoCharacter) {
+TEST(Utf8, FirstInvalidByte_Found) {
   constexpr std::size_t kNone = std::string_view::npos;
   EXPECT_EQ(utf8_length(""), 0U);
   EXPECT_EQ(find_invalid_utf8(""), kNone);
@@ -45,7 +45,7 @@ TEST(Utf8, FindsTheFirstByteThatBeginsNoCharacter) {
   EXPECT_EQ(find_invalid_utf8("\xc3\xbc\xff"), 2U);
 }
 
-TEST(Utf8, EscapesTheBytesThatBeginNoCharacter) {
+TEST(Utf8, InvalidBytes_Escaped) {
   EXPECT_EQ(escape_invalid_utf8(""), "");
   EXPECT_EQ(escape_invalid_utf8("gr\xc3\xbcn\n"), "gr\xc3\xbcn\n");
   EXPECT_EQ(escape_invalid_utf8("gr\xfcn\x0f\x80"), "gr\\xfcn\x0f\\x80");

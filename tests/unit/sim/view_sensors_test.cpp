@@ -83,7 +83,7 @@ std::string block(double x, double y, const std::string& more) {
          R"(], "size": [0.4, 0.4], )" + more + "}";
 }
 
-TEST(Fiducial, TellsWhereThingsAreNearestFirst) {
+TEST(Fiducial, ReportsPositionsNearestFirst) {
   Simulation simulation(
       room(bearer("fiducial", R"({"pose": {"x": 0.1}})", 90.0) +
                R"(, {"name": "r2", "fiducial": 3, "pose": {"x": 2, "y": 7, "yaw_deg": 180}})",
@@ -101,7 +101,7 @@ TEST(Fiducial, TellsWhereThingsAreNearestFirst) {
   EXPECT_NEAR(marks[1].X_ST.yaw_rad, 90.0 * kDegrees, 1e-12);
 }
 
-TEST(Fiducial, SeesWithinRangeAndFieldOfViewOnly) {
+TEST(Fiducial, RangeAndFieldOfView_Limit) {
   const std::string things = block(5, 4, R"("fiducial": 1)") + ", " +      // 3 m ahead
                              block(2, 6, R"("fiducial": 2)") + ", " +      // 2 m to the left
                              block(3.5, 2.5, R"("fiducial": 3)") + ", " +  // 45 degrees, 2.12 m
@@ -120,7 +120,7 @@ TEST(Fiducial, SeesWithinRangeAndFieldOfViewOnly) {
   EXPECT_THAT(seen(R"({"height": 0.161})"), IsEmpty());
 }
 
-TEST(Fiducial, DoesNotSeeThroughSolids) {
+TEST(Fiducial, Solids_HideObjects) {
   const auto seen = [](const std::string& between) {
     Simulation simulation(
         room(bearer("fiducial", "{}"), block(5, 4, R"("fiducial": 1)") + ", " + between));
@@ -136,7 +136,7 @@ TEST(Fiducial, DoesNotSeeThroughSolids) {
   EXPECT_THAT(seen(block(3.5, 4, R"("fiducial": 2)")), ElementsAre(2));
 }
 
-TEST(Fiducial, DoesNotSeeWhatIsRetractedOrBearsNoNumber) {
+TEST(Fiducial, RetractedOrUnnumbered_NotSeen) {
   Simulation simulation(
       room(bearer("fiducial", "{}") + R"(, {"name": "r2", "pose": {"x": 3, "y": 3}})",
            block(5, 4, R"("fiducial": 5, "type": "dynamic", "name": "d")")));
@@ -147,7 +147,7 @@ TEST(Fiducial, DoesNotSeeWhatIsRetractedOrBearsNoNumber) {
   EXPECT_THAT(ids(simulation), IsEmpty());
 }
 
-TEST(Fiducial, ScattersByItsNoise) {
+TEST(Fiducial, Noise_HasDeviation) {
   Simulation simulation(room(bearer("fiducial", R"({"frequency": 100, "noise": 0.05,
       "noise_bearing_deg": 2, "noise_yaw_deg": 3})"),
                              block(5, 4, R"("fiducial": 1)")));
@@ -168,7 +168,7 @@ TEST(Fiducial, ScattersByItsNoise) {
 
 // --- gps
 
-TEST(Gps, RadiiOfCurvatureAreThoseOfTables) {
+TEST(Gps, RadiiOfCurvature_MatchTables) {
   // At 45 degrees M = 6 367 381.816 m and N = 6 388 838.290 m.
   const GeoPoint from{45.0 * kDegrees, 0.1};
   const GeoPoint to = shifted(from, 1000.0, 2000.0, 0.0);
@@ -181,7 +181,7 @@ TEST(Gps, RadiiOfCurvatureAreThoseOfTables) {
   EXPECT_LT(shifted({0.0, kPi - 1e-9}, 1000.0, 0.0, 0.0).longitude_rad, 0.0);
 }
 
-TEST(Gps, ProjectsAsSnydersExample) {
+TEST(Gps, Projection_MatchesSnyderExample) {
   // P. 269: Clarke 1866, 40.5 N, 73.5 W, central meridian 75 W: x = 127 106.5, y = 4 484 124.4 m.
   const Vec2 p = transverse_mercator_m({40.5 * kDegrees, -73.5 * kDegrees}, -75.0 * kDegrees,
                                        0.9996, {6378206.4, 1.0 / 294.978698});
@@ -189,7 +189,7 @@ TEST(Gps, ProjectsAsSnydersExample) {
   EXPECT_NEAR(p.y(), 4484124.4, 0.06);
 }
 
-TEST(Gps, KnowsTheUtmCoordinatesOfPlaces) {
+TEST(Gps, UtmCoordinates_MatchKnownPlaces) {
   EXPECT_EQ(utm_zone(14.4178 * kDegrees), 33);
   EXPECT_EQ(utm_zone(-180.0 * kDegrees), 60);  // the same meridian as 180 degrees east
   EXPECT_EQ(utm_zone(-179.9 * kDegrees), 1);
@@ -205,7 +205,7 @@ TEST(Gps, KnowsTheUtmCoordinatesOfPlaces) {
   EXPECT_NEAR(utm_m({-1e-12, 3.0 * kDegrees}, 31).y(), 1e7, 1e-4);
 }
 
-TEST(Gps, TellsTheTruthWithoutNoise) {
+TEST(Gps, NoNoise_True) {
   // North along y: the robot is 2 m east and 4 m north of the origin.
   Simulation simulation(room(bearer("gps", "{}")));
   drive(simulation, 0.5, 0.0);
@@ -232,7 +232,7 @@ TEST(Gps, TellsTheTruthWithoutNoise) {
   EXPECT_EQ(reading<GpsReading>(simulation, "gps").course_rad, 0.0);
 }
 
-TEST(Gps, HasNorthWhereTheWorldSays) {
+TEST(Gps, North_FromWorld) {
   // North is along x: the robot faces and drives north; the world's y axis points west.
   Simulation simulation(room(bearer("gps", R"({"north_deg": 0})")));
   drive(simulation, -0.5, 0.0);
@@ -246,7 +246,7 @@ TEST(Gps, HasNorthWhereTheWorldSays) {
   EXPECT_NEAR(gps.course_rad, kPi, 1e-12);  // backwards, so south
 }
 
-TEST(Gps, WithFewerThanFourSatellitesHasNoFix) {
+TEST(Gps, FewerThanFourSatellites_NoFix) {
   Simulation simulation(room(bearer("gps", R"({"satellites": 3})")));
   run(simulation, 10);
   const auto& gps = reading<GpsReading>(simulation, "gps");
@@ -255,7 +255,7 @@ TEST(Gps, WithFewerThanFourSatellitesHasNoFix) {
   EXPECT_EQ(gps.latitude_rad, 0.0);
 }
 
-TEST(Gps, ScattersByItsNoise) {
+TEST(Gps, Noise_HasDeviation) {
   Simulation simulation(
       room(bearer("gps", R"({"frequency": 100, "noise": 2, "noise_vertical": 3})")));
   std::vector<double> north;
@@ -280,7 +280,7 @@ TEST(Gps, ScattersByItsNoise) {
 
 // --- imu
 
-TEST(Imu, AtRestFeelsGravityAndTheEarthsField) {
+TEST(Imu, AtRest_GravityAndEarthField) {
   Simulation simulation(room(bearer("imu", "{}", 30.0)));
   run(simulation, 10);
   const auto& imu = reading<ImuReading>(simulation, "imu");
@@ -293,7 +293,7 @@ TEST(Imu, AtRestFeelsGravityAndTheEarthsField) {
   EXPECT_NEAR(imu.yaw_rad, 30.0 * kDegrees, 1e-12);
 }
 
-TEST(Imu, OnACircleFeelsWhatTurnsIt) {
+TEST(Imu, Circle_CentripetalAcceleration) {
   Simulation simulation(room(bearer("imu", "{}")));
   drive(simulation, 0.3, 0.6);
   run(simulation, 50);
@@ -305,7 +305,7 @@ TEST(Imu, OnACircleFeelsWhatTurnsIt) {
   EXPECT_NEAR(imu.yaw_rad, 0.3, 1e-9);
 }
 
-TEST(Imu, AccelerationsAddUpToTheSpeed) {
+TEST(Imu, Accelerations_SumToSpeed) {
   const std::string slow = R"({"name": "r1", "pose": {"x": 2, "y": 4},
       "devices": {"imu": {}, "motion": {"max_acceleration": 0.5}}})";
   Simulation simulation(room(slow));
@@ -323,7 +323,7 @@ TEST(Imu, AccelerationsAddUpToTheSpeed) {
   EXPECT_NEAR(speed, 0.3, 1e-9);
 }
 
-TEST(Imu, HasBiasesAndNoise) {
+TEST(Imu, BiasAndNoise_Added) {
   Simulation simulation(room(bearer("imu", R"({"frequency": 100, "noise_acceleration": 0.2,
       "noise_rate_deg": 1, "noise_field": 0.5, "bias_acceleration": 1, "bias_rate_deg": 5})")));
   std::vector<double> a;
@@ -351,7 +351,7 @@ TEST(Imu, HasBiasesAndNoise) {
   expect_gaussian(b, -45.0, 0.5);
 }
 
-TEST(Imu, TakesAHeadingForThePresentOne) {
+TEST(Imu, Heading_Settable) {
   Simulation simulation(room(bearer("imu", "{}")));
   drive(simulation, 0.0, 0.5);
   run(simulation, 15);  // 5 steps after its reading
@@ -366,7 +366,7 @@ TEST(Imu, TakesAHeadingForThePresentOne) {
   EXPECT_TRUE(simulation.apply(imu_id, TwistCommand{}).has_value());
 }
 
-TEST(Imu, DoesNotFeelBeingPlaced) {
+TEST(Imu, Placement_NotFelt) {
   Simulation simulation(room(R"({"name": "r1", "pose": {"x": 2, "y": 4},
       "devices": {"imu": {}, "teleport": {}}})"));
   run(simulation, 10);
@@ -380,7 +380,7 @@ TEST(Imu, DoesNotFeelBeingPlaced) {
 
 // --- wifi
 
-TEST(Wifi, LevelFollowsThePathLossModel) {
+TEST(Wifi, Level_FollowsPathLossModel) {
   const WifiParams params;  // -40 dBm at 1 m, exponent 3
   EXPECT_DOUBLE_EQ(level_at_dbm(params, 1.0), -40.0);
   EXPECT_DOUBLE_EQ(level_at_dbm(params, 10.0), -70.0);
@@ -390,7 +390,7 @@ TEST(Wifi, LevelFollowsThePathLossModel) {
   EXPECT_EQ(link_quality(-120.0), 0);
 }
 
-TEST(Wifi, AddressesFollowFromNamesAndPlaces) {
+TEST(Wifi, Addresses_FromNamesAndPlaces) {
   // FNV-1a of "" is cbf29ce484222325, of "a" af63dc4c8601ec8c; the lowest byte comes first.
   EXPECT_EQ(mac_of(""), "02:25:23:22:84:e4");
   EXPECT_EQ(mac_of("a"), "02:8c:ec:01:86:4c");
@@ -399,7 +399,7 @@ TEST(Wifi, AddressesFollowFromNamesAndPlaces) {
   EXPECT_EQ(ip_of(true, 3), "10.1.0.4");
 }
 
-TEST(Wifi, HearsCardsAndAccessPointsInReach) {
+TEST(Wifi, CardsAndAccessPointsInReach_Heard) {
   const auto card = [](const char* name, double x, const char* devices) {
     return std::string(R"({"name": ")") + name + R"(", "pose": {"x": )" + fixed_text(x, 6) +
            R"(, "y": 4}, "devices": )" + devices + "}";
@@ -422,7 +422,7 @@ TEST(Wifi, HearsCardsAndAccessPointsInReach) {
   EXPECT_NEAR(wifi.links[1].level_dbm, -40.0, 1e-12);
 }
 
-TEST(Wifi, ScattersByItsNoise) {
+TEST(Wifi, Noise_HasDeviation) {
   Simulation simulation(room(bearer("wifi", R"({"frequency": 100, "noise": 4,
       "access_points": [{"name": "hall", "x": 3, "y": 4}]})")));
   std::vector<double> levels;
@@ -435,7 +435,7 @@ TEST(Wifi, ScattersByItsNoise) {
 
 // --- numbers of objects, and settings
 
-TEST(FiducialNumbers, AreWholeAndNotNegative) {
+TEST(FiducialNumbers, WholeAndNotNegative) {
   for (const char* bad : {"-1", "1.5", "2147483648", "\"a\""}) {
     EXPECT_THROW(static_cast<void>(
                      room(bearer("gps", "{}"), block(5, 4, std::string(R"("fiducial": )") + bad))),
@@ -446,7 +446,7 @@ TEST(FiducialNumbers, AreWholeAndNotNegative) {
   }
 }
 
-TEST(Interfaces, AreReadWithTheNamesOfTheRobotsDevices) {
+TEST(Interfaces, NamesOfRobotDevices_Read) {
   const auto world = [](const std::string& interfaces) {
     return room(R"({"devices": {"sonar": {}, "rear": {"type": "sonar"}}, "interfaces": )" +
                 interfaces + "}");

@@ -64,7 +64,7 @@ std::array<int, 4> edges(const Blob& blob) {
 
 // --- projection
 
-TEST(PinholeView, FocalLengthFollowsFromTheAngle) {
+TEST(PinholeView, FocalLength_FromAngle) {
   const PinholeView view{80, 60, kPi / 3.0};
   EXPECT_NEAR(view.focal_px(), 40.0 * std::sqrt(3.0), 1e-12);  // 40 / tan 30
   // The centres of the outer columns are half a pixel inside of 30 degrees.
@@ -72,7 +72,7 @@ TEST(PinholeView, FocalLengthFollowsFromTheAngle) {
   EXPECT_NEAR(view.slope(79), -39.5 / view.focal_px(), 1e-12);
 }
 
-TEST(PinholeView, RowsFollowFromHeightDepthAndTilt) {
+TEST(PinholeView, Rows_FromHeightDepthAndTilt) {
   PinholeView view{80, 60, kPi / 3.0};
   EXPECT_EQ(view.row_px(2.0, 0.0), 30.0);  // at the height of the lens: the centre
   EXPECT_NEAR(view.row_px(2.0, -0.2), 30.0 + 6.9282032, 1e-6);
@@ -84,7 +84,7 @@ TEST(PinholeView, RowsFollowFromHeightDepthAndTilt) {
 
 // --- blobfinder
 
-TEST(Blobfinder, BoxStraightAheadHasTheEdgesOfItsFace) {
+TEST(Blobfinder, BoxAhead_HasEdgesOfItsFace) {
   // The face is at x = 4, 2 m ahead, 0.4 m wide and 0.3 m high; the lens is 0.1 m high. f = 69.282.
   // Columns: 40 -+ f 0.1 = 33.07 .. 46.93, with centres 33.5 .. 46.5. Rows: from 30 - f 0.2 / 2 =
   // 23.07, so from 23, to 30 + f 0.1 / 2 = 33.46, so to 32 (its centre is 32.5).
@@ -105,7 +105,7 @@ TEST(Blobfinder, BoxStraightAheadHasTheEdgesOfItsFace) {
   EXPECT_EQ(device<Blobfinder>(simulation, "blobfinder").reading().height, 60);
 }
 
-TEST(Blobfinder, LooksDownOnLowThings) {
+TEST(Blobfinder, LowObjects_SeenFromAbove) {
   // The lens is 0.3 m high, the box 0.1 m. Its front covers 30 + f 0.2 / 2 = 36.93 to 30 + f 0.3 /
   // 2 = 40.39. Its top ends at the far edge, 2.4 m away, at 30 + f 0.2 / 2.4 = 35.77: rows 36 ..
   // 39.
@@ -119,7 +119,7 @@ TEST(Blobfinder, LooksDownOnLowThings) {
   EXPECT_NEAR(blobs(simulation)[0].range_m, 2.0, 0.01);
 }
 
-TEST(Blobfinder, SeesTwoColoursFromRightToLeft) {
+TEST(Blobfinder, TwoColours_RightToLeft) {
   // Each box is 2 m ahead and 0.5 m to one side. The left one's face covers 40 - f (0.25 +- 0.1),
   // 15.75 .. 29.61; its inner side continues to the far corner at 40 - f 0.3 / 2.4 = 31.34. The
   // right one covers 48.66 to 64.25.
@@ -136,7 +136,7 @@ TEST(Blobfinder, SeesTwoColoursFromRightToLeft) {
   EXPECT_EQ(blobs(simulation)[1].right, 30);
 }
 
-TEST(Blobfinder, LooksForItsColoursOnly) {
+TEST(Blobfinder, OtherColours_Ignored) {
   const std::string two = box(4, 4.5, 0.2, R"(, "colour": "#ff0000")") + ", " +
                           box(4, 3.5, 0.2, R"(, "colour": "#0000ff")");
   Simulation simulation(room(R"({"blobfinder": {"colours": ["#00f", "#00ff00"]}})", two));
@@ -145,7 +145,7 @@ TEST(Blobfinder, LooksForItsColoursOnly) {
   EXPECT_EQ(blobs(simulation)[0].colour, kBlue);
 }
 
-TEST(Blobfinder, SeesRobotsAndWhatIsColouredOnly) {
+TEST(Blobfinder, RobotsAndColouredObjects_Only) {
   // A box without a colour, and a robot whose flat front is 2 - 0.087 m away and 0.18 m high.
   Simulation simulation(room(R"({"blobfinder": {"height": 0.1}})", box(4, 5, 0.3, ""),
                              R"(, {"name": "r2", "colour": "#00f", "pose": {"x": 4, "y": 4,
@@ -162,7 +162,7 @@ TEST(Blobfinder, SeesRobotsAndWhatIsColouredOnly) {
   EXPECT_EQ(blobs(simulation).at(0).colour, kRed);
 }
 
-TEST(Blobfinder, NearerThingsHideFartherOnesAsFarAsTheyAreHigh) {
+TEST(Blobfinder, NearerObjects_HideFartherUpToTheirHeight) {
   const std::string far_box = box(5.2, 4, 0.4, R"(, "height": 0.6, "colour": "#ff0000")");
   const auto seen = [&](const std::string& near_box) {
     Simulation simulation(room(R"({"blobfinder": {"height": 0.1}})", far_box + ", " + near_box));
@@ -187,7 +187,7 @@ TEST(Blobfinder, NearerThingsHideFartherOnesAsFarAsTheyAreHigh) {
   EXPECT_NEAR(one[0].range_m, 1.03, 0.02);
 }
 
-TEST(Blobfinder, AColumnInFrontCutsABlobInTwo) {
+TEST(Blobfinder, ColumnInFront_SplitsBlob) {
   // A post 1 m away, 0.1 m wide: 40 -+ f 0.05 = 36.5 .. 43.5, inside of 26.1 .. 53.9.
   Simulation simulation(
       room(R"({"blobfinder": {}})", box(4.4, 4, 0.8, R"(, "height": 0.5, "colour": "#f00")") +
@@ -200,7 +200,7 @@ TEST(Blobfinder, AColumnInFrontCutsABlobInTwo) {
   EXPECT_EQ(blobs(simulation)[1].left, 26);
 }
 
-TEST(Blobfinder, WallsOfAMapHideWhatIsBehindThem) {
+TEST(Blobfinder, MapWalls_HideObjects) {
   // A wall to the left of y = 4, 1 m away, of unlimited height: of the box behind it, only the
   // columns from 40 on are visible.
   WorldDescription world = room(R"({"blobfinder": {"height": 0.1}, "camera": {"height": 0.1}})",
@@ -219,7 +219,7 @@ TEST(Blobfinder, WallsOfAMapHideWhatIsBehindThem) {
   EXPECT_NE(picture.pixels[pixel + 3], 66);
 }
 
-TEST(Blobfinder, SeesWithinRangeAndWhileExtended) {
+TEST(Blobfinder, RangeAndExtension_Limit) {
   const std::string block = box(4, 4, 0.2, R"(, "type": "dynamic", "name": "d", "colour": "#f00")");
   Simulation near_sighted(room(R"({"blobfinder": {"range_max": 1.89}})", block));
   run(near_sighted, 10);
@@ -232,7 +232,7 @@ TEST(Blobfinder, SeesWithinRangeAndWhileExtended) {
   EXPECT_THAT(blobs(simulation), IsEmpty());
 }
 
-TEST(Blobfinder, LooksAlongItsMounting) {
+TEST(Blobfinder, Mounting_SetsDirection) {
   // There is a box to the left; the lens is 0.2 m to the left of the robot's centre.
   Simulation simulation(room(R"({"blobfinder": {"pose": {"y": 0.2, "yaw_deg": 90}}})",
                              box(2, 6.2, 0.4, R"(, "height": 0.4, "colour": "#f00")")));
@@ -244,7 +244,7 @@ TEST(Blobfinder, LooksAlongItsMounting) {
   EXPECT_EQ(blobs(simulation)[0].right, 47);
 }
 
-TEST(Blobfinder, RangesScatterByTheirNoise) {
+TEST(Blobfinder, RangeNoise_HasDeviation) {
   Simulation simulation(room(R"({"blobfinder": {"frequency": 100, "noise": 0.05}})",
                              box(4.2, 4, 0.4, R"(, "height": 0.3, "colour": "#f00")")));
   constexpr int kReadings = 1000;
@@ -262,7 +262,7 @@ TEST(Blobfinder, RangesScatterByTheirNoise) {
   EXPECT_NEAR(std::sqrt(squares / kReadings), 0.05, 4.0 * 0.05 / std::sqrt(2.0 * kReadings));
 }
 
-TEST(Blobfinder, RefusesWhatMakesNoSense) {
+TEST(Blobfinder, InvalidSettings_Refused) {
   const auto issue_of = [](const std::string& settings) -> ConfigIssue {
     try {
       const Simulation simulation(room(R"({"blobfinder": )" + settings + "}"));
@@ -290,7 +290,7 @@ void command(Simulation& simulation, const Command& what) {
   ASSERT_FALSE(refusal.has_value()) << *refusal;
 }
 
-TEST(Ptz, TravelsAtItsSpeeds) {
+TEST(Ptz, Speeds_LimitTravel) {
   Simulation simulation(room(R"({"ptz": {"frequency": 100}})"));
   const PtzReading& reading = device<Ptz>(simulation, "ptz").reading();
   run(simulation, 1);
@@ -314,7 +314,7 @@ TEST(Ptz, TravelsAtItsSpeeds) {
   EXPECT_FALSE(reading.moving);
 }
 
-TEST(Ptz, StopsAtItsLimits) {
+TEST(Ptz, Limits_Stop) {
   Simulation simulation(
       room(R"({"ptz": {"frequency": 100, "pan_max_deg": 30, "field_of_view_min_deg": 20}})"));
   const PtzReading& reading = device<Ptz>(simulation, "ptz").reading();
@@ -330,7 +330,7 @@ TEST(Ptz, StopsAtItsLimits) {
   EXPECT_NEAR(reading.view_rad, 20.0 * kDegrees, 1e-12);
 }
 
-TEST(Ptz, TurnsAtSpeedsUntilToldOtherwise) {
+TEST(Ptz, SpeedCommands_TurnUntilReplaced) {
   Simulation simulation(room(R"({"ptz": {"frequency": 100}})"));
   const PtzReading& reading = device<Ptz>(simulation, "ptz").reading();
   command(simulation, PanCommand{-0.5, 10.0, -0.2});
@@ -347,7 +347,7 @@ TEST(Ptz, TurnsAtSpeedsUntilToldOtherwise) {
   EXPECT_FALSE(reading.moving);
 }
 
-TEST(Ptz, TurnsTheBlobfinderThatSitsOnIt) {
+TEST(Ptz, MountedBlobfinder_Turns) {
   // A box 30 degrees to the left, 2 m away, rotated so that its face is perpendicular to the view.
   const std::string to_left =
       box(2 + 2.1 * std::cos(30 * kDegrees), 4 + 2.1 * std::sin(30 * kDegrees), 0.2,
@@ -370,7 +370,7 @@ TEST(Ptz, TurnsTheBlobfinderThatSitsOnIt) {
   EXPECT_EQ(edges(blobs(simulation).at(0)), (std::array{33, 46, 23, 52}));
 }
 
-TEST(Ptz, RefusesAViewThatIsNone) {
+TEST(Ptz, InvalidView_Refused) {
   try {
     static_cast<void>(
         room(R"({"ptz": {"field_of_view_min_deg": 50, "field_of_view_max_deg": 40}})"));
@@ -390,7 +390,7 @@ struct Pixels {
   }
 };
 
-TEST(Camera, ShowsThingsInTheirColoursDarkerWithDepth) {
+TEST(Camera, Colours_DarkerWithDepth) {
   EXPECT_EQ(brightness(0.0, 12.0), 1.0);
   EXPECT_NEAR(brightness(2.0, 12.0), 0.9, 1e-12);
   EXPECT_NEAR(brightness(20.0, 12.0), 0.4, 1e-12);
@@ -422,7 +422,7 @@ TEST(Camera, ShowsThingsInTheirColoursDarkerWithDepth) {
   EXPECT_EQ(pixels.at(20, 29), (Colour{98, 66, 42, 255}));
 }
 
-TEST(Camera, LightsSidesByTheirNormalAndLidsFully) {
+TEST(Camera, Sides_LitByNormalAndTopsFully) {
   // The lens is 0.3 m high, the box 0.1 m and rotated by 90 degrees. A face is perpendicular to x
   // again, from 36.93 down to 40.39; the top begins at 35.77, so it covers row 36, with the
   // brightness of the front.

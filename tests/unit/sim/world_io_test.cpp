@@ -61,7 +61,7 @@ const DeviceDescription& device(const RobotDescription& robot, const std::string
   throw std::out_of_range(name);
 }
 
-TEST(ReadWorld, TheEmptyObjectIsTheDefaultWorld) {
+TEST(ReadWorld, EmptyObject_DefaultWorld) {
   const WorldDescription world = read("{}");
   EXPECT_EQ(world.name, "unnamed");
   EXPECT_EQ(world.file, "<memory>");
@@ -87,7 +87,7 @@ TEST(ReadWorld, TheEmptyObjectIsTheDefaultWorld) {
   EXPECT_EQ(std::any_cast<PlainParams>(device(robot, "laser").params), PlainParams{});
 }
 
-TEST(ReadWorld, ReadsAllThatAFileMaySay) {
+TEST(ReadWorld, AllKeys_Read) {
   const WorldDescription world = read(R"({
     "$schema": "x", "name": "intro", "description": "A room to try all in.",
     "arena": {"size": [4, 3], "origin": [-1, -2], "border": false, "border_height": 0.3,
@@ -166,7 +166,7 @@ TEST(ReadWorld, ReadsAllThatAFileMaySay) {
                                          {"goal", "1.50"}, {"name", "x"}, {"fast", "true"}}));
 }
 
-TEST(ReadWorld, TheSyrotekFileIsTheDefaultWorld) {
+TEST(ReadWorld, SyrotekFile_DefaultWorld) {
   const WorldDescription file =
       read_world(std::string(PLAYPEN_SOURCE_DIR) + "/worlds/syrotek.json", test::device_table());
   const WorldDescription none = read("{}");
@@ -180,7 +180,7 @@ TEST(ReadWorld, TheSyrotekFileIsTheDefaultWorld) {
   EXPECT_EQ(file.robots[0].port, none.robots[0].port);
 }
 
-TEST(ReadWorld, ExamplesOfTheFormatsPageAreSound) {
+TEST(ReadWorld, ExamplesOfFormatPage_Valid) {
   std::ifstream stream(std::string(PLAYPEN_SOURCE_DIR) + "/docs/world_format.md");
   int examples = 0;
   std::optional<std::string> example;
@@ -203,7 +203,7 @@ TEST(ReadWorld, ExamplesOfTheFormatsPageAreSound) {
   EXPECT_GE(examples, 6);
 }
 
-TEST(ReadWorld, AllErrorsComeAtOnceInTheOrderOfTheirLines) {
+TEST(ReadWorld, AllErrors_InOrderOfLines) {
   const std::vector<ConfigIssue> issues = issues_of(R"({
     "robots": [
       {"pose": {"x": 0.5, "y": 0.4, "yaw": 90}, "port": 80},
@@ -224,7 +224,7 @@ TEST(ReadWorld, AllErrorsComeAtOnceInTheOrderOfTheirLines) {
                           "6 world/robots-overlap", "8 world/out-of-range", "9 world/unknown-key"));
 }
 
-TEST(ReadWorld, ABadValueIsReportedOnceAndNotForItsDefaultToo) {
+TEST(ReadWorld, InvalidValue_ReportedOnce) {
   // The pose defaults to (0, 0), where the robot would extend beyond the floor.
   const std::vector<ConfigIssue> pose = issues_of(R"({"robots": [{"pose": {"x": "a", "y": 1}}]})");
   ASSERT_THAT(pose, SizeIs(1));
@@ -236,7 +236,7 @@ TEST(ReadWorld, ABadValueIsReportedOnceAndNotForItsDefaultToo) {
   EXPECT_EQ(arena[0].pointer, "/arena/size/1");
 }
 
-TEST(ReadWorld, RobotsGetDistinctNamesPortsAndColours) {
+TEST(ReadWorld, Robots_GetDistinctNamesPortsAndColours) {
   const WorldDescription world =
       read(R"({"arena": {"size": [4, 4]}, "robots": [{"name": "r2"}, {}, {"port": 6665}, {}]})");
   std::vector<std::string> names;
@@ -260,14 +260,14 @@ TEST(ReadWorld, RobotsGetDistinctNamesPortsAndColours) {
   EXPECT_THAT(colours, SizeIs(13));
 }
 
-TEST(ReadWorld, RobotsWithoutAPoseAreGivenFreePlaces) {
+TEST(ReadWorld, RobotsWithoutPose_GetFreePlaces) {
   std::string text = R"({"robots": [{"pose": {"x": 0.5, "y": 0.4, "yaw_deg": 90}})";
   for (int i = 1; i < 13; ++i) text += ", {}";
   // check_world, which read() calls, would refuse places that are not free.
   EXPECT_THAT(read(text + "]}").robots, SizeIs(13));
 }
 
-TEST(ReadWorld, AnEmptyRoomPutsItsRobotInTheMiddle) {
+TEST(ReadWorld, EmptyRoom_RobotInMiddle) {
   const WorldDescription world = read(R"({"arena": {"size": [4, 2], "origin": [1, 1]}})");
   ASSERT_THAT(world.robots, SizeIs(1));
   EXPECT_NEAR(world.robots[0].pose.x_m, 3.0, 0.05);  // half the spacing of the candidate places
@@ -275,11 +275,11 @@ TEST(ReadWorld, AnEmptyRoomPutsItsRobotInTheMiddle) {
   EXPECT_EQ(world.robots[0].pose.yaw_rad, 0.0);  // the direction with more room
 }
 
-TEST(ReadWorld, AnEmptyListOfRobotsIsLegal) {
+TEST(ReadWorld, EmptyRobotList_Accepted) {
   EXPECT_THAT(read(R"({"robots": []})").robots, SizeIs(0));
 }
 
-TEST(ReadWorld, ListsSetTheStateOfDynamicObstacles) {
+TEST(ReadWorld, Lists_SetStateOfDynamicObstacles) {
   const WorldDescription world = read(R"({"arena": {"preset": "syrotek", "extended": ["d3"],
     "obstacles": [{"name": "mine", "type": "dynamic", "center": [3, 3.2], "size": [0.1, 0.1]}],
     "retracted": ["mine"]}})");
@@ -289,7 +289,7 @@ TEST(ReadWorld, ListsSetTheStateOfDynamicObstacles) {
   }
 }
 
-TEST(ReadWorld, TimeIsAWordOrAFactor) {
+TEST(ReadWorld, Time_WordOrFactor) {
   EXPECT_EQ(read(R"({"simulation": {"time": "lockstep"}})").simulation.time_mode,
             TimeMode::kLockstep);
   const SimulationDescription real = read(R"({"simulation": {"time": "real"}})").simulation;
@@ -301,11 +301,11 @@ TEST(ReadWorld, TimeIsAWordOrAFactor) {
   EXPECT_EQ(issues_of(R"({"simulation": {"time": []}})").at(0).id, "world/wrong-type");
 }
 
-TEST(ReadWorld, DurationMayBeNull) {
+TEST(ReadWorld, Duration_MayBeNull) {
   EXPECT_FALSE(read(R"({"simulation": {"duration": null}})").simulation.duration_ns.has_value());
 }
 
-TEST(ReadWorld, ViewModesAreReadByTheirNames) {
+TEST(ReadWorld, ViewModes_ReadByName) {
   for (const ViewMode mode : kViewModes) {
     const std::string name(to_string(mode));
     EXPECT_EQ(parse_view_mode(name), mode);
@@ -318,7 +318,7 @@ TEST(ReadWorld, ViewModesAreReadByTheirNames) {
   }
 }
 
-TEST(ReadWorld, CanvasFollowsTheFloorUnlessTold) {
+TEST(ReadWorld, Canvas_FollowsFloorUnlessGiven) {
   // 3.42 x 3.72 m in cells of 1 cm: 342 x 372.
   const CanvasDescription fine = read(R"({"canvas": {"cell_size": 0.01}})").canvas;
   EXPECT_EQ(fine.width, 342);
@@ -330,7 +330,7 @@ TEST(ReadWorld, CanvasFollowsTheFloorUnlessTold) {
   EXPECT_EQ(large.height, 20);
 }
 
-TEST(ReadWorld, ADeviceOfTheModelMayChangeItsType) {
+TEST(ReadWorld, ModelDevice_MayChangeType) {
   const WorldDescription world =
       read(R"({"robots": [{"devices": {"laser": {"type": "camera", "noise": 1}}}]})");
   const DeviceDescription& changed = device(world.robots[0], "laser");
@@ -338,7 +338,7 @@ TEST(ReadWorld, ADeviceOfTheModelMayChangeItsType) {
   EXPECT_EQ(std::any_cast<PlainParams>(changed.params), (PlainParams{10.0, 1.0}));
 }
 
-TEST(ReadWorld, ADeviceOfTheModelThatTheProgramLacksIsReported) {
+TEST(ReadWorld, UnavailableModelDevice_Reported) {
   try {
     static_cast<void>(read_world_text("{}", "<memory>", {}));
     FAIL() << "accepted";
@@ -349,7 +349,7 @@ TEST(ReadWorld, ADeviceOfTheModelThatTheProgramLacksIsReported) {
   }
 }
 
-TEST(ReadWorld, FilesThatCannotBeReadAreExplained) {
+TEST(ReadWorld, UnreadableFiles_Explained) {
   const std::string folder = std::string(PLAYPEN_SOURCE_DIR) + "/worlds";
   const std::vector<ConfigIssue> missing = issues_of_file(folder + "/syrotk.json");
   ASSERT_THAT(missing, SizeIs(1));
@@ -366,7 +366,7 @@ TEST(ReadWorld, FilesThatCannotBeReadAreExplained) {
   EXPECT_EQ(endless[0].id, "file/not-a-file");
 }
 
-TEST(ReadWorld, FilesWithStagesExtensionMayBeJson) {
+TEST(ReadWorld, StageExtension_MayHoldJson) {
   const test_support::TemporaryFolder folder;
   // An extension alone does not make a file of Stage, unless the file is empty.
   EXPECT_THAT(issues_of_file(folder.write("json.world", "// ours\n{}")), testing::IsEmpty());
@@ -375,7 +375,7 @@ TEST(ReadWorld, FilesWithStagesExtensionMayBeJson) {
   EXPECT_EQ(empty[0].id, "stage/empty");
 }
 
-TEST(ReadWorld, TextsBeyondTheLimitsAreRefused) {
+TEST(ReadWorld, LongTexts_Refused) {
   const std::vector<ConfigIssue> bytes = issues_of(std::string((16U << 20U) + 1, ' '));
   ASSERT_THAT(bytes, SizeIs(1));
   EXPECT_EQ(bytes[0].id, "file/too-large");
@@ -387,7 +387,7 @@ TEST(ReadWorld, TextsBeyondTheLimitsAreRefused) {
   EXPECT_EQ(many[0].id, "file/too-large");
 }
 
-TEST(ReadWorld, HundredThousandUnknownKeysEndInAShortReport) {
+TEST(ReadWorld, HundredThousandUnknownKeys_ShortReport) {
   std::string text = "{\"a\": 0";
   for (int i = 0; i < 100'000; ++i) text += ", \"k" + std::to_string(i) + "\": 0";
   EXPECT_THAT(issues_of(text + "}"), SizeIs(101));
@@ -403,7 +403,7 @@ std::string refusal_of(const std::string& file) {
   return "accepted";
 }
 
-TEST(NamedFiles, AreRegularFiles) {
+TEST(NamedFiles, RegularFilesOnly) {
   const test_support::TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "fifo").c_str(), 0600), 0);
   std::filesystem::create_symlink("loop", folder / "loop");
@@ -426,7 +426,7 @@ TEST(NamedFiles, AreRegularFiles) {
 }
 
 // A stranger's world may name any file; error messages must not reveal the file's content.
-TEST(NamedFiles, AreNotQuotedUnlessTheyAreJsonObjects) {
+TEST(NamedFiles, NotQuotedUnlessJsonObjects) {
   const test_support::TemporaryFolder folder;
   const std::string world = folder.write("world.json", R"({"robots": [{"model": "./secret"}]})");
   for (const std::string text :
@@ -445,7 +445,7 @@ TEST(NamedFiles, AreNotQuotedUnlessTheyAreJsonObjects) {
   EXPECT_THAT(refusal_of(world), HasSubstr("'oops' in the line: {\"name\": oops}"));
 }
 
-TEST(ReadWorld, TakesAPipeWhoseNamesAreRelativeToTheCurrentFolder) {
+TEST(ReadWorld, Pipe_NamesRelativeToCurrentFolder) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   const std::string text = R"({"name": "piped", "arena": {"map": {"image": "none.png"}}})";

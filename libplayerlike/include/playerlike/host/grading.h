@@ -33,14 +33,14 @@ struct Grading {
                                  const sim::WorldDescription& world);
 
 /// Adds the entry "graded" to a report. Returns the report unchanged if the run is not graded.
-/// @param report  JSON.
+/// @param report  text of report.json.
 [[nodiscard]] std::string signed_report(const std::string& report, const Grading& grading);
 
 /// Checks that a report belongs to the run that a grader requested. Returns nullopt if it does,
 /// otherwise the reason as text for the verdict: the report is not signed, it has another run,
 /// world, level of realism, seed, duration, time mode or rules, it was changed afterwards, or its
 /// simulation never stepped.
-/// @throws nlohmann::json::exception if the report is not JSON or not in the host's format.
+/// @throws std::exception if the report is not JSON or not in the host's format.
 [[nodiscard]] std::optional<std::string> fault_of_graded(const std::string& report,
                                                          const Grading& expected);
 

@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "playerlike/host/event_client.h"
 #include "playerlike/host/run_settings.h"
@@ -88,13 +90,20 @@ class Host : public std::enable_shared_from_this<Host> {
   /// @return whether it was still set. If not, it has been notified or is being notified.
   bool cancel_alarm(AlarmId alarm);
 
-  /// Switches a device on or off, see sim::Simulation::set_active(). A real robot whose motors are
-  /// switched off stops. @return nothing on success, otherwise the reason.
-  std::optional<std::string> set_active(DeviceId device, bool active);
-
-  /// Calls `action` with the simulation between two steps. `action` must not call the host, and
-  /// must not command devices: Commander does.
-  void with_simulation(const std::function<void(sim::Simulation&)>& action);
+  /// Looks at the simulation between two steps, for what no request tells.
+  /// @param look  a function of `const sim::Simulation&`. It must not call the host.
+  /// @return its result, as a value.
+  template <typename Look>
+  auto with_simulation(const Look& look) const {
+    using Result = std::decay_t<std::invoke_result_t<const Look&, const sim::Simulation&>>;
+    if constexpr (std::is_void_v<Result>) {
+      look_at_simulation(look);
+    } else {
+      std::optional<Result> result;
+      look_at_simulation([&](const sim::Simulation& all) { result.emplace(look(all)); });
+      return *std::move(result);
+    }
+  }
 
   /// Limits the number of further steps, for clock synchronisation; nullopt (initially): no limit.
   /// With a limit, lockstep time also advances while no client takes part.
@@ -142,6 +151,7 @@ class Host : public std::enable_shared_from_this<Host> {
   explicit Host(std::unique_ptr<Core> core);
   /// @throws SessionError kNoSuchDevice.
   void require_port(int port) const;
+  void look_at_simulation(const std::function<void(const sim::Simulation&)>& look) const;
   std::unique_ptr<Core> core_;
 };
 

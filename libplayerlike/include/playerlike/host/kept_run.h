@@ -49,7 +49,7 @@ class KeptRun {
     friend bool operator==(const Progress&, const Progress&) = default;
   };
   [[nodiscard]] Progress progress() const noexcept;
-  /// Tells the host that another program of the run has asked for its world in vain.
+  /// Tells the host that another program of the run has requested its world and was refused.
   void note_conflict() const noexcept;
 
  private:

@@ -85,7 +85,7 @@ struct RunSettings {
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
   std::optional<int> view_socket;
   /// First port of Player's protocol, by which other programs look on (docs/player_wire.md); 0: any
-  /// free ports; nullopt: none. Hosts ignore it; see host/onlookers.h.
+  /// free ports; nullopt: none. Hosts ignore it; see host/stepping/onlookers.h.
   std::optional<int> player_port;
   bool start_at_once = false;  ///< paced time does not wait for the first client (unless the
                                ///< world's start gate is larger than 1)

@@ -4,10 +4,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
-#include "playerlike/messages/message_field.h"
 #include "sim/core/time.h"
 #include "sim/simulation/arena_event.h"
 #include "sim/simulation/arena_state.h"
@@ -37,17 +35,12 @@ struct ArenaBlock {
   /// robot that stands on it has left.
   std::string state;
   double height_m = 0.0;  ///< up to which it stands now [m]; 0 if it is retracted
-  static constexpr std::tuple kFields{field("name", &ArenaBlock::name),
-                                      field("state", &ArenaBlock::state),
-                                      field("height", &ArenaBlock::height_m)};
 };
 
 /// Score of a robot.
 struct ArenaScore {
   std::string robot;    ///< its name
   double points = 0.0;  ///< from timers and traps so far; 0 in a world without a controller
-  static constexpr std::tuple kFields{field("robot", &ArenaScore::robot),
-                                      field("points", &ArenaScore::points)};
 };
 
 /// State of the arena and of its controller.
@@ -62,15 +55,6 @@ struct ArenaStatus {
   std::vector<ArenaScore> scores;            ///< of all robots, in the world's order
   std::optional<sim::Verdict> verdict = {};  ///< none: no action has ended the run
   std::uint64_t newest = 0;                  ///< number of the newest event; 0: none
-  static constexpr std::tuple kFields{field("t", &ArenaStatus::time_ns),
-                                      field("configurations", &ArenaStatus::configurations),
-                                      field("configuration", &ArenaStatus::configuration),
-                                      field("blocks", &ArenaStatus::blocks),
-                                      field("timers", &ArenaStatus::timers),
-                                      field("traps", &ArenaStatus::traps),
-                                      field("scores", &ArenaStatus::scores),
-                                      field("verdict", &ArenaStatus::verdict, Presence::kOptional),
-                                      field("newest", &ArenaStatus::newest)};
 };
 /// Returns the state of the arena.
 struct ArenaRequest {
@@ -84,9 +68,6 @@ struct ArenaEventList {
   std::vector<sim::ArenaEvent> events;  ///< oldest first
   std::uint64_t newest = 0;             ///< number of the newest event of the run; 0: none
   std::uint64_t lost = 0;  ///< number of events that were requested, but are no longer kept
-  static constexpr std::tuple kFields{field("events", &ArenaEventList::events),
-                                      field("newest", &ArenaEventList::newest),
-                                      field("lost", &ArenaEventList::lost)};
 };
 /// Returns the events after one that the client knows. The simulation keeps
 /// sim::kKeptArenaEvents events.
@@ -95,8 +76,6 @@ struct ArenaEventsRequest {
   static constexpr const char* kName = "arena_events";
   static constexpr bool kTellsTruth = true;
   std::uint64_t since = 0;  ///< number of an event; 0: returns all events that are kept
-  static constexpr std::tuple kFields{
-      field("since", &ArenaEventsRequest::since, Presence::kOptional)};
 };
 
 /// Puts the arena into a configuration. If a block or an obstacle cannot be changed, the others are
@@ -106,7 +85,6 @@ struct SetConfigurationRequest {
   static constexpr const char* kName = "set_configuration";
   static constexpr bool kTellsTruth = true;
   std::string name;
-  static constexpr std::tuple kFields{field("name", &SetConfigurationRequest::name)};
 };
 
 /// Extends or retracts a dynamic block; see sim::Simulation::set_obstacle_state().
@@ -116,8 +94,6 @@ struct SetBlockRequest {
   static constexpr bool kTellsTruth = true;
   std::string name;
   bool extended = false;
-  static constexpr std::tuple kFields{field("name", &SetBlockRequest::name),
-                                      field("extended", &SetBlockRequest::extended)};
 };
 
 /// Switches a timer on or off. A timer that is switched on counts its times from now.
@@ -127,8 +103,6 @@ struct SetTimerRequest {
   static constexpr bool kTellsTruth = true;
   std::string name;
   bool enabled = false;
-  static constexpr std::tuple kFields{field("name", &SetTimerRequest::name),
-                                      field("enabled", &SetTimerRequest::enabled)};
 };
 
 /// Switches a trap on or off. Robots inside a trap that is switched on enter it now.
@@ -138,8 +112,6 @@ struct SetTrapRequest {
   static constexpr bool kTellsTruth = true;
   std::string name;
   bool enabled = false;
-  static constexpr std::tuple kFields{field("name", &SetTrapRequest::name),
-                                      field("enabled", &SetTrapRequest::enabled)};
 };
 /// @}
 

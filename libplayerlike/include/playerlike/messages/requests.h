@@ -5,14 +5,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "playerlike/messages/arena_requests.h"
-#include "playerlike/messages/message_field.h"
 #include "playerlike/messages/messages.h"
 #include "sim/canvas/layers.h"
 #include "sim/io/map_file.h"
@@ -23,8 +21,7 @@
 ///
 /// A request of Playpen's protocol also has
 /// - `kName`: its name in the protocol. A request without it never leaves the process;
-/// - `kFields`: its members in messages, in the order in which an error for a wrong key lists them;
-/// - `kAnswer`: the key of its result in the answer, unless the result itself has `kFields`;
+/// - a table of its fields and one of its answer's, in src/protocol/request_fields.cpp;
 /// - `kTellsTruth`: a private world (sim::SimulationDescription::own_sensors_only) answers it only
 ///   for clients that may command all robots.
 ///
@@ -43,7 +40,6 @@ struct SubscribeRequest {
   using Result = void;
   static constexpr const char* kName = "subscribe";
   DeviceId device{-1, -1};
-  static constexpr std::tuple kFields{field("device", &SubscribeRequest::device)};
 };
 
 /// Ends a subscription. The last one discards the device's waiting readings.
@@ -51,7 +47,6 @@ struct UnsubscribeRequest {
   using Result = void;
   static constexpr const char* kName = "unsubscribe";
   DeviceId device{-1, -1};
-  static constexpr std::tuple kFields{field("device", &UnsubscribeRequest::device)};
 };
 
 /// Sets whether a new reading replaces an older one that was not taken (default), or is queued
@@ -63,8 +58,6 @@ struct ReplaceRequest {
   std::optional<DeviceId> device =
       std::nullopt;  ///< none: all devices, including later subscriptions
   bool replace = true;
-  static constexpr std::tuple kFields{field("device", &ReplaceRequest::device, Presence::kNullable),
-                                      field("replace", &ReplaceRequest::replace)};
 };
 
 /// Returns the number of dropped readings.
@@ -91,7 +84,6 @@ struct SleepRequest {
 struct TimeRequest {
   using Result = TimeStatistics;
   static constexpr const char* kName = "time";
-  static constexpr const char* kAnswer = "time";
 };
 
 /// For clients that read in the background: if no time mode was chosen, switches a lockstep
@@ -100,7 +92,6 @@ struct PreferRealTimeRequest {
   using Result = void;
   static constexpr const char* kName = "prefer_real_time";
   std::string reason;
-  static constexpr std::tuple kFields{field("reason", &PreferRealTimeRequest::reason)};
 };
 
 /// Notes that the program has accessed readings. If simulated time advances only while the program
@@ -151,31 +142,22 @@ struct SetCellsRequest {
   sim::LayerId layer = sim::kBaseLayer;
   sim::CellRect rect;
   std::vector<sim::CellValue> cells;
-  static constexpr std::tuple kFields{field("layer", &SetCellsRequest::layer, kLayerRange),
-                                      field("rect", &SetCellsRequest::rect),
-                                      field("cells", &SetCellsRequest::cells)};
 };
 
 /// Returns the value of a cell; nullopt outside the canvas.
 struct CellRequest {
   using Result = std::optional<sim::CellValue>;
   static constexpr const char* kName = "cell";
-  static constexpr const char* kAnswer = "cell";
   sim::LayerId layer = sim::kBaseLayer;
   int column = 0;
   int row = 0;
-  static constexpr std::tuple kFields{field("layer", &CellRequest::layer, kLayerRange),
-                                      field("column", &CellRequest::column, kCellRange),
-                                      field("row", &CellRequest::row, kCellRange)};
 };
 
 /// Returns all cells of a layer, row-major from the top.
 struct CellsRequest {
   using Result = std::vector<sim::CellValue>;
   static constexpr const char* kName = "cells";
-  static constexpr const char* kAnswer = "cells";
   sim::LayerId layer = sim::kBaseLayer;
-  static constexpr std::tuple kFields{field("layer", &CellsRequest::layer, kLayerRange)};
 };
 
 /// Creates a layer. Removes a layer of the same name that an ended session on this port has left.
@@ -186,11 +168,8 @@ struct CellsRequest {
 struct CreateLayerRequest {
   using Result = sim::LayerId;
   static constexpr const char* kName = "create_layer";
-  static constexpr const char* kAnswer = "layer";
   sim::LayerKind kind = sim::LayerKind::kColour;
   sim::LayerStyle style;
-  static constexpr std::tuple kFields{field("kind", &CreateLayerRequest::kind),
-                                      field("style", &CreateLayerRequest::style)};
 };
 
 /// Removes one of this session's layers.
@@ -199,7 +178,6 @@ struct RemoveLayerRequest {
   using Result = void;
   static constexpr const char* kName = "remove_layer";
   sim::LayerId layer = sim::kBaseLayer;
-  static constexpr std::tuple kFields{field("layer", &RemoveLayerRequest::layer, kLayerRange)};
 };
 
 /// Changes the style of a layer. Any session may change the base layer's style, except its name.
@@ -210,23 +188,18 @@ struct SetLayerStyleRequest {
   static constexpr const char* kName = "set_layer_style";
   sim::LayerId layer = sim::kBaseLayer;
   sim::LayerStyle style;
-  static constexpr std::tuple kFields{field("layer", &SetLayerStyleRequest::layer, kLayerRange),
-                                      field("style", &SetLayerStyleRequest::style)};
 };
 
 /// Returns the base layer and this session's layers, lowest first.
 struct LayersRequest {
   using Result = std::vector<sim::LayerInfo>;
   static constexpr const char* kName = "layers";
-  static constexpr const char* kAnswer = "layers";
 };
 
 /// An image of the canvas.
 struct CanvasImage {
   std::vector<std::uint8_t> rgba;  ///< row-major from the top
   CanvasInfo canvas;
-  static constexpr std::tuple kFields{field("image", &CanvasImage::rgba),
-                                      field("canvas", &CanvasImage::canvas)};
 };
 /// Returns the composition of all visible layers of all clients.
 struct CanvasImageRequest {
@@ -246,11 +219,8 @@ struct CanvasInfoRequest {
 struct ResizeCanvasRequest {
   using Result = CanvasInfo;
   static constexpr const char* kName = "resize_canvas";
-  static constexpr const char* kAnswer = "canvas";
   int width = 0;
   int height = 0;
-  static constexpr std::tuple kFields{field("width", &ResizeCanvasRequest::width, kCellRange),
-                                      field("height", &ResizeCanvasRequest::height, kCellRange)};
 };
 
 /// Writes the canvas image as a PNG file to the run's output folder.
@@ -263,10 +233,6 @@ struct SaveImageRequest {
   int scale = 1;     ///< scale x scale pixels per cell
   std::optional<sim::LayerId> layer =
       std::nullopt;  ///< writes only this layer, even if it is hidden
-  static constexpr std::tuple kFields{
-      field("name", &SaveImageRequest::name),
-      field("scale", &SaveImageRequest::scale, kCellRange, Presence::kOptional),
-      field("layer", &SaveImageRequest::layer, kLayerRange, Presence::kOptional)};
 };
 
 /// Writes a grey layer as a map for ROS's map_server, NAME.yaml and NAME.pgm, to the run's output
@@ -279,16 +245,12 @@ struct SaveMapRequest {
   sim::LayerId layer = sim::kBaseLayer;
   std::string name;  ///< a plain file name, with or without ".yaml"
   sim::io::MapMode mode = sim::io::MapMode::kTrinary;
-  static constexpr std::tuple kFields{field("layer", &SaveMapRequest::layer, kLayerRange),
-                                      field("name", &SaveMapRequest::name),
-                                      field("mode", &SaveMapRequest::mode, Presence::kOptional)};
 };
 
 /// Returns how pictures currently show the canvas.
 struct ViewModeRequest {
   using Result = sim::ViewMode;
   static constexpr const char* kName = "view_mode";
-  static constexpr const char* kAnswer = "mode";
 };
 
 /// @throws SessionError kNotAvailable if the world file has locked another mode.
@@ -296,7 +258,6 @@ struct SetViewModeRequest {
   using Result = void;
   static constexpr const char* kName = "set_view_mode";
   sim::ViewMode mode = sim::ViewMode::kGround;
-  static constexpr std::tuple kFields{field("mode", &SetViewModeRequest::mode)};
 };
 /// @}
 
@@ -307,11 +268,6 @@ struct WorldMap {
   std::optional<int> width = std::nullopt;         ///< number of columns
   std::optional<int> height = std::nullopt;        ///< number of rows
   std::optional<sim::Pose> origin = std::nullopt;  ///< X_WM of the bottom left corner
-  static constexpr std::tuple kFields{
-      field("map", &WorldMap::map),
-      field("width", &WorldMap::width, kMapSideRange, Presence::kOptional),
-      field("height", &WorldMap::height, kMapSideRange, Presence::kOptional),
-      field("origin", &WorldMap::origin, Presence::kOptional)};
 };
 /// Returns the true map of the arena's floor with the current obstacles; see sim::true_map().
 /// Clients of a server fetch it in tiles.
@@ -323,8 +279,6 @@ struct WorldMapRequest {
   static constexpr bool kTellsTruth = true;
   double cell_size_m = 0.0;
   std::optional<sim::CellRect> tile = std::nullopt;  ///< clipped to the map
-  static constexpr std::tuple kFields{field("cell_size", &WorldMapRequest::cell_size_m),
-                                      field("tile", &WorldMapRequest::tile, Presence::kOptional)};
 };
 
 /// @name Robots and obstacles by name, and the log
@@ -343,8 +297,6 @@ struct WorldMapRequest {
 struct ObjectPose {
   sim::Pose pose;            ///< X_WB of a robot; for other objects, pose of the centre in W
   sim::SimTime time_ns = 0;  ///< current simulated time
-  static constexpr std::tuple kFields{field("pose", &ObjectPose::pose),
-                                      field("t", &ObjectPose::time_ns)};
 };
 /// Returns the pose of a robot or an obstacle.
 /// @throws SessionError kBadArgument for an unknown name.
@@ -353,7 +305,6 @@ struct ObjectPoseRequest {
   static constexpr const char* kName = "object_pose";
   static constexpr bool kTellsTruth = true;
   std::string name;
-  static constexpr std::tuple kFields{field("name", &ObjectPoseRequest::name)};
 };
 
 /// Moves a robot or a block to a pose; see sim::Simulation::place_object().
@@ -363,20 +314,15 @@ struct PlaceObjectRequest {
   static constexpr bool kTellsTruth = true;
   std::string name;
   sim::Pose pose;
-  static constexpr std::tuple kFields{field("name", &PlaceObjectRequest::name),
-                                      field("pose", &PlaceObjectRequest::pose)};
 };
 
 /// Returns a property; docs/simulation.md lists them.
 struct ObjectPropertyRequest {
   using Result = PropertyValue;
   static constexpr const char* kName = "object_property";
-  static constexpr const char* kAnswer = "value";
   static constexpr bool kTellsTruth = true;
   std::string name;
   std::string property;
-  static constexpr std::tuple kFields{field("name", &ObjectPropertyRequest::name),
-                                      field("property", &ObjectPropertyRequest::property)};
 };
 
 /// Changes a property; docs/simulation.md lists them.
@@ -389,9 +335,31 @@ struct SetObjectPropertyRequest {
   std::string name;
   std::string property;
   PropertyValue value;
-  static constexpr std::tuple kFields{field("name", &SetObjectPropertyRequest::name),
-                                      field("property", &SetObjectPropertyRequest::property),
-                                      field("value", &SetObjectPropertyRequest::value)};
+};
+
+/// Switches a device on or off; see sim::Simulation::set_active(). A real robot whose motors are
+/// switched off stops.
+/// @throws SessionError kNoSuchDevice; kFinished if the run is over.
+struct SetActiveRequest {
+  using Result = void;
+  DeviceId device{-1, -1};
+  bool active = true;
+};
+
+/// Suspends or resumes the dynamics of a robot or an obstacle, or of all; see
+/// sim::Simulation::set_dynamics().
+/// @throws SessionError kBadArgument for an object that cannot move by itself, and for robots that
+///         mirror real ones.
+struct SetDynamicsRequest {
+  using Result = void;
+  std::optional<std::string> object = std::nullopt;  ///< none: all
+  bool on = true;
+};
+
+/// Puts the world back to its start; see sim::Simulation::reset().
+/// @throws SessionError kBadArgument if a robot mirrors a real one.
+struct ResetRequest {
+  using Result = void;
 };
 
 /// Saves the state of the whole simulation under a name: robots, obstacles, devices with their
@@ -406,7 +374,6 @@ struct SaveStateRequest {
   static constexpr const char* kName = "save_state";
   static constexpr bool kTellsTruth = true;
   std::string name;
-  static constexpr std::tuple kFields{field("name", &SaveStateRequest::name)};
 };
 
 /// Restores a saved state of the world immediately, for all clients. Time is not restored: clock,
@@ -419,7 +386,6 @@ struct RestoreStateRequest {
   static constexpr const char* kName = "restore_state";
   static constexpr bool kTellsTruth = true;
   std::string name;
-  static constexpr std::tuple kFields{field("name", &RestoreStateRequest::name)};
 };
 
 /// Announces the goal of a robot whose commands do not contain it, for example of a program that
@@ -431,17 +397,12 @@ struct NoteGoalRequest {
   DeviceId device{-1, -1};               ///< any device of the robot
   sim::Vec2 goal_m = sim::Vec2::Zero();  ///< in the robot's current frame B [m]
   double tolerance_m = 0.0;              ///< distance within which the goal is reached [m]
-  static constexpr std::tuple kFields{field("device", &NoteGoalRequest::device),
-                                      field("goal", &NoteGoalRequest::goal_m),
-                                      field("tolerance", &NoteGoalRequest::tolerance_m)};
 };
 
 /// How a server keeps watch over a robot; see TakeChargeRequest.
 struct Charge {
   bool watched = false;  ///< the server stops the robot if the session falls silent
   bool stopped = false;  ///< it has done so since the session's last such request
-  static constexpr std::tuple kFields{field("watched", &Charge::watched),
-                                      field("stopped", &Charge::stopped)};
 };
 /// Takes charge of a robot, for a session whose robot must not drive without it: that of a mirror
 /// (docs/mirror.md). From then on the robot stops when the session that is in charge and has
@@ -460,19 +421,12 @@ struct TakeChargeRequest {
   double watchdog_s = 0.4;
   bool take_over = false;  ///< from another session, whose commands are refused from then on
   std::string name = {};   ///< of the client, for messages to others
-  static constexpr std::tuple kFields{
-      field("device", &TakeChargeRequest::device),
-      field("watchdog", &TakeChargeRequest::watchdog_s),
-      field("take_over", &TakeChargeRequest::take_over, Presence::kOptional),
-      field("name", &TakeChargeRequest::name, Presence::kOptional)};
 };
 
 /// A possible pose of a robot, from its localisation.
 struct LocalizationParticle {
   sim::Pose pose;       ///< X_WB
   double weight = 0.0;  ///< the weights of all particles add up to 1
-  static constexpr std::tuple kFields{field("pose", &LocalizationParticle::pose),
-                                      field("weight", &LocalizationParticle::weight)};
 };
 /// Returns the present particles of a localisation (amcl).
 /// @throws SessionError kNoSuchDevice; kBadArgument for a device without particles; kNotAvailable
@@ -480,9 +434,7 @@ struct LocalizationParticle {
 struct ParticlesRequest {
   using Result = std::vector<LocalizationParticle>;
   static constexpr const char* kName = "particles";
-  static constexpr const char* kAnswer = "particles";
   DeviceId device{-1, -1};
-  static constexpr std::tuple kFields{field("device", &ParticlesRequest::device)};
 };
 
 /// An entry of the blackboard, which all clients of a host share (docs/blackboard.md).
@@ -495,14 +447,6 @@ struct BlackboardEntry {
   sim::SimTime time_ns = 0;        ///< simulated time of the last change
   /// Number of the entry's last change. The changes of all entries are numbered together, from 1.
   std::int64_t change = 0;
-  static constexpr WholeRange kTypeRange{0, 65535};
-  static constexpr std::tuple kFields{field("group", &BlackboardEntry::group),
-                                      field("key", &BlackboardEntry::key),
-                                      field("type", &BlackboardEntry::type, kTypeRange),
-                                      field("subtype", &BlackboardEntry::subtype, kTypeRange),
-                                      field("data", &BlackboardEntry::data),
-                                      field("t", &BlackboardEntry::time_ns),
-                                      field("change", &BlackboardEntry::change)};
 };
 
 /// Sets an entry of the blackboard, with the present time.
@@ -520,11 +464,6 @@ struct SetBlackboardRequest {
   int type = 0;
   int subtype = 0;
   std::vector<std::uint8_t> data;
-  static constexpr std::tuple kFields{
-      field("group", &SetBlackboardRequest::group), field("key", &SetBlackboardRequest::key),
-      field("type", &SetBlackboardRequest::type, BlackboardEntry::kTypeRange),
-      field("subtype", &SetBlackboardRequest::subtype, BlackboardEntry::kTypeRange),
-      field("data", &SetBlackboardRequest::data)};
 };
 
 /// Returns entries of the blackboard, in the order of their changes.
@@ -536,15 +475,10 @@ struct SetBlackboardRequest {
 struct BlackboardRequest {
   using Result = std::vector<BlackboardEntry>;
   static constexpr const char* kName = "blackboard";
-  static constexpr const char* kAnswer = "entries";
   static constexpr bool kTellsTruth = true;
   std::int64_t after = 0;  ///< only entries whose last change has a greater number
   std::optional<std::string> group = std::nullopt;  ///< only entries of this group
   std::optional<std::string> key = std::nullopt;    ///< only entries with this key
-  static constexpr std::tuple kFields{
-      field("after", &BlackboardRequest::after, WholeRange{}, Presence::kOptional),
-      field("group", &BlackboardRequest::group, Presence::kOptional),
-      field("key", &BlackboardRequest::key, Presence::kOptional)};
 };
 
 /// Configures the log of this session's port and returns its state. Changes are applied in the
@@ -556,16 +490,11 @@ struct BlackboardRequest {
 struct LogRequest {
   using Result = LogStatus;
   static constexpr const char* kName = "log";
-  static constexpr const char* kAnswer = "log";
   std::optional<std::string> file =
       std::nullopt;  ///< a plain file name; ".jsonl" is appended if it is missing
   std::optional<bool> replay = std::nullopt;
   std::optional<bool> rewind = std::nullopt;  ///< true: restarts a replay from the beginning
   std::optional<bool> running = std::nullopt;
-  static constexpr std::tuple kFields{field("file", &LogRequest::file, Presence::kOptional),
-                                      field("replay", &LogRequest::replay, Presence::kOptional),
-                                      field("rewind", &LogRequest::rewind, Presence::kOptional),
-                                      field("running", &LogRequest::running, Presence::kOptional)};
 };
 /// @}
 
@@ -580,7 +509,7 @@ using Request = std::variant<
     ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest, RestoreStateRequest,
     NoteGoalRequest, ParticlesRequest, LogRequest, SetBlackboardRequest, BlackboardRequest,
     ArenaRequest, ArenaEventsRequest, SetConfigurationRequest, SetBlockRequest, SetTimerRequest,
-    SetTrapRequest, TakeChargeRequest>;
+    SetTrapRequest, TakeChargeRequest, SetActiveRequest, SetDynamicsRequest, ResetRequest>;
 
 /// The result of any request; std::monostate for requests without a result.
 using Answer =

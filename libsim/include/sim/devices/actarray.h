@@ -41,7 +41,7 @@ enum class JointAxis {
 struct JointParams {
   std::string name;  ///< for posture devices; empty: "joint1", "joint2", ... by place
   JointType type = JointType::kRotary;  ///< whether it turns or slides
-  double length_m = 0.1;                ///< of the link, [0, 10] [m]
+  double length_m = 0.1;                ///< of the link [m]
   double roll_rad = 0.0;   ///< orientation at position 0 relative to the previous link [rad]
   double pitch_rad = 0.0;  ///< as roll_rad; positive: downwards [rad]
   double yaw_rad = 0.0;    ///< as roll_rad; counter-clockwise [rad]
@@ -68,7 +68,7 @@ struct JointParams {
   std::optional<double> acceleration_max_mps2;  ///< default 0.2
 
   bool has_brake = false;      ///< whether it has a brake
-  double current_max_a = 1.0;  ///< maximum current of the motor, (0, 1000] [A]
+  double current_max_a = 1.0;  ///< maximum current of the motor [A]
 };
 
 /// Limits of a joint: in m and s for a linear joint, in rad and s for a rotary joint.
@@ -90,11 +90,11 @@ struct JointTravel {
 struct ActArrayParams {
   static constexpr int kMaxJoints = 16;  ///< maximum number of joints (Player 2.0's limit)
 
-  double frequency_hz = 10.0;  ///< (0, 1000]
+  double frequency_hz = 10.0;  ///< [Hz]
   /// Base of the arm on the body, seen from above. The link of the first joint points along its x
   /// axis if the joint has no orientation of its own and is at position 0.
   Pose X_BA;
-  double height_m = 0.3;            ///< of the base above the floor, [0, 100] [m]
+  double height_m = 0.3;            ///< of the base above the floor [m]
   double roll_rad = 0.0;            ///< orientation of the base, besides the yaw of X_BA [rad]
   double pitch_rad = 0.0;           ///< as roll_rad; positive: downwards [rad]
   bool is_powered = true;           ///< initially

@@ -29,8 +29,8 @@ struct AioParams {
   static constexpr int kMaxLines = 8;  ///< maximum number of inputs or outputs (Player's limit)
   static constexpr double kMaxVolts = 1e6;  ///< maximum magnitude of an output voltage
 
-  double frequency_hz = 10.0;  ///< (0, 1000]
-  double noise_v = 0.0;        ///< standard deviation of each input [V], >= 0
+  double frequency_hz = 10.0;  ///< [Hz]
+  double noise_v = 0.0;        ///< standard deviation of each input [V]
   /// Sources of inputs 0, 1, ...; at most kMaxLines.
   std::vector<AnalogSource> inputs = {AnalogSignal::kSpeed, AnalogSignal::kTurnRate};
   int outputs = 2;  ///< 0..kMaxLines

@@ -13,10 +13,10 @@ namespace sim {
 
 /// Settings of a barometer.
 struct BarometerParams {
-  double frequency_hz = 10.0;      ///< (0, 1000]
-  double reference_pa = 101325.0;  ///< pressure at the robot's height at the start [Pa], > 0
-  double noise_pa = 0.0;           ///< standard deviation [Pa], >= 0
-  double latency_s = 0.0;          ///< [0, 10] [s]
+  double frequency_hz = 10.0;      ///< [Hz]
+  double reference_pa = 101325.0;  ///< pressure at the robot's height at the start [Pa]
+  double noise_pa = 0.0;           ///< standard deviation [Pa]
+  double latency_s = 0.0;          ///< [s]
 };
 
 /// A reading of a barometer.
@@ -45,9 +45,9 @@ class Barometer final : public NoisySensor<BarometerParams, BarometerReading> {
 
 /// Settings of an airspeed sensor.
 struct AirspeedParams : SensorMount {
-  double frequency_hz = 10.0;  ///< (0, 1000]
-  double noise_pa = 0.0;       ///< standard deviation [Pa], >= 0
-  double latency_s = 0.0;      ///< [0, 10] [s]
+  double frequency_hz = 10.0;  ///< [Hz]
+  double noise_pa = 0.0;       ///< standard deviation [Pa]
+  double latency_s = 0.0;      ///< [s]
 };
 
 /// A reading of an airspeed sensor.
@@ -70,10 +70,10 @@ class Airspeed final : public MountedSensor<AirspeedParams, AirspeedReading> {
 
 /// Settings of an altimeter.
 struct AltimeterParams {
-  double frequency_hz = 10.0;  ///< (0, 1000]
-  double range_m = 30.0;       ///< > 0 [m]
-  double noise_m = 0.0;        ///< standard deviation [m], >= 0
-  double latency_s = 0.0;      ///< [0, 10] [s]
+  double frequency_hz = 10.0;  ///< [Hz]
+  double range_m = 30.0;       ///< [m]
+  double noise_m = 0.0;        ///< standard deviation [m]
+  double latency_s = 0.0;      ///< [s]
 };
 
 /// A reading of an altimeter.
@@ -95,14 +95,14 @@ class Altimeter final : public NoisySensor<AltimeterParams, AltimeterReading> {
 
 /// Settings of a thermometer.
 struct ThermometerParams {
-  double frequency_hz = 10.0;    ///< (0, 1000]
+  double frequency_hz = 10.0;    ///< [Hz]
   double air_c = 15.0;           ///< temperature far from all fires [degrees C]
-  double fire_c = 200.0;         ///< what a fire adds at its place [degrees C], >= 0
-  double attenuation_1pm = 0.2;  ///< of the temperature with the distance, >= 0 [1/m]
-  double range_m = 1000.0;       ///< farther fires are not felt [m], > 0
+  double fire_c = 200.0;         ///< what a fire adds at its place [degrees C]
+  double attenuation_1pm = 0.2;  ///< of the temperature with the distance [1/m]
+  double range_m = 1000.0;       ///< farther fires are not felt [m]
   std::string tag = "Fire";      ///< obstacles and robots with this tag are fires
-  double noise_c = 0.0;          ///< standard deviation [degrees C], >= 0
-  double latency_s = 0.0;        ///< [0, 10] [s]
+  double noise_c = 0.0;          ///< standard deviation [degrees C]
+  double latency_s = 0.0;        ///< [s]
 };
 
 /// A reading of a thermometer.
@@ -123,7 +123,7 @@ class Thermometer final : public NoisySensor<ThermometerParams, ThermometerReadi
 
 /// Settings of a clock.
 struct ClockParams {
-  double frequency_hz = 10.0;  ///< (0, 1000]
+  double frequency_hz = 10.0;  ///< [Hz]
 };
 
 /// A reading of a clock: its time stamp.

@@ -20,27 +20,27 @@ struct PoseReading;
 /// Settings of adaptive Monte Carlo localisation. Names are those of Player's driver amcl where it
 /// has the setting.
 struct AmclParams {
-  double frequency_hz = 10.0;            ///< of readings, (0, 1000]
+  double frequency_hz = 10.0;            ///< of readings
   std::string laser = "laser";           ///< the robot's laser
   std::string odometry = "odometry";     ///< the robot's device that measures its motion
-  double map_resolution_m = 0.05;        ///< side of a cell of the map, (0, 10] [m]
+  double map_resolution_m = 0.05;        ///< side of a cell of the map [m]
   std::optional<Pose> init_pose;         ///< where the robot is at the start; none: anywhere
   Vec2 init_pose_deviation_m{1.0, 1.0};  ///< standard deviations of x and y of init_pose, and of a
-                                         ///< SetPoseCommand without covariance, >= 0 [m]
-  double init_pose_deviation_rad = std::numbers::pi / 6.0;  ///< of the yaw, >= 0
+                                         ///< SetPoseCommand without covariance [m]
+  double init_pose_deviation_rad = std::numbers::pi / 6.0;  ///< of the yaw
   double update_m = 0.2;                                    ///< see MonteCarloSettings::update_m
   double update_rad = std::numbers::pi / 6.0;               ///< see MonteCarloSettings::update_rad
-  int min_samples = 100;                                    ///< 1..100000
-  int max_samples = 10000;                                  ///< 1..100000, >= min_samples
-  double kld_error = 0.01;                                  ///< (0, 1]
-  double kld_z = 3.0;                                       ///< [0, 10]
-  OdometryNoise motion;                                     ///< each in [0, 100]
-  int max_beams = 60;                                       ///< beams of a scan to use, 1..8192
-  double range_deviation_m = 0.1;                           ///< see LikelihoodSettings, (0, 10] [m]
-  double bad_share = 0.1;                                   ///< see LikelihoodSettings, (0, 1)
-  double independent_beams = 20.0;                          ///< see MonteCarloSettings, (0, 1000]
-  double alpha_slow = 0.01;                                 ///< see MonteCarloSettings, [0, 1]
-  double alpha_fast = 0.3;                                  ///< see MonteCarloSettings, [0, 1]
+  int min_samples = 100;                                    ///< particles
+  int max_samples = 10000;                                  ///< particles, >= min_samples
+  double kld_error = 0.01;                                  ///< error that KLD sampling accepts
+  double kld_z = 3.0;                                       ///< quantile that KLD sampling uses
+  OdometryNoise motion;                                     ///< of the motion between updates
+  int max_beams = 60;                                       ///< beams of a scan to use
+  double range_deviation_m = 0.1;                           ///< see LikelihoodSettings [m]
+  double bad_share = 0.1;                                   ///< see LikelihoodSettings
+  double independent_beams = 20.0;                          ///< see MonteCarloSettings
+  double alpha_slow = 0.01;                                 ///< see MonteCarloSettings
+  double alpha_fast = 0.3;                                  ///< see MonteCarloSettings
 };
 
 /// Settings of the filter.

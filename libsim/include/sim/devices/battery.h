@@ -12,15 +12,15 @@ namespace sim {
 
 /// Settings of a battery. With the defaults, an S1R at rest runs for about eight hours.
 struct BatteryParams {
-  double frequency_hz = 10.0;             ///< (0, 1000]
-  double capacity_wh = 50.0;              ///< energy of a full battery [W h], > 0
-  double initial_charge_percent = 100.0;  ///< of the capacity, [0, 100]
-  double idle_power_w = 6.0;              ///< constant consumption [W], >= 0
+  double frequency_hz = 10.0;             ///< [Hz]
+  double capacity_wh = 50.0;              ///< energy of a full battery [W h]
+  double initial_charge_percent = 100.0;  ///< of the capacity
+  double idle_power_w = 6.0;              ///< constant consumption [W]
   double drive_power_ws_per_m = 8.0;  ///< consumption per m/s of wheel speed, averaged over both
-                                      ///< wheels [W s/m], >= 0
-  double charging_power_w = 40.0;     ///< power that a dock supplies to the battery [W], >= 0
-  double full_voltage_v = 12.6;       ///< at full charge [V], > 0
-  double empty_voltage_v = 9.0;       ///< when empty [V], > 0, at most full_voltage_v
+                                      ///< wheels [W s/m]
+  double charging_power_w = 40.0;     ///< power that a dock supplies to the battery [W]
+  double full_voltage_v = 12.6;       ///< at full charge [V]
+  double empty_voltage_v = 9.0;       ///< when empty [V], at most full_voltage_v
 };
 
 /// Charging state of a battery.

@@ -10,11 +10,11 @@ namespace sim {
 
 /// Settings of a light. Commands can change all but the position.
 struct BlinkenlightParams {
-  double frequency_hz = 10.0;  ///< (0, 1000]
+  double frequency_hz = 10.0;  ///< [Hz]
   Colour colour{0xff, 0x3b, 0x30, 0xff};
   bool enabled = false;
-  double period_s = 1.0;     ///< of one on-off cycle, >= 0 [s]; 0: does not blink
-  double duty_cycle = 0.5;   ///< fraction of the period in which it is lit, [0, 1]
+  double period_s = 1.0;     ///< of one on-off cycle [s]; 0: does not blink
+  double duty_cycle = 0.5;   ///< fraction of the period in which it is lit
   Vec2 p_BL = {-0.05, 0.0};  ///< position on the robot, in B [m]
 };
 

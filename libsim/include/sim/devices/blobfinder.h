@@ -16,10 +16,10 @@ class ColumnView;
 
 /// Settings of a blobfinder.
 struct BlobfinderParams : ViewParams {
-  double frequency_hz = 10.0;   ///< (0, 1000]
+  double frequency_hz = 10.0;   ///< [Hz]
   std::vector<Colour> colours;  ///< colours that it detects, at most kMaxColours; empty: all
-  double noise_m = 0.0;         ///< standard deviation of a blob's range [m], >= 0
-  double latency_s = 0.0;       ///< [0, 10] [s]
+  double noise_m = 0.0;         ///< standard deviation of a blob's range [m]
+  double latency_s = 0.0;       ///< [s]
 
   static constexpr std::size_t kMaxColours = 256;
 };

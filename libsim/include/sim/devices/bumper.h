@@ -17,7 +17,7 @@ namespace sim {
 /// and the segment runs along y. This is the convention of Player's player_bumper_define_t.
 struct BumperSegment {
   Pose X_BS;              ///< mounting on the body [m, rad]
-  double length_m = 0.1;  ///< along the segment, > 0 [m]
+  double length_m = 0.1;  ///< along the segment [m]
   double radius_m = 0.0;  ///< of the arc, whose centre is on S's negative x axis; 0: straight [m]
 
   friend bool operator==(const BumperSegment&, const BumperSegment&) = default;
@@ -25,9 +25,9 @@ struct BumperSegment {
 
 /// Settings of a bumper.
 struct BumperParams {
-  double frequency_hz = 10.0;           ///< (0, 1000]
+  double frequency_hz = 10.0;           ///< [Hz]
   double reach_m = 0.05;                ///< a touch farther than this from all segments presses
-                                        ///< none, > 0 [m]
+                                        ///< none [m]
   std::vector<BumperSegment> segments;  ///< at most 64; empty: one per side of the footprint
 
   /// Maximum number of segments of a bumper.

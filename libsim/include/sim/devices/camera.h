@@ -17,8 +17,8 @@ class ColumnView;
 
 /// Settings of a camera.
 struct CameraParams : ViewParams {
-  double frequency_hz = 10.0;  ///< pictures per second, (0, 1000]
-  double latency_s = 0.0;      ///< [0, 10] [s]
+  double frequency_hz = 10.0;  ///< pictures per second
+  double latency_s = 0.0;      ///< [s]
 };
 
 /// A picture: red, green and blue of each pixel, row-major from the top.

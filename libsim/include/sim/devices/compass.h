@@ -10,11 +10,11 @@ namespace sim {
 
 /// Settings of a magnetic compass.
 struct CompassParams {
-  double frequency_hz = 10.0;                 ///< (0, 1000]
-  double noise_rad = 0.0;                     ///< standard deviation of the heading [rad], >= 0
+  double frequency_hz = 10.0;                 ///< [Hz]
+  double noise_rad = 0.0;                     ///< standard deviation of the heading [rad]
   double north_rad = 0.5 * std::numbers::pi;  ///< direction of magnetic north in W,
                                               ///< counter-clockwise from x [rad]
-  double latency_s = 0.0;                     ///< from a measurement until its reading, [0, 10] [s]
+  double latency_s = 0.0;                     ///< from a measurement until its reading [s]
 };
 
 /// A compass reading.

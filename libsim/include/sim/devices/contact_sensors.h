@@ -11,7 +11,7 @@ namespace sim {
 
 /// Settings of a collision sensor.
 struct CollisionParams {
-  double frequency_hz = 10.0;  ///< (0, 1000]
+  double frequency_hz = 10.0;  ///< [Hz]
 };
 
 /// What the robot has touched since the previous reading, including the current moment.

@@ -16,10 +16,10 @@ class ColumnView;
 
 /// Settings of a depth camera. Picture, place and maximum range are those of ViewParams.
 struct DepthCameraParams : ViewParams {
-  double frequency_hz = 10.0;  ///< pictures per second, (0, 1000]
-  double range_min_m = 0.3;    ///< nearer points have no depth [m], >= 0
-  double noise_m = 0.0;        ///< standard deviation of each depth [m], >= 0
-  double latency_s = 0.0;      ///< [0, 10] [s]
+  double frequency_hz = 10.0;  ///< pictures per second
+  double range_min_m = 0.3;    ///< nearer points have no depth [m]
+  double noise_m = 0.0;        ///< standard deviation of each depth [m]
+  double latency_s = 0.0;      ///< [s]
 };
 
 /// A picture of depths.

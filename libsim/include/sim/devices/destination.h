@@ -10,8 +10,8 @@ namespace sim {
 
 /// Settings of the destination actuator. The defaults are those of MORSE.
 struct DestinationParams {
-  double tolerance_m = 0.5;  ///< distance from the goal at which the robot stops [m], > 0
-  double speed_mps = 5.0;    ///< on the way; the motors' limits apply too [m/s], > 0
+  double tolerance_m = 0.5;  ///< distance from the goal at which the robot stops [m]
+  double speed_mps = 5.0;    ///< on the way; the motors' limits apply too [m/s]
   bool remain = false;       ///< whether a robot that is pushed away from its goal returns
 };
 

@@ -25,7 +25,7 @@ using DigitalSource = std::variant<bool, DigitalSignal, Wire>;
 struct DioParams {
   static constexpr int kMaxLines = 32;  ///< maximum number of inputs or outputs
 
-  double frequency_hz = 10.0;  ///< (0, 1000]
+  double frequency_hz = 10.0;  ///< [Hz]
   /// Sources of inputs 0, 1, ...; at most kMaxLines.
   std::vector<DigitalSource> inputs = {DigitalSignal::kContact, DigitalSignal::kStalled,
                                        DigitalSignal::kDock};

@@ -12,17 +12,17 @@ namespace sim {
 
 /// Settings of a fiducial finder. The default ranges and field of view are those of Stage.
 struct FiducialParams {
-  double frequency_hz = 10.0;                   ///< (0, 1000]
-  double range_max_m = 8.0;                     ///< (0, 1000] [m]
-  double range_max_id_m = 5.0;                  ///< marks beyond are seen, not read, [0, 1000] [m]
+  double frequency_hz = 10.0;                   ///< [Hz]
+  double range_max_m = 8.0;                     ///< [m]
+  double range_max_id_m = 5.0;                  ///< marks beyond are seen, not read [m]
   double field_of_view_rad = std::numbers::pi;  ///< full angle, (0, 2 pi]
   Pose X_BS;                                    ///< mounting on the body
   double height_m = 0.1;  ///< above the floor [m]; objects that are not higher are neither seen nor
                           ///< hide others
-  double noise_m = 0.0;   ///< standard deviation of a distance [m], >= 0
-  double noise_bearing_rad = 0.0;  ///< standard deviation of a bearing [rad], >= 0
-  double noise_yaw_rad = 0.0;      ///< standard deviation of a mark's heading [rad], >= 0
-  double latency_s = 0.0;          ///< [0, 10] [s]
+  double noise_m = 0.0;   ///< standard deviation of a distance [m]
+  double noise_bearing_rad = 0.0;  ///< standard deviation of a bearing [rad]
+  double noise_yaw_rad = 0.0;      ///< standard deviation of a mark's heading [rad]
+  double latency_s = 0.0;          ///< [s]
 };
 
 /// Marks in view, nearest first.

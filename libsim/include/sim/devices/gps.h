@@ -24,15 +24,15 @@ enum class GpsLevel {
 /// Settings of a satellite receiver. The origin of W has a latitude and a longitude on the Earth,
 /// by default in Prague.
 struct GpsParams : CoordinateParams {
-  double frequency_hz = 10.0;                                 ///< (0, 1000]
+  double frequency_hz = 10.0;                                 ///< [Hz]
   double latitude_rad = 50.0764 * std::numbers::pi / 180.0;   ///< of W's origin, north > 0
   double longitude_rad = 14.4178 * std::numbers::pi / 180.0;  ///< of W's origin, east > 0
   double altitude_m = 200.0;                  ///< of the floor, above the ellipsoid [m]
   double north_rad = 0.5 * std::numbers::pi;  ///< direction of north in W, counter-clockwise from x
-  double noise_m = 0.0;           ///< standard deviation to the east and to the north [m], >= 0
-  double noise_vertical_m = 0.0;  ///< standard deviation of the altitude [m], >= 0
+  double noise_m = 0.0;           ///< standard deviation to the east and to the north [m]
+  double noise_vertical_m = 0.0;  ///< standard deviation of the altitude [m]
   int satellites = 8;             ///< in view, 0 to 64; below 4 there is no fix
-  double latency_s = 0.0;         ///< [0, 10] [s]
+  double latency_s = 0.0;         ///< [s]
   GpsLevel level = GpsLevel::kExtended;
 };
 

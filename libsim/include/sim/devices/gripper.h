@@ -18,16 +18,16 @@ namespace sim {
 /// Settings of a gripper. The defaults for size and speed are those of Stage's gripper
 /// (model_gripper).
 struct GripperParams {
-  double frequency_hz = 10.0;  ///< (0, 1000]
+  double frequency_hz = 10.0;  ///< [Hz]
   /// Base of the paddles, half-way between them; the paddles point along x. None: the middle of the
   /// robot's front.
   std::optional<Pose> X_BG;
-  double length_m = 0.12;      ///< of a paddle, > 0 [m]
-  double thickness_m = 0.03;   ///< of a paddle, >= 0 [m]
-  double opening_m = 0.22;     ///< between the open paddles, > 0 [m]
+  double length_m = 0.12;      ///< of a paddle [m]
+  double thickness_m = 0.03;   ///< of a paddle [m]
+  double opening_m = 0.22;     ///< between the open paddles [m]
   double height_m = 0.05;      ///< height of paddles and beams above the floor [m]; objects that
                                ///< are not higher are neither detected nor gripped
-  double travel_time_s = 2.0;  ///< from open to closed, and back, > 0 [s]
+  double travel_time_s = 2.0;  ///< from open to closed, and back [s]
   int capacity = 0;            ///< of the store, 0..kMaxStored
   static constexpr int kMaxStored = 100;
 };

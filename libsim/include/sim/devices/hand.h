@@ -12,9 +12,9 @@ namespace sim {
 
 /// Settings of a hand. Angle, distance and tag are those of MORSE's Gripper.
 struct HandParams : SensorMount {
-  double frequency_hz = 10.0;                 ///< (0, 1000]
+  double frequency_hz = 10.0;                 ///< [Hz]
   double angle_rad = std::numbers::pi / 3.0;  ///< full aperture of its reach, (0, 2 pi]
-  double distance_m = 0.5;                    ///< of the farthest object that it reaches [m], > 0
+  double distance_m = 0.5;                    ///< of the farthest object that it reaches [m]
   std::string tag = "Graspable";              ///< it takes objects with this tag; empty: all
 };
 

@@ -13,18 +13,18 @@ namespace sim {
 
 /// Settings of an inertial measurement unit at the centre of the axle, aligned with the body.
 struct ImuParams {
-  double frequency_hz = 10.0;  ///< (0, 1000]
-  double noise_mps2 = 0.0;     ///< standard deviation of an acceleration [m/s^2], >= 0
-  double noise_radps = 0.0;    ///< standard deviation of a turning rate [rad/s], >= 0
-  double noise_ut = 0.0;       ///< standard deviation of the magnetic field [uT], >= 0
+  double frequency_hz = 10.0;  ///< [Hz]
+  double noise_mps2 = 0.0;     ///< standard deviation of an acceleration [m/s^2]
+  double noise_radps = 0.0;    ///< standard deviation of a turning rate [rad/s]
+  double noise_ut = 0.0;       ///< standard deviation of the magnetic field [uT]
   double bias_mps2 = 0.0;      ///< standard deviation of the constant bias of each acceleration
-                               ///< [m/s^2], >= 0
+                               ///< [m/s^2]
   double bias_radps = 0.0;     ///< standard deviation of the constant bias of each turning rate
-                               ///< [rad/s], >= 0
-  double field_horizontal_ut = 20.0;  ///< horizontal magnetic field of the Earth [uT], >= 0
+                               ///< [rad/s]
+  double field_horizontal_ut = 20.0;  ///< horizontal magnetic field of the Earth [uT]
   double field_down_ut = 45.0;        ///< downward component [uT]; by default about that in Prague
   double north_rad = 0.5 * std::numbers::pi;  ///< direction of north in W, counter-clockwise from x
-  double latency_s = 0.0;                     ///< [0, 10] [s]
+  double latency_s = 0.0;                     ///< [s]
 };
 
 /// A reading of an inertial unit, in the body's frame: x forward, y left, z up.

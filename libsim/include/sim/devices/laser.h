@@ -12,21 +12,21 @@ namespace sim {
 
 /// Settings of a scanning laser rangefinder; the defaults are the S1R's Hokuyo.
 struct LaserParams {
-  double frequency_hz = 10.0;  ///< (0, 1000]
-  double noise_m = 0.0;        ///< standard deviation of a range [m], >= 0
-  double noise_share = 0.0;  ///< standard deviation of a range r is max(noise_m, share * r), [0, 1]
-  double mixed_pixels = 0.0;  ///< probability of a mixed pixel at a depth edge, [0, 1]
-  double dropouts = 0.0;      ///< probability that a range is lost and reads range_max, [0, 1]
-  double latency_s = 0.0;     ///< from a measurement until its reading, [0, 10] [s]
-  int beam_count = 682;       ///< 1..8192
+  double frequency_hz = 10.0;  ///< [Hz]
+  double noise_m = 0.0;        ///< standard deviation of a range [m]
+  double noise_share = 0.0;    ///< standard deviation of a range r is max(noise_m, share * r)
+  double mixed_pixels = 0.0;   ///< probability of a mixed pixel at a depth edge
+  double dropouts = 0.0;       ///< probability that a range is lost and reads range_max
+  double latency_s = 0.0;      ///< from a measurement until its reading [s]
+  int beam_count = 682;        ///< number of beams
   double resolution_rad = 0.39589 * std::numbers::pi / 180.0;  ///< angle between neighbouring beams
-  double range_max_m = 5.0;                                    ///< (0, 1000] [m]
+  double range_max_m = 5.0;                                    ///< [m]
   Pose X_BL{0.035, 0.0, 0.0};                                  ///< mounting on the body
-  double height_m = 0.125;      ///< of its case along L's axes, for clients, >= 0
-  Vec2 size_m{0.05, 0.05};      ///< of its case along L's axes, for clients, >= 0
-  double size_height_m = 0.07;  ///< height of its case, for clients, >= 0
-  double range_min_m = 0.0;     ///< least range, for clients, [0, 1000]; ranges are not changed
-  double intensity = 0.0;       ///< of each echo, for clients, [0, 1e6]; 0: none is measured
+  double height_m = 0.125;      ///< of its case along L's axes, for clients
+  Vec2 size_m{0.05, 0.05};      ///< of its case along L's axes, for clients
+  double size_height_m = 0.07;  ///< height of its case, for clients
+  double range_min_m = 0.0;     ///< least range, for clients; ranges are not changed
+  double intensity = 0.0;       ///< of each echo, for clients; 0: none is measured
 };
 
 /// One scan. Beam i has the angle angle_min_rad + i * resolution_rad from L's x axis.

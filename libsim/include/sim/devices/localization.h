@@ -14,11 +14,11 @@ namespace sim {
 
 /// Settings of the arena's localisation (the pose sensor).
 struct PoseParams : SensorMount, CoordinateParams {
-  double frequency_hz = 10.0;   ///< (0, 1000]
-  double noise_m = 0.0;         ///< standard deviation of x and of y [m], >= 0
-  double noise_yaw_rad = 0.0;   ///< standard deviation of yaw [rad], >= 0
+  double frequency_hz = 10.0;   ///< [Hz]
+  double noise_m = 0.0;         ///< standard deviation of x and of y [m]
+  double noise_yaw_rad = 0.0;   ///< standard deviation of yaw [rad]
   bool noise_in_space = false;  ///< z, roll and pitch get the same noise as x and yaw
-  double latency_s = 0.0;       ///< from a measurement until its reading, [0, 10] [s]
+  double latency_s = 0.0;       ///< from a measurement until its reading [s]
 };
 
 /// Which part of its data an odometry device shows to clients that use MORSE's protocol. Its
@@ -31,29 +31,29 @@ enum class OdometryLevel {
 
 /// Settings of the wheel odometry.
 struct OdometryParams {
-  double frequency_hz = 10.0;  ///< (0, 1000]
+  double frequency_hz = 10.0;  ///< [Hz]
   double noise = 0.0;          ///< standard deviation of a wheel's path after 1 m [m]; grows with
                                ///< the square root of the path (see Odometry)
   OdometryLevel level = OdometryLevel::kIntegrated;
   Pose start;  ///< what it reads before the first step
   /// @name Systematic errors (see Odometry)
   /// @{
-  double wheel_ratio = 1.0;        ///< E_d: diameter of the right wheel / of the left, [0.5, 2]
-  double wheelbase_ratio = 1.0;    ///< E_b: true wheelbase / the assumed one, [0.5, 2]
-  double scale = 1.0;              ///< factor of all distances, [0, 10]
-  double side_scale = 1.0;         ///< further factor of distances sideways, [0, 1000]
+  double wheel_ratio = 1.0;        ///< E_d: diameter of the right wheel / of the left
+  double wheelbase_ratio = 1.0;    ///< E_b: true wheelbase / the assumed one
+  double scale = 1.0;              ///< factor of all distances
+  double side_scale = 1.0;         ///< further factor of distances sideways
   double heading_drift_radps = 0;  ///< added to the turn rate [rad/s]
   /// @}
   /// @name Further noise
   /// @{
-  double scale_noise = 0.0;        ///< standard deviation of the factor, new for each reading, >= 0
-  double heading_noise_rad = 0.0;  ///< standard deviation of the heading after 1 s [rad], >= 0;
-                                   ///< grows with the square root of time
-  double noise_pose_m = 0.0;       ///< of x and y of single readings [m], >= 0
-  double noise_pose_yaw_rad = 0.0;  ///< of yaw of single readings [rad], >= 0
+  double scale_noise = 0.0;         ///< standard deviation of the factor, new for each reading
+  double heading_noise_rad = 0.0;   ///< standard deviation of the heading after 1 s [rad];
+                                    ///< grows with the square root of time
+  double noise_pose_m = 0.0;        ///< of x and y of single readings [m]
+  double noise_pose_yaw_rad = 0.0;  ///< of yaw of single readings [rad]
   bool noise_in_space = false;      ///< z, roll and pitch of single readings get noise, too
   /// @}
-  double latency_s = 0.0;  ///< from a measurement until its reading, [0, 10] [s]
+  double latency_s = 0.0;  ///< from a measurement until its reading [s]
 };
 
 /// The robot's pose as estimated by a localisation device, and its motion.

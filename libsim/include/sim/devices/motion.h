@@ -14,20 +14,20 @@ namespace sim {
 
 /// Settings of the motors and of their position control. An acceleration limit of 0 means no limit.
 struct MotionParams {
-  double max_speed_mps = 0.5;                 ///< > 0
-  double max_turn_rate_radps = 3.0;           ///< > 0
-  double max_acceleration_mps2 = 0.0;         ///< >= 0; 0: no limit, the speed changes at once
-  double max_turn_acceleration_radps2 = 0.0;  ///< >= 0; 0: no limit
+  double max_speed_mps = 0.5;                 ///< [m/s]
+  double max_turn_rate_radps = 3.0;           ///< [rad/s]
+  double max_acceleration_mps2 = 0.0;         ///< [m/s^2]; 0: no limit, the speed changes at once
+  double max_turn_acceleration_radps2 = 0.0;  ///< [rad/s^2]; 0: no limit
   bool enabled_at_start = true;               ///< whether the motors are initially on
-  double approach_gain = 2.0;                 ///< speed per remaining metre [1/s], > 0
-  double turn_gain = 2.0;                     ///< turn rate per remaining radian [1/s], > 0
-  double tolerance_m = 0.01;                  ///< distance to the goal on arrival [m], > 0
-  double heading_tolerance_rad = 0.01;        ///< heading error on arrival [rad], > 0
-  double slip = 0.0;         ///< standard deviation of each wheel's slip, [0, 0.2]; see WheelSlip
-  double slip_time_s = 0.2;  ///< time in which slip loses its correlation, (0, 1000] [s]
-  double speed_loss_mps = 0.0;   ///< by which the robot is slower than its target, [0, 10] [m/s]
-  double turn_loss_radps = 0.0;  ///< by which it turns more slowly than its target, [0, 63] [rad/s]
-  double latency_s = 0.0;        ///< from a command until it takes effect, [0, 10] [s]
+  double approach_gain = 2.0;                 ///< speed per remaining metre [1/s]
+  double turn_gain = 2.0;                     ///< turn rate per remaining radian [1/s]
+  double tolerance_m = 0.01;                  ///< distance to the goal on arrival [m]
+  double heading_tolerance_rad = 0.01;        ///< heading error on arrival [rad]
+  double slip = 0.0;             ///< standard deviation of each wheel's slip; see WheelSlip
+  double slip_time_s = 0.2;      ///< time in which slip loses its correlation [s]
+  double speed_loss_mps = 0.0;   ///< by which the robot is slower than its target [m/s]
+  double turn_loss_radps = 0.0;  ///< by which it turns more slowly than its target [rad/s]
+  double latency_s = 0.0;        ///< from a command until it takes effect [s]
 };
 
 /// Slip of the wheels: s = 1 - v / (omega r), with v the speed of a wheel's centre over the floor,

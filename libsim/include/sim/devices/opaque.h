@@ -15,8 +15,7 @@ namespace sim {
 struct OpaqueParams {
   static constexpr std::size_t kMaxSenders = 64;
 
-  double frequency_hz = 10.0;  ///< readings per simulated second, each with at most one message,
-                               ///< (0, 1000]
+  double frequency_hz = 10.0;  ///< readings per simulated second, each with at most one message
   /// Senders of the messages: "ROBOT", for its device "opaque", or "ROBOT.DEVICE"; at most
   /// kMaxSenders. Empty: the device itself, which gives an echo.
   std::vector<std::string> from;

@@ -10,8 +10,8 @@ namespace sim {
 
 /// Settings of the orientation actuator.
 struct OrientationParams {
-  double speed_radps = 0.0;     ///< maximum rate of each angle, >= 0 [rad/s]; 0: at once
-  double tolerance_rad = 0.02;  ///< an angle nearer to its goal than this stays, >= 0 [rad]
+  double speed_radps = 0.0;     ///< maximum rate of each angle [rad/s]; 0: at once
+  double tolerance_rad = 0.02;  ///< an angle nearer to its goal than this stays [rad]
 };
 
 /// Turns its robot to a commanded roll, pitch and yaw (MORSE's Orientation).

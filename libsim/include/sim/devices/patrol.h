@@ -20,10 +20,10 @@ struct PatrolWay {
 
 /// Settings of a robot that patrols.
 struct PatrolParams {
-  double speed_mps = 0.2;        ///< on its way, > 0
-  double turn_gain_radps = 3.0;  ///< turn rate for an angle of one radian to its way, > 0
+  double speed_mps = 0.2;        ///< on its way
+  double turn_gain_radps = 3.0;  ///< turn rate for an angle of one radian to its way
   double turn_first_rad = 0.3;   ///< it drives only while that angle is smaller, (0, pi]
-  double tolerance_m = 0.05;     ///< distance at which it has reached a junction, > 0
+  double tolerance_m = 0.05;     ///< distance at which it has reached a junction
   std::vector<PatrolWay> ways;   ///< equal ends are one junction; none: it stands still
 
   static constexpr std::size_t kMaxWays = 1000;

@@ -14,7 +14,7 @@ class Ptz;
 
 /// Settings of a posture sensor.
 struct PostureParams {
-  double frequency_hz = 10.0;  ///< (0, 1000]
+  double frequency_hz = 10.0;  ///< [Hz]
   std::string of;              ///< name of the robot's ptz or actarray; empty: none
 };
 

@@ -11,8 +11,8 @@ namespace sim {
 
 /// Settings of a proximity sensor.
 struct ProximityParams {
-  double frequency_hz = 10.0;  ///< (0, 1000]
-  double range_m = 1.0;        ///< detection range [m], (0, 1000]
+  double frequency_hz = 10.0;  ///< [Hz]
+  double range_m = 1.0;        ///< detection range [m]
   bool obstacles = false;      ///< also report obstacles and dock separators
   std::string track;           ///< report only robots and obstacles with this tag; empty: all
 };

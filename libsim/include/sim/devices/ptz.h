@@ -15,14 +15,14 @@ namespace sim {
 /// and the narrowest field of view, are those of the Sony EVI-D30 of Pioneer robots (from its data
 /// sheet). The default widest field of view is that of the other viewing devices.
 struct PtzParams : MountPose {
-  double frequency_hz = 10.0;                                 ///< (0, 1000]
+  double frequency_hz = 10.0;                                 ///< [Hz]
   double pan_max_rad = 100.0 / 180.0 * std::numbers::pi;      ///< to either side, [0, pi]
   double tilt_max_rad = 25.0 / 180.0 * std::numbers::pi;      ///< up and down, [0, pi/2]
   double view_min_rad = 4.4 / 180.0 * std::numbers::pi;       ///< field of view, zoomed in
   double view_max_rad = std::numbers::pi / 3.0;               ///< field of view, zoomed out
-  double pan_speed_radps = 80.0 / 180.0 * std::numbers::pi;   ///< maximum, > 0
-  double tilt_speed_radps = 50.0 / 180.0 * std::numbers::pi;  ///< maximum, > 0
-  double zoom_speed_radps = 30.0 / 180.0 * std::numbers::pi;  ///< of the view, maximum, > 0
+  double pan_speed_radps = 80.0 / 180.0 * std::numbers::pi;   ///< maximum
+  double tilt_speed_radps = 50.0 / 180.0 * std::numbers::pi;  ///< maximum
+  double zoom_speed_radps = 30.0 / 180.0 * std::numbers::pi;  ///< of the view, maximum
 };
 
 /// Direction of a head.

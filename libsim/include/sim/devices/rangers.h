@@ -14,12 +14,12 @@ namespace sim {
 
 /// Settings shared by infrared and sonar rangers: a few transducers, each with its own mounting.
 struct RangerParams {
-  double frequency_hz = 10.0;      ///< (0, 1000]
-  double noise_m = 0.0;            ///< standard deviation of a range [m], >= 0
+  double frequency_hz = 10.0;      ///< [Hz]
+  double noise_m = 0.0;            ///< standard deviation of a range [m]
   double noise_share = 0.0;        ///< standard deviation of a range r is max(noise_m, share * r)
-  double dropouts = 0.0;           ///< probability that a range is lost, [0, 1]
-  double latency_s = 0.0;          ///< [0, 10] [s]
-  double range_max_m = 1.0;        ///< (0, 1000] [m]
+  double dropouts = 0.0;           ///< probability that a range is lost
+  double latency_s = 0.0;          ///< [s]
+  double range_max_m = 1.0;        ///< [m]
   double height_m = 0.05;          ///< above the floor [m]; lower obstacles are not seen
   double field_of_view_rad = 0.0;  ///< full angle of a transducer's cone, [0, pi]; 0: a single ray
   bool single_ray = false;         ///< measures along a single ray, and states the cone to clients
@@ -27,16 +27,16 @@ struct RangerParams {
   std::vector<double>
       ranges_max_m;               ///< of each transducer, at most range_max_m; empty: range_max_m
   std::vector<double> heights_m;  ///< of each transducer; empty: height_m
-  double range_min_m = 0.0;       ///< least range, for clients, [0, 1000]; ranges are not changed
-  double intensity = 0.0;         ///< of each echo, for clients, [0, 1e6]; 0: none is measured
+  double range_min_m = 0.0;       ///< least range, for clients; ranges are not changed
+  double intensity = 0.0;         ///< of each echo, for clients; 0: none is measured
 };
 
 /// Infrared rangers; by default a ring of eight single rays around an S1R, with 0.8 m range.
 struct InfraredParams : RangerParams {
   InfraredParams();
 
-  double voltage_gain_vm = 0.336;  ///< see infrared_voltage_v(), > 0 [V m]
-  double voltage_shift_m = 0.04;   ///< > 0 [m]
+  double voltage_gain_vm = 0.336;  ///< see infrared_voltage_v() [V m]
+  double voltage_shift_m = 0.04;   ///< [m]
 };
 
 /// Output voltage of an infrared ranger at a range: gain / (range + shift).

@@ -13,14 +13,14 @@ namespace sim {
 
 /// Settings of a semantic camera.
 struct SemanticCameraParams : SensorMount {
-  double frequency_hz = 10.0;                         ///< (0, 1000]
+  double frequency_hz = 10.0;                         ///< [Hz]
   double field_of_view_rad = std::numbers::pi / 3.0;  ///< horizontal, full angle, (0, 2 pi]
-  double range_m = 100.0;                             ///< farther objects are not seen [m], > 0
+  double range_m = 100.0;                             ///< farther objects are not seen [m]
   std::string tag = "Object";                         ///< objects with this tag are seen
   bool relative = false;                              ///< poses are in the camera's frame, not in W
   bool occlusion = true;                              ///< objects behind others are not seen
-  double noise_m = 0.0;    ///< standard deviation of each coordinate [m], >= 0
-  double latency_s = 0.0;  ///< [0, 10] [s]
+  double noise_m = 0.0;                               ///< standard deviation of each coordinate [m]
+  double latency_s = 0.0;                             ///< [s]
 };
 
 /// What a semantic camera sees.

@@ -15,10 +15,10 @@ namespace sim {
 
 /// Settings of a velocity sensor.
 struct VelocityParams : SensorMount {
-  double frequency_hz = 10.0;  ///< (0, 1000]
-  double noise_mps = 0.0;      ///< standard deviation of each linear velocity [m/s], >= 0
-  double noise_radps = 0.0;    ///< standard deviation of each turn rate [rad/s], >= 0
-  double latency_s = 0.0;      ///< [0, 10] [s]
+  double frequency_hz = 10.0;  ///< [Hz]
+  double noise_mps = 0.0;      ///< standard deviation of each linear velocity [m/s]
+  double noise_radps = 0.0;    ///< standard deviation of each turn rate [rad/s]
+  double latency_s = 0.0;      ///< [s]
 };
 
 /// A reading of a velocity sensor: the velocity of its robot's body.
@@ -40,9 +40,9 @@ class Velocity final : public MountedSensor<VelocityParams, VelocityReading> {
 
 /// Settings of an accelerometer.
 struct AccelerometerParams : SensorMount {
-  double frequency_hz = 10.0;  ///< (0, 1000]
-  double noise_mps2 = 0.0;     ///< standard deviation of each acceleration [m/s^2], >= 0
-  double latency_s = 0.0;      ///< [0, 10] [s]
+  double frequency_hz = 10.0;  ///< [Hz]
+  double noise_mps2 = 0.0;     ///< standard deviation of each acceleration [m/s^2]
+  double latency_s = 0.0;      ///< [s]
 };
 
 /// A reading of an accelerometer, along the sensor's axes; without gravity, as in MORSE.
@@ -73,9 +73,9 @@ class Accelerometer final : public MountedSensor<AccelerometerParams, Accelerome
 
 /// Settings of a gyroscope.
 struct GyroscopeParams : SensorMount {
-  double frequency_hz = 10.0;  ///< (0, 1000]
-  double noise_rad = 0.0;      ///< standard deviation of each angle [rad], >= 0
-  double latency_s = 0.0;      ///< [0, 10] [s]
+  double frequency_hz = 10.0;  ///< [Hz]
+  double noise_rad = 0.0;      ///< standard deviation of each angle [rad]
+  double latency_s = 0.0;      ///< [s]
 };
 
 /// A reading of a gyroscope: the sensor's orientation in W [rad].
@@ -97,10 +97,10 @@ class Gyroscope final : public MountedSensor<GyroscopeParams, GyroscopeReading> 
 
 /// Settings of an attitude sensor.
 struct AttitudeParams : SensorMount {
-  double frequency_hz = 10.0;  ///< (0, 1000]
-  double noise_rad = 0.0;      ///< standard deviation of each angle [rad], >= 0
-  double noise_radps = 0.0;    ///< standard deviation of each turn rate [rad/s], >= 0
-  double latency_s = 0.0;      ///< [0, 10] [s]
+  double frequency_hz = 10.0;  ///< [Hz]
+  double noise_rad = 0.0;      ///< standard deviation of each angle [rad]
+  double noise_radps = 0.0;    ///< standard deviation of each turn rate [rad/s]
+  double latency_s = 0.0;      ///< [s]
 };
 
 /// A reading of an attitude sensor.

@@ -9,7 +9,7 @@ namespace sim {
 
 /// Settings of a voice.
 struct SpeechParams {
-  double shown_s = 4.0;  ///< display time of a text in pictures [s], > 0
+  double shown_s = 4.0;  ///< display time of a text in pictures [s]
 };
 
 /// A robot's voice. The text of a SayCommand appears next to the robot in pictures until the robot

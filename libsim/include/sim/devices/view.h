@@ -15,9 +15,9 @@ struct ViewParams {
   int width = 80;                                     ///< of the picture [pixels], 1..kMaxWidth
   int height = 60;                                    ///< [pixels], 1..kMaxHeight
   double field_of_view_rad = std::numbers::pi / 3.0;  ///< horizontal, (0, kMaxView_rad]
-  double range_max_m = 12.0;                          ///< (0, 1000] [m]
+  double range_max_m = 12.0;                          ///< [m]
   Pose X_BS;                                          ///< mounting on the body
-  double height_m = 0.2;                              ///< above the floor [m], >= 0
+  double height_m = 0.2;                              ///< above the floor [m]
   std::string ptz;  ///< name of the robot's ptz device on which it is mounted; empty: it looks
                     ///< along X_BS
 

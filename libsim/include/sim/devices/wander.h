@@ -18,11 +18,11 @@ class Laser;
 /// (examples/ctrl/wander.cc of Stage 4).
 struct WanderParams {
   std::string laser = "laser";    ///< name of the robot's laser
-  double speed_mps = 0.4;         ///< with free way, > 0
-  double slow_speed_mps = 0.05;   ///< while it turns away, >= 0
-  double turn_rate_radps = 0.5;   ///< while it turns away, > 0
-  double front_distance_m = 1.0;  ///< nearer obstacles in front make it turn away, > 0 [m]
-  double stop_distance_m = 0.3;   ///< nearer obstacles anywhere make it stop and turn, > 0 [m]
+  double speed_mps = 0.4;         ///< with free way
+  double slow_speed_mps = 0.05;   ///< while it turns away
+  double turn_rate_radps = 0.5;   ///< while it turns away
+  double front_distance_m = 1.0;  ///< nearer obstacles in front make it turn away [m]
+  double stop_distance_m = 0.3;   ///< nearer obstacles anywhere make it stop and turn [m]
 };
 
 /// What a scan says to a wandering robot.

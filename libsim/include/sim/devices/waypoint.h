@@ -23,13 +23,13 @@ enum class WaypointStatus {
 
 /// Settings of the waypoint driver.
 struct WaypointParams {
-  double frequency_hz = 10.0;           ///< of readings, (0, 1000]; each step updates the steering
-  double tolerance_m = 0.5;             ///< default for clients that name no tolerance [m], > 0
-  double speed_mps = 1.0;               ///< default for clients that name no speed [m/s], > 0
-  double turn_gain = 4.0;               ///< turn rate per bearing, see waypoint_twist() [1/s], > 0
-  double approach_gain = 2.0;           ///< speed per distance, see waypoint_twist() [1/s], > 0
-  double max_turn_rate_radps = 2.0;     ///< [rad/s], > 0
-  double stop_deceleration_mps2 = 0.0;  ///< after StopCommand, >= 0 [m/s^2]; 0: at once
+  double frequency_hz = 10.0;           ///< of readings; each step updates the steering
+  double tolerance_m = 0.5;             ///< default for clients that name no tolerance [m]
+  double speed_mps = 1.0;               ///< default for clients that name no speed [m/s]
+  double turn_gain = 4.0;               ///< turn rate per bearing, see waypoint_twist() [1/s]
+  double approach_gain = 2.0;           ///< speed per distance, see waypoint_twist() [1/s]
+  double max_turn_rate_radps = 2.0;     ///< [rad/s]
+  double stop_deceleration_mps2 = 0.0;  ///< after StopCommand [m/s^2]; 0: at once
 };
 
 /// The twist with which a differential drive moves towards a point.

@@ -22,12 +22,12 @@ struct AccessPoint {
 
 /// Settings of a wireless network card.
 struct WifiParams {
-  double frequency_hz = 10.0;              ///< readings per simulated second, (0, 1000]
-  double level_1m_dbm = -40.0;             ///< signal level at 1 m from a sender [dBm], [-200, 100]
-  double exponent = 3.0;                   ///< path loss exponent, (0, 10]
-  double noise_db = 0.0;                   ///< standard deviation of a level (shadowing) [dB], >= 0
-  double floor_dbm = -95.0;                ///< channel noise [dBm], [-200, 100]
-  double least_dbm = -90.0;                ///< weaker links are not listed [dBm], [-200, 100]
+  double frequency_hz = 10.0;              ///< readings per simulated second
+  double level_1m_dbm = -40.0;             ///< signal level at 1 m from a sender [dBm]
+  double exponent = 3.0;                   ///< path loss exponent
+  double noise_db = 0.0;                   ///< standard deviation of a level (shadowing) [dB]
+  double floor_dbm = -95.0;                ///< channel noise [dBm]
+  double least_dbm = -90.0;                ///< weaker links are not listed [dBm]
   double channel_mhz = 2437.0;             ///< carrier frequency, (0, 100 000] [MHz]
   std::vector<AccessPoint> access_points;  ///< at most 64
 };

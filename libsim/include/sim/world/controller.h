@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -30,16 +29,22 @@ inline constexpr double kLeastArenaPeriod_s = 0.001;
 /// Maximum speed at which a block rises and sinks [m/s].
 inline constexpr double kMaxRiseSpeed_mps = 100.0;
 
+/// Where an obstacle stands in a configuration.
+struct ArenaPlace {
+  std::string obstacle;  ///< its name
+  Pose pose;             ///< of its centre
+};
+
 /// A named arrangement of the arena: which dynamic blocks are extended, and where obstacles stand.
 struct ArenaConfiguration {
   /// What happens to dynamic blocks that are in neither list.
   enum class Others { kKeep, kExtended, kRetracted };
 
-  std::string name;                                  ///< unique among configurations
-  std::vector<std::string> extended;                 ///< names of dynamic blocks
-  std::vector<std::string> retracted;                ///< names of dynamic blocks
-  Others others = Others::kKeep;                     ///< what happens to the other dynamic blocks
-  std::vector<std::pair<std::string, Pose>> places;  ///< obstacles and the poses of their centres
+  std::string name;                    ///< unique among configurations
+  std::vector<std::string> extended;   ///< names of dynamic blocks
+  std::vector<std::string> retracted;  ///< names of dynamic blocks
+  Others others = Others::kKeep;       ///< what happens to the other dynamic blocks
+  std::vector<ArenaPlace> places;      ///< of obstacles
 };
 
 /// Limits of a number in a condition, both included.
@@ -90,7 +95,7 @@ struct QuantityCondition {
 /// Whether a robot's first fiducial device has seen a number in its newest reading.
 struct FiducialCondition {
   std::string robot;  ///< "": the robot that sprang the trap
-  int number = 1;     ///< > 0
+  int number = 1;     ///< that it has seen
 };
 
 /// A condition of a timer or a trap.
@@ -130,7 +135,7 @@ struct MessageAction {
 /// Shows a text on the scene. It replaces an earlier text at the same place.
 struct TextAction {
   std::string text;                                ///< UTF-8; "" removes the text at that place
-  Vec2 place = Vec2::Zero();                       ///< of the text's middle, in W [m]
+  std::optional<Vec2> place = {};                  ///< of its middle, in W [m]; none: the floor's
   double duration_s = 0.0;                         ///< [s]; 0: until the end of the run
   Colour colour = Colour{0x20, 0x20, 0x20, 0xff};  ///< of the letters
 };
@@ -184,39 +189,39 @@ using ArenaAction =
 /// Acts at certain times. Times count from when the timer is switched on.
 struct TimerDescription {
   std::string name;       ///< unique among timers and traps
-  double at_s = 0.0;      ///< first time [s], >= 0
-  double every_s = 0.0;   ///< period of further times [s], >= 0.001; 0: once
+  double at_s = 0.0;      ///< first time [s]
+  double every_s = 0.0;   ///< period of further times [s]; 0: once
   int times = 0;          ///< it is switched off after having acted so often; 0: no limit
   double jitter_s = 0.0;  ///< each time is moved by a random number in [-jitter_s, jitter_s) [s]
-  std::optional<std::pair<double, double>> within_s;  ///< the first time is random in this interval
-                                                      ///< [s], instead of at_s
-  bool enabled = true;                                ///< at the start
-  std::vector<ArenaCondition> conditions;             ///< all must hold when it is time
-  std::vector<ArenaAction> actions;                   ///< in this order
+  std::optional<Vec2> within_s;            ///< the first time is random in this interval [s],
+                                           ///< instead of at_s
+  bool enabled = true;                     ///< at the start
+  std::vector<ArenaCondition> conditions;  ///< all must hold when it is time
+  std::vector<ArenaAction> actions;        ///< in this order
 };
 
 /// A region of the floor.
 struct BoxRegion {
   Vec2 center = Vec2::Zero();  ///< in W [m]
-  Vec2 size = {0.2, 0.2};      ///< along its own axes [m], > 0
+  Vec2 size = {0.2, 0.2};      ///< along its own axes [m]
   double yaw_rad = 0.0;        ///< turn of its axes against W's [rad]
 };
 
 /// A region of the floor.
 struct CircleRegion {
   Vec2 center = Vec2::Zero();  ///< in W [m]
-  double radius_m = 0.1;       ///< [m], > 0
+  double radius_m = 0.1;       ///< [m]
 };
 
 /// A region of the floor.
 struct PolygonRegion {
-  std::vector<Vec2> corners;  ///< in W [m], 3 to 100, in either direction
+  std::vector<Vec2> corners;  ///< in W [m], in either direction
 };
 
 /// The surroundings of a robot or an obstacle; they move with its centre.
 struct NearRegion {
   std::string object;       ///< name of a robot or an obstacle
-  double distance_m = 0.2;  ///< [m], > 0
+  double distance_m = 0.2;  ///< [m]
 };
 
 /// Where a trap is.
@@ -235,7 +240,7 @@ struct TrapDescription {
   std::vector<std::string> robots;         ///< those that it is for; empty: any
   std::string model;                       ///< only robots of that model; "": of any
   On on = On::kEnter;                      ///< what springs it
-  double stay_s = 0.0;                     ///< of kStay [s], >= 0
+  double stay_s = 0.0;                     ///< of kStay [s]
   bool once = false;                       ///< it is switched off after springing
   bool enabled = true;                     ///< at the start
   std::vector<ArenaCondition> conditions;  ///< all must hold when it springs

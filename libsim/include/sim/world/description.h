@@ -45,7 +45,7 @@ struct ObstacleDescription {
   std::string name;  ///< unique in the world
   ObstacleType type = ObstacleType::kStatic;
   Vec2 center = Vec2::Zero();  ///< in W; of a polygon the origin of its own frame [m]
-  Vec2 size = {0.2, 0.2};      ///< extent along its own x and y axes [m], each > 0; of a circle
+  Vec2 size = {0.2, 0.2};      ///< extent along its own x and y axes [m]; of a circle
                                ///< the diameter twice, of a polygon the extent of `outline`
   double yaw_rad = 0.0;        ///< turn of its axes against W's [rad]
   double height_m = 0.16;      ///< a sensor mounted above this height looks over it [m]
@@ -65,10 +65,10 @@ struct ObstacleDescription {
   Polygon outline = {};  ///< of a polygon, in its own frame: simple, counter-clockwise, 3 to
                          ///< kMostOutlineVertices vertices; otherwise empty
   std::optional<ObstacleMotion> motion = {};  ///< it has a drive and moves
-  std::optional<double> mass_kg = {};  ///< > 0 [kg]; without a motion robots can push it. None: it
+  std::optional<double> mass_kg = {};  ///< [kg]; without a motion robots can push it. None: it
                                        ///< stands fast, or has kMovingObstacleMass_kg if it moves
   double friction = kFloorFriction;    ///< coefficient of friction with the floor if robots can
-                                       ///< push it, >= 0
+                                       ///< push it
   bool solid = true;  ///< false: nothing collides with it, as with a marking on the floor. Sensors
                       ///< see it up to its height from outside
   double bottom_m = 0.0;  ///< of an obstacle that neither moves nor rises: lasers, sonars and other
@@ -128,7 +128,7 @@ struct MapDescription {
   double resolution_m = 0.05;       ///< side of a pixel [m], unless it has a size
   Vec2 origin = Vec2::Zero();       ///< W position of the picture's bottom left corner [m], unless
                                     ///< it has a size
-  double occupied_threshold = 0.5;  ///< pixels darker than this fraction of white are walls, (0, 1)
+  double occupied_threshold = 0.5;  ///< pixels darker than this fraction of white are walls
   double simplify_m = 0.0;          ///< tolerance for straightening outlines [m]; 0: none
   std::optional<Vec2> size = {};    ///< the picture is stretched to this size [m]
   Pose pose = {};                   ///< X_WP of the middle of a picture with a size
@@ -162,14 +162,14 @@ enum class Realism {
 
 /// How simulated time runs: its step, its end and its relation to wall-clock time.
 struct SimulationDescription {
-  SimTime step_ns = 10'000'000;  ///< length of a step [ns], > 0
+  SimTime step_ns = 10'000'000;  ///< length of a step [ns]
   std::uint64_t seed = 1;
   std::optional<SimTime> duration_ns;  ///< the run ends then; none: it does not end
   TimeMode time_mode = TimeMode::kLockstep;
   bool time_mode_given = false;  ///< the world or the user chose the mode; otherwise a host may
                                  ///< change it, see playerlike::PreferRealTimeRequest
-  double time_factor = 1.0;      ///< paced: simulated seconds per wall-clock second, > 0
-  int start_gate_clients = 1;    ///< the clock waits until this many clients have joined, >= 1
+  double time_factor = 1.0;      ///< paced: simulated seconds per wall-clock second
+  int start_gate_clients = 1;    ///< the clock waits until this many clients have joined
   bool objects_locked = false;   ///< clients may look up robots and obstacles by name, but not move
                                  ///< or change them, nor command the arena controller
   Realism realism = Realism::kCourse;
@@ -214,7 +214,7 @@ struct RealRobotDescription {
   Pose X_WF;           ///< pose of that device's frame F in W
   OnLost on_lost = OnLost::kContinue;
   /// A Playpen server stops the real robot if it hears nothing for so long, and a connection is
-  /// lost if nothing arrives for twice as long; wall-clock time, [0.05, 600] [s].
+  /// lost if nothing arrives for twice as long; wall-clock time [s].
   double watchdog_s = 0.4;
   bool take_over = false;  ///< from another client that is in charge of the real robot
 };
@@ -264,8 +264,8 @@ inline constexpr int kMaxCanvasSide = 8192;
 
 /// The grid-map that robots draw on with their pens.
 struct CanvasDescription {
-  int width = 172;                         ///< cells, 1..kMaxCanvasSide
-  int height = 186;                        ///< cells, 1..kMaxCanvasSide
+  int width = 172;                         ///< cells
+  int height = 186;                        ///< cells
   double cell_size_m = 0.02;               ///< [m]
   Vec2 origin = Vec2::Zero();              ///< W position of the canvas's bottom left corner [m]
   ViewMode view_mode = ViewMode::kGround;  ///< initial mode

@@ -23,11 +23,11 @@ struct DriveDescription {
   /// Of a car: commands give the speed of its front wheels, and TwistCommand's turn rate is their
   /// angle [rad], as in Stage. Otherwise the speed is that of B, and a turn rate is a turn rate.
   bool steering_commands = false;
-  double wheel_radius_m = 0.04;          ///< [m], > 0
-  double wheel_separation_m = 0.14;      ///< between the wheels' planes [m], > 0
-  double wheelbase_m = 0.3;              ///< of a car: distance of the axles [m], > 0
-  double max_steering_rad = 0.6;         ///< of a car: to either side, in (0, pi/2) [rad]
-  double max_steering_rate_radps = 0.0;  ///< of a car, >= 0 [rad/s]; 0: no limit
+  double wheel_radius_m = 0.04;          ///< [m]
+  double wheel_separation_m = 0.14;      ///< between the wheels' planes [m]
+  double wheelbase_m = 0.3;              ///< of a car: distance of the axles [m]
+  double max_steering_rad = 0.6;         ///< of a car: to either side [rad]
+  double max_steering_rate_radps = 0.0;  ///< of a car [rad/s]; 0: no limit
 };
 
 /// A part of a robot that is higher than its body. Sensors see it; nothing collides with it.
