@@ -132,11 +132,11 @@ void Simulation::Impl::Blocks::move(double dt_s) {
 }
 
 std::vector<MovingBlock> Simulation::Impl::Blocks::moving() const {
-  std::vector<MovingBlock> blocks;
+  std::vector<MovingBlock> all;
   for (const auto& [index, phase] : motions_) {
-    blocks.push_back({index, phase, impl_.obstacle(index).present_height_m.value_or(0.0)});
+    all.push_back({index, phase, impl_.obstacle(index).present_height_m.value_or(0.0)});
   }
-  return blocks;
+  return all;
 }
 
 void Simulation::Impl::Blocks::archive(StateArchive& archive) {

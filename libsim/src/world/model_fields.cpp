@@ -8,7 +8,7 @@ namespace sim {
 namespace {
 
 constexpr double kMaxVertex_m = 100.0;
-constexpr std::size_t kMostVertices = 8;  // Box2D's limit for polygons
+constexpr std::size_t kMostPartVertices = 8;  // Box2D's limit for polygons
 
 template <auto kMember>
 [[nodiscard]] constexpr Field wheel_field(const char* name, const char* meaning) {
@@ -18,7 +18,7 @@ template <auto kMember>
 [[nodiscard]] constexpr Field vertices_field(const char* name, const char* meaning) {
   return field<kMember>(name, "m", meaning)
       .within(-kMaxVertex_m, kMaxVertex_m)
-      .counting(3, kMostVertices)
+      .counting(3, kMostPartVertices)
       .needed("the outline: a list of points [x, y] round it, in m");
 }
 
@@ -72,7 +72,7 @@ constexpr Field kSuperstructureFields[] = {
 };
 
 constexpr Field kPolygonItself[] = {
-    field_itself<Polygon>().within(-kMaxVertex_m, kMaxVertex_m).counting(3, kMostVertices)};
+    field_itself<Polygon>().within(-kMaxVertex_m, kMaxVertex_m).counting(3, kMostPartVertices)};
 
 // The devices have tables of their own (sim/devices/builtin.h).
 constexpr Field kModelFields[] = {
