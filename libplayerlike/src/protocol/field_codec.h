@@ -24,8 +24,8 @@ namespace playerlike::protocol {
 ///
 /// A vector or pose without a name becomes the members "x", "y" (and "yaw") of the message itself.
 /// With a name, it becomes an object of these. A vector with the name "goal_" becomes the members
-/// "goal_x" and "goal_y". "own.ip" is the member "ip" of an object "own". A keyed list is an object:
-/// its keys are the first field of the elements, its values the second.
+/// "goal_x" and "goal_y". "own.ip" is the member "ip" of an object "own". A keyed list is an
+/// object: its keys are the first field of the elements, its values the second.
 /// @tparam Json  json, or nlohmann::ordered_json, which keeps the order of fields and elements.
 template <typename Json>
 void write_fields(const sim::FieldTable& table, const void* object, Json& out, Encoding encoding);
