@@ -86,7 +86,7 @@ std::string completed_report(Report report, const LastStep& last, const ProgramE
     robot.distance_m = kept.distance_m;
     robot.visited_area_m2 = kept.visited_area_m2;
     if (kept.commands > 0) {
-      Report::Commanded& commanded = robot.commanded.emplace();
+      Report::Commanded& commanded = robot.commanded.emplace(Report::Commanded{});
       commanded.first_s = sim::to_seconds(kept.first_command_ns);
       commanded.commands = kept.commands;
       std::copy_if(kept.ports.begin(), kept.ports.end(), std::back_inserter(commanded.ports),
