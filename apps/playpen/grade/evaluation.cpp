@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <system_error>
@@ -195,6 +196,12 @@ std::optional<Report> any_report(const std::string& text) {
   }
 }
 
+/// Whether a report says that its run has not ended.
+bool is_unfinished(const std::string& text) {
+  const nlohmann::json report = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
+  return report.is_object() && report.contains("ended") && report.at("ended").is_null();
+}
+
 /// Copies the graded robot's results from the report. @return an error, if there is one.
 std::optional<std::string> read_report(const fs::path& file, const Reference& reference,
                                        const playerlike::Grading& asked, Measures& measures,
@@ -207,11 +214,11 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
     return "the report can't be read: " + problem->found;
   }
   try {
+    if (is_unfinished(text)) {
+      return "the report is of a run that has not ended: the program was cut short";
+    }
     if (auto fault = playerlike::fault_of_graded(text, asked)) {
       const std::optional<Report> other = any_report(text);
-      if (other && !other->ended) {
-        return "the report is of a run that has not ended: the program was cut short";
-      }
       // A program may have died of a refusal before the first step.
       const bool is_own = other && other->graded && other->graded->nonce == asked.nonce;
       if (is_own) measures.refused = read_refusals(*other);
