@@ -43,7 +43,7 @@ void scan(int times) {
   for (int i = 0; i < times; ++i) static_cast<void>(simulation.ideal_scan({0, laser}));
 }
 
-void read(int times) {
+void read_scans(int times) {
   const auto host = playerlike::Host::create(sim::bench::endless(sim::bench::kOne));
   PlayerCc::PlayerClient client(host->connect(6665));
   const PlayerCc::LaserProxy laser(&client, 0);
@@ -71,7 +71,7 @@ void beams(int times) {
 int main(int argc, char** argv) {
   const std::map<std::string, std::function<void(int)>> works = {
       {"beams", beams},
-      {"read", read},
+      {"read", read_scans},
       {"scan", scan},
       {"step", step},
       {"wandering_step", wandering_step}};
