@@ -51,7 +51,8 @@ void StateArchive::value(const Field& field, void* value) {
     case FieldType::kChoice: {
       auto number = static_cast<int>(integer_at(field, value));
       index(number, field.words.size());
-      return set_integer(field, value, number);
+      if (reading_) set_integer(field, value, number);
+      return;
     }
     case FieldType::kColour:
       return member(*static_cast<Colour*>(value));

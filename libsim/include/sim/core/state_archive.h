@@ -159,7 +159,7 @@ class StateArchive {
     std::uint8_t byte = !reading_ && flag ? 1 : 0;
     raw(&byte, 1);
     expect(byte <= 1, "0 or 1");
-    flag = byte != 0;
+    if (reading_) flag = byte != 0;  // a reading that is shared is never written to
   }
   void member(Vec2& p) { (*this)(p.x(), p.y()); }
   void member(Pose& pose) { (*this)(pose.x_m, pose.y_m, pose.yaw_rad); }
