@@ -150,7 +150,9 @@ double LaserProxy::LockedBearing(uint32_t aIndex) const {
   static_cast<void>(CheckedRange(aIndex, fun));
   const auto& scan = mLink->newest.as<LaserReading>();
   if (aIndex >= scan.ranges_m.size()) return 0.0;
-  if (mElements.MayShow()) {  // the next calls need no lock
+  uint32_t shown = 0;  // a copy of a proxy shows no elements before its first reading
+  if (mElements.Count(shown)) {
+    // The next calls need no lock.
     std::vector<double> bearings(scan.ranges_m.size());
     for (std::size_t i = 0; i < bearings.size(); ++i) bearings[i] = bearing_rad(scan, i);
     mElements.ShowBearings(std::move(bearings));
