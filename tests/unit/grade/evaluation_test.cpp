@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -235,13 +236,17 @@ TEST_F(EvaluateTest, ReportOfOtherRun_Refused) {
 }
 
 TEST_F(EvaluateTest, EditedReport_Refused) {
-  write_report();
-  std::string text = test_support::read_bytes(folder_ / "report.json");
-  const std::size_t at = text.find("\"collisions\": 2");
-  ASSERT_NE(at, std::string::npos);
-  text.replace(at, 15, "\"collisions\": 0");
-  folder_.write("report.json", text);
-  EXPECT_THAT(evaluated().faults, ElementsAre("report.json was changed after the run had ended"));
+  constexpr const char* kCollisions = "\"collisions\": 2";
+  for (const char* edited : {"\"collisions\": 0", "\"praise\": 1, \"collisions\": 2"}) {
+    write_report();
+    std::string text = test_support::read_bytes(folder_ / "report.json");
+    const std::size_t at = text.find(kCollisions);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, std::strlen(kCollisions), edited);
+    folder_.write("report.json", text);
+    EXPECT_THAT(evaluated().faults, ElementsAre("report.json was changed after the run had ended"))
+        << edited;
+  }
 }
 
 TEST_F(EvaluateTest, PointsAndVerdict_FromController) {

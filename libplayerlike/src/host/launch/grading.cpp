@@ -71,7 +71,8 @@ std::string signed_report(const std::string& report, const Grading& grading) {
 }
 
 std::optional<std::string> fault_of_graded(const std::string& report, const Grading& expected) {
-  const nlohmann::json content = nlohmann::json::parse(report);
+  using nlohmann::ordered_json;
+  const ordered_json content = ordered_json::parse(report);
   if (!content.is_object() || !content.contains("graded")) {
     return "the report is not signed by the simulation of this run: the program wrote report.json "
            "itself, or is linked with an older Playpen";
@@ -106,7 +107,9 @@ std::optional<std::string> fault_of_graded(const std::string& report, const Grad
     return "the program ran with other rules than those of the task: it must leave PLAYPEN_TASK "
            "alone";
   }
-  if (found.signature != signature_of(whole, expected.nonce)) {
+  // The signature covers the fields of the table: there must be no other keys.
+  if (found.signature != signature_of(whole, expected.nonce) ||
+      content != ordered_json::parse(text_of_report(whole))) {
     return "report.json was changed after the run had ended";
   }
   if (whole.run.steps == 0) {
