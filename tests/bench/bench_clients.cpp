@@ -170,11 +170,13 @@ void wander_figures() {
       endless(kThirteen), 40, 200, [](auto& robots) { robots.wander(); }, "13");
 }
 
-// The turn of the README's program: what every student writes.
-void readme_turn(const PlayerCc::LaserProxy& laser, PlayerCc::Position2dProxy& position, int turn) {
+// The turn of the README's program, for beams whose bearings are bearing(i): what every student
+// writes.
+void turn_by(const PlayerCc::LaserProxy& laser, PlayerCc::Position2dProxy& position, int turn,
+             const auto& count, const auto& bearing) {
   double ahead = 1, right = 1;
-  for (unsigned i = 0; i < laser.GetCount(); ++i) {
-    const double angle = laser.GetBearing(i);
+  for (unsigned i = 0; i < count(); ++i) {
+    const double angle = bearing(i);
     if (angle > -0.6 && angle < 0.6) ahead = std::min(ahead, laser[i]);
     if (angle > -1.2 && angle < -0.4) right = std::min(right, laser[i]);
   }
@@ -185,23 +187,20 @@ void readme_turn(const PlayerCc::LaserProxy& laser, PlayerCc::Position2dProxy& p
   }
 }
 
+void readme_turn(const PlayerCc::LaserProxy& laser, PlayerCc::Position2dProxy& position, int turn) {
+  turn_by(
+      laser, position, turn, [&] { return laser.GetCount(); },
+      [&](unsigned i) { return laser.GetBearing(i); });
+}
+
 // The same turn, by a program that asks for the count once and knows the bearings.
 void hoisted_turn(const PlayerCc::LaserProxy& laser, PlayerCc::Position2dProxy& position,
                   int turn) {
-  double ahead = 1, right = 1;
   const unsigned count = laser.GetCount();
   const double first = laser.GetMinAngle();
   const double step = laser.GetScanRes();
-  for (unsigned i = 0; i < count; ++i) {
-    const double angle = first + i * step;
-    if (angle > -0.6 && angle < 0.6) ahead = std::min(ahead, laser[i]);
-    if (angle > -1.2 && angle < -0.4) right = std::min(right, laser[i]);
-  }
-  if (ahead < 0.25) {
-    position.SetSpeed(0, 2);
-  } else {
-    position.SetSpeed(0.4, turn % 300 < 30 ? 0 : PlayerCc::limit(6 * (0.2 - right), -2.0, 1.5));
-  }
+  turn_by(
+      laser, position, turn, [=] { return count; }, [=](unsigned i) { return first + i * step; });
 }
 
 // Simulated seconds a processor second of 13 of the README's programs, each with a robot of its own
