@@ -34,8 +34,6 @@ class EndSignals {
   [[nodiscard]] int first() const noexcept { return first_; }
 
  private:
-  class Lateness;
-
   void watch();
 
   sigset_t held_{};

@@ -3,15 +3,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "sim/core/error.h"
@@ -309,6 +312,56 @@ TEST(RunSettings, ViewMode_SetUnlessWorldLocksAnother) {
       [&] { settings.apply_to(world); },
       ThrowsMessage<sim::ConfigError>(
           AllOf(HasSubstr("run/view_mode_locked"), HasSubstr("full-screen"), HasSubstr("ground"))));
+}
+
+/// A child process that does the same thing until it is killed.
+class Child {
+ public:
+  explicit Child(void (*what)()) : id_(fork()) {
+    if (id_ != 0) return;
+    for (;;) what();
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    kill(id_, SIGKILL);
+    waitpid(id_, nullptr, 0);
+  }
+  [[nodiscard]] pid_t id() const { return id_; }
+
+ private:
+  pid_t id_;
+};
+
+using std::chrono::milliseconds;
+
+TEST(TimeGiven, ComputingProcess_GivenItsProcessorTime) {
+  const Child child([] {});
+  TimeGiven given(child.id());
+  while (given.computed() < milliseconds(30)) {
+    std::this_thread::sleep_for(milliseconds(1));
+    given.look();
+  }
+  EXPECT_EQ(given.idle(), milliseconds(0));
+}
+
+TEST(TimeGiven, SleepingProcess_GivenItsSleep) {
+  const Child child([] { pause(); });
+  TimeGiven given(child.id());
+  while (given.idle() < milliseconds(30)) {
+    std::this_thread::sleep_for(milliseconds(1));
+    given.look();
+  }
+  EXPECT_LT(given.computed(), milliseconds(30));
+  EXPECT_GE(given.total(), milliseconds(30));
+}
+
+TEST(TimeGiven, LongPauseBetweenLooks_CountsAsTenthOfSecond) {
+  const Child child([] { pause(); });
+  TimeGiven given(child.id());
+  std::this_thread::sleep_for(milliseconds(150));
+  given.look();
+  EXPECT_LE(given.total() - given.computed(), milliseconds(100));
 }
 
 TEST(FindProgram, NameWithSlash_IsPath) {

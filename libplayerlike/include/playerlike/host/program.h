@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -57,6 +59,36 @@ struct ProgramEnd {
 /// @param age    time since the earlier signal.
 [[nodiscard]] bool is_same_request(int first, int signal, std::chrono::nanoseconds age) noexcept;
 
+/// How much time a process has had, whatever else the machine does: the time in which all its
+/// threads slept, and its processor time. Waiting for a processor or a disk does not count, nor
+/// does a pause of the whole machine.
+class TimeGiven {
+ public:
+  /// @param process  its id.
+  /// @param without  a thread of it that does not count; 0: none.
+  explicit TimeGiven(pid_t process, pid_t without = 0) noexcept;
+
+  /// Measures the time since the previous call. Must be called often: of a longer interval only
+  /// 0.1 s counts.
+  void look();
+  /// Time given since the construction, until the last look().
+  [[nodiscard]] std::chrono::nanoseconds total() const noexcept { return computed_ + slept_; }
+  [[nodiscard]] std::chrono::nanoseconds computed() const noexcept { return computed_; }
+  /// The time slept since the process last computed for more than some milliseconds, or waited for
+  /// a processor or a disk.
+  [[nodiscard]] std::chrono::nanoseconds idle() const noexcept { return idle_; }
+
+ private:
+  pid_t process_;
+  pid_t without_;
+  std::chrono::steady_clock::time_point last_look_ = std::chrono::steady_clock::now();
+  std::chrono::nanoseconds last_cpu_;
+  std::chrono::nanoseconds computed_{0};
+  std::chrono::nanoseconds slept_{0};
+  std::chrono::nanoseconds idle_{0};
+  std::chrono::nanoseconds computed_idly_{0};  ///< processor time since idle() was 0
+};
+
 /// Returns the environment that passes settings to a program's embedded simulation; the inverse of
 /// RunSettings::from_environment(). Variables of unset settings are removed, so that variables of
 /// the shell do not affect the run. The silence limit is passed on unchanged.
@@ -86,7 +118,7 @@ struct RunWatch {
 /// forwarded to the program; the terminal's signals reach the program directly. Signals that this
 /// process ignores stay ignored. The first signal requests the program to end. If a host in the
 /// program has noted it (KeptRun::interrupt_noted()), the program is killed at the second signal,
-/// or if the simulated run has not ended after 1.5 s of wall time. Signals for which
+/// or if the simulated run has not ended after a TimeGiven of 1.5 s. Signals for which
 /// is_same_request() is true do not count as a second signal. A program that handles the signal
 /// itself is not killed.
 ///

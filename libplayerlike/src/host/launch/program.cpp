@@ -54,7 +54,8 @@ std::string absolute_path(const std::string& path) {
 using Clock = std::chrono::steady_clock;
 
 // How long a program may continue after a request to end, or after its results are complete, before
-// it is killed. The documented limit is two seconds; the rest is for writing the results.
+// it is killed; as TimeGiven. The documented limit is two seconds; the rest is for writing the
+// results.
 constexpr std::chrono::milliseconds kTimeToEnd(1500);
 constexpr std::chrono::milliseconds kPollPeriod(20);
 constexpr std::chrono::milliseconds kSlowPollPeriod(200);
@@ -138,9 +139,6 @@ class EndRequests {
     return is_same_request(*first_, signal, now - time_) ? Meaning::kCopy : Meaning::kRepeated;
   }
   [[nodiscard]] std::optional<int> first() const noexcept { return first_; }
-  [[nodiscard]] Clock::duration age() const {
-    return first_ ? Clock::now() - time_ : Clock::duration::zero();
-  }
 
  private:
   std::optional<int> first_;
@@ -367,7 +365,7 @@ ProgramEnd run_program(const std::vector<std::string>& command,
   StandstillWatch standstill(watch.standstill_s);
   bool killed = false;
   KeptRun::Phase phase = KeptRun::Phase::kNone;
-  Clock::time_point phase_begin = Clock::now();
+  std::optional<TimeGiven> time_to_end;  // since the request to end, in one phase
   for (;;) {
     if (const std::optional<ProgramEnd> end = program.poll()) {
       ProgramEnd result = *end;
@@ -406,17 +404,17 @@ ProgramEnd run_program(const std::vector<std::string>& command,
       }
     }
     const KeptRun::Phase now = watch.kept != nullptr ? watch.kept->phase() : KeptRun::Phase::kNone;
-    if (now != phase) phase_begin = Clock::now();
+    if (now != phase) time_to_end.reset();
     phase = now;
     // Writing results may take any time.
     const bool goes_on =
         noted != 0 && (now == KeptRun::Phase::kRunning || now == KeptRun::Phase::kDone);
     // The signal may have been sent to the program only.
     if (noted != 0 && !requests.first()) static_cast<void>(requests.note(noted));
-    if (requests.first() && goes_on &&
-        std::min(requests.age(), Clock::now() - phase_begin) > kTimeToEnd &&
-        !std::exchange(killed, true)) {
-      program.kill_all();
+    if (requests.first() && goes_on) {
+      if (!time_to_end) time_to_end.emplace(watch.kept->progress().process);
+      time_to_end->look();
+      if (time_to_end->total() > kTimeToEnd && !std::exchange(killed, true)) program.kill_all();
     }
     std::vector<int> descriptors = {program.descriptor()};
     Clock::duration at_most = requests.first() && !killed ? kPollPeriod : kSlowPollPeriod;
