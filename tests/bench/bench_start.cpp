@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Cost of starting: the libraries that a plain client loads, the processor time from exec to the
-// end of its first Read(), and the processor time of a whole run of a minute with its pictures. The
-// times are user and kernel time of the child processes, as getrusage() reports them, not
-// wall-clock time.
+// end of its first Read(), and the processor time of a whole run of a minute with its pictures and
+// of one with a film. The times are user and kernel time of the child processes, as getrusage()
+// reports them, not wall-clock time.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,17 +24,25 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kRuns = 50;
+constexpr int kFilms = 3;
+constexpr int kFilm_s = 20;
 
 double milliseconds(const timeval& time) {
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
 }
 
-/// Runs a program and discards its output. @return its and its children's processor time [ms].
-double processor_time_ms(const std::vector<std::string>& command) {
+struct Cost {
+  double processor_ms = 0.0;
+  double memory_mb = 0.0;  ///< largest resident set of a process
+};
+
+/// Runs a program and discards its output. @return the cost of it and its children.
+Cost cost_of(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
   for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
   arguments.push_back(nullptr);
+  std::fflush(stdout);  // or the child prints it again
   const pid_t child = fork();
   if (child == 0) {
     if (std::freopen("/dev/null", "w", stdout) == nullptr) _exit(127);
@@ -46,7 +54,8 @@ double processor_time_ms(const std::vector<std::string>& command) {
   if (child < 0 || wait4(child, &status, 0, &usage) != child || status != 0) {
     throw std::runtime_error(command[0] + " failed");
   }
-  return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
+  return {milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime),
+          static_cast<double>(usage.ru_maxrss) / 1e3};
 }
 
 double median(std::vector<double> values) {
@@ -55,12 +64,14 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The medians of several commands. The commands take turns, so that a disturbance affects all.
-std::vector<double> medians_ms(const std::vector<std::vector<std::string>>& commands) {
+/// The median processor times of several commands [ms]. The commands take turns, so that a
+/// disturbance affects all.
+std::vector<double> medians_ms(const std::vector<std::vector<std::string>>& commands,
+                               int runs = kRuns) {
   std::vector<std::vector<double>> times(commands.size());
-  for (int run = 0; run < kRuns; ++run) {
+  for (int run = 0; run < runs; ++run) {
     for (std::size_t i = 0; i < commands.size(); ++i) {
-      times[i].push_back(processor_time_ms(commands[i]));
+      times[i].push_back(cost_of(commands[i]).processor_ms);
     }
   }
   std::vector<double> result;
@@ -103,7 +114,26 @@ int main() {
     sim::bench::figure("start_cpu_ms", ms[1] - ms[0]);
     sim::bench::figure("version_cpu_ms", ms[2] - ms[0]);
     sim::bench::figure("run_60s_cpu_ms", ms[3]);
+    const std::vector<std::string> run = {PLAYPEN_COMMAND,
+                                          "run",
+                                          PLAYPEN_SOURCE_DIR "/worlds/cave.json",
+                                          "--quiet",
+                                          "--out",
+                                          out.string(),
+                                          "--duration",
+                                          std::to_string(kFilm_s),
+                                          "--",
+                                          SONAR_WANDERER};
+    std::vector<std::string> film = run;
+    film.insert(film.begin() + 3, {"--record", (out.string() + ".mp4")});
+    const std::vector<double> films = medians_ms({run, film}, kFilms);
+    const double film_memory_mb = cost_of(film).memory_mb;
+    std::printf("a film of %d s: %.0f ms and %.0f MB\n", kFilm_s, films[1] - films[0],
+                film_memory_mb);
+    sim::bench::figure("film_cpu_ms_per_s", (films[1] - films[0]) / kFilm_s);
+    sim::bench::figure("film_memory_mb", film_memory_mb);
     fs::remove_all(out);
+    fs::remove(out.string() + ".mp4");
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_start: %s\n", error.what());

@@ -66,7 +66,7 @@ holds playpen-dev ./usr/include/playpen/libplayerc++/playerc++.h "$libraries/lib
 strays=$(grep -vE "^\./usr/(bin|include|share)/|^$libraries/" "$folder"/playpen{,-dev}.list || true)
 [[ -z $strays ]] || fail "files in places that the packages should not use:" "$strays"
 dependencies=$(dpkg-deb --field "${debs[0]}" Depends)
-[[ $dependencies == *libc6\ \(\>=* && $dependencies == *libbox2d* && $dependencies == *libopencv-videoio* ]] ||
+[[ $dependencies == *libc6\ \(\>=* && $dependencies == *libbox2d* && $dependencies == *libopencv-imgproc* && $dependencies == *libavformat* ]] ||
   fail "dependencies are missing: $dependencies"
 
 headline "A student, without rights"

@@ -157,6 +157,8 @@ PLACES = [(re.compile(include), re.compile(path), why) for include, path, why in
     (r"[bB]ox2[dD]/", r"libsim/src/physics/", "Box2D belongs in libsim/src/physics"),
     (r"opencv[24]?/", r"apps/playpen/view/|libsim/src/render/modules/.*_module\.cpp$",
      "OpenCV belongs in the modules of libsim/src/render/modules"),
+    (r"lib(av[a-z]+|swscale)/", r"libsim/src/render/modules/film_module\.cpp$",
+     "FFmpeg belongs in libsim/src/render/modules/film_module.cpp"),
     (r"opencv2/highgui\.hpp$|X11/", r"apps/playpen/view/", "windows belong in apps/playpen/view"),
     (r"png\.h$", r"libsim/src/canvas/png_codec\.cpp$",
      "libpng belongs in libsim/src/canvas/png_codec.cpp"),
@@ -606,6 +608,7 @@ def self_test():
     includes("libsim/src/physics/x.cpp", "box2d/box2d.h")
     includes("libsim/src/render/x.cpp", "opencv2/core.hpp", "OpenCV belongs in the modules")
     includes("libsim/src/render/modules/x_module.cpp", "opencv2/core.hpp")
+    includes("libsim/src/render/film.cpp", "libavcodec/avcodec.h", "film_module.cpp")
     includes("libsim/src/render/modules/x_module.cpp", "opencv2/highgui.hpp", "apps/playpen/view")
     includes("libsim/src/devices/x.cpp", "nlohmann/json.hpp", "JSON")
     includes("libsim/src/devices/x.cpp", "yaml-cpp/yaml.h", "YAML")

@@ -14,7 +14,6 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <istream>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -72,45 +71,6 @@ bool is_frame(const fs::path& file) {
   if (!name.starts_with(kStart) || !name.ends_with(kEnd)) return false;
   const std::string digits = name.substr(kStart.size(), name.size() - kStart.size() - kEnd.size());
   return digits.size() >= 6 && digits.find_first_not_of("0123456789") == std::string::npos;
-}
-
-// Reads a number of `bytes` bytes at the file's current position.
-std::uint64_t read_number(std::istream& file, int bytes, bool little_endian) {
-  std::uint64_t number = 0;
-  for (int i = 0; i < bytes; ++i) {
-    const auto byte = static_cast<std::uint64_t>(file.get() & 0xff);
-    number = little_endian ? number | byte << (8 * i) : number << 8 | byte;
-  }
-  return number;
-}
-
-// Whether a film is complete according to its block structure. OpenCV does not report a full disk,
-// but then the last block is truncated or, in an MP4 (ISO 14496-12), the index "moov" at the end is
-// missing. An AVI consists of RIFF blocks: a name, then the length of the content. In an MP4 the
-// length comes first and includes itself and the name; a length of 1 means that a 64-bit length
-// follows.
-bool is_whole(const std::string& path) {
-  std::error_code error;
-  const std::uint64_t size = fs::file_size(path, error);
-  std::ifstream file(path, std::ios::binary);
-  const bool is_avi = lower_case_ending(path) == ".avi";
-  bool has_index = is_avi;
-  std::uint64_t at = 0;
-  while (!error && file && at < size) {
-    file.seekg(static_cast<std::streamoff>(at));
-    std::uint64_t length = 0;
-    if (is_avi) {
-      file.ignore(4);
-      length = 8 + read_number(file, 4, true);
-    } else {
-      length = read_number(file, 4, false);
-      has_index = has_index || read_number(file, 4, false) == 0x6d6f6f76;  // "moov"
-      if (length == 1) length = read_number(file, 8, false);
-    }
-    if (length < 8) return false;
-    at += length;
-  }
-  return !error && file && at == size && size > 0 && has_index;
 }
 
 std::string size_text(int width, int height) {
@@ -174,8 +134,7 @@ class Video final : public FilmWriter::Impl {
         frames_per_second_(frames_per_second),
         kind_(kind),
         part_(name) {
-    // OpenCV does not report the reason of a failure. Opening the file here gives the reason,
-    // before the run instead of after it.
+    // Opening the file here gives the reason of a failure before the run instead of after it.
     struct stat info {};
     // A pipe or a device cannot be replaced by a file.
     if (lstat(path.c_str(), &info) != 0 || S_ISREG(info.st_mode)) part_ = part_file_name(path);
@@ -202,12 +161,13 @@ class Video final : public FilmWriter::Impl {
   }
 
   void finish() override {
-    close();
-    if (std::exchange(finished_, true) || frame_count == 0) return;
-    if (!is_whole(part_)) {
+    if (std::exchange(finished_, true) || encoder_ == nullptr) return;
+    const bool is_whole = functions_.close(encoder_, problem_.data(), problem_.size());
+    if (frame_count == 0) return;
+    if (!is_whole) {
       // It cannot be played, and its disk space may be needed.
       if (part_ != path) std::remove(part_.c_str());
-      refuse_film(path, "it is not whole (is the disk full?)");
+      refuse_film(path, std::string("it is not whole: ") + problem_.data());
     }
     if (part_ == path) return;
     if (const int error = rename_part_file(path)) refuse_film(path, std::strerror(error));
@@ -224,11 +184,6 @@ class Video final : public FilmWriter::Impl {
     encoder_ = functions_.open(part_.c_str(), kind_ == FilmKind::kAvi, frames_per_second_, width,
                                height, problem_.data(), problem_.size());
     if (encoder_ == nullptr) refuse_film(path, problem_.data());
-  }
-
-  void close() {
-    if (encoder_ != nullptr) functions_.close(encoder_);
-    encoder_ = nullptr;
   }
 
   void write(const Image& frame) override {

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 /// The interface of the picture modules to libsim, which loads them when a picture or a film is
-/// needed (see modules/module_file.h). Only the modules link OpenCV: its libraries load up to 250
-/// others, which takes a tenth of a second.
+/// needed (see modules/module_file.h). Only the modules link OpenCV and FFmpeg: they load up to 250
+/// other libraries, which takes a tenth of a second.
 ///
 /// Each module exports one function, whose name is given here. It returns a table of functions that
 /// is valid for the lifetime of the process. No exception leaves a module. A module and the libsim
@@ -57,7 +57,7 @@ using TextEntry = const TextFunctions* (*)();
 /// A film in progress.
 struct FilmEncoder;
 
-/// The functions of `libplaypen_film.so`: OpenCV's VideoWriter.
+/// The functions of `libplaypen_film.so`: FFmpeg's encoders and files.
 struct FilmFunctions {
   /// Playpen's version that the module was built with.
   const char* version;
@@ -78,8 +78,9 @@ struct FilmFunctions {
   bool (*add)(FilmEncoder* film, const std::uint8_t* rgb, std::size_t stride, char* problem,
               std::size_t problem_size);
 
-  /// Completes the film.
-  void (*close)(FilmEncoder* film);
+  /// Completes the film, and destroys the encoder.
+  /// @return whether all of it is in the file; if not, `problem` receives the reason.
+  bool (*close)(FilmEncoder* film, char* problem, std::size_t problem_size);
 };
 
 /// Name and type of the function that the film module exports.
