@@ -8,7 +8,7 @@
 #include "core/errors.h"
 #include "libplayerc++/actarrayproxy.h"
 #include "proxies/link.h"
-#include "session/player_values.h"
+#include "session/player_values/actarray.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/actarray.h"
 

@@ -6,7 +6,7 @@
 #include "libplayerc++/blobfinderproxy.h"
 #include "proxies/link.h"
 #include "proxies/sensor_support.h"
-#include "session/player_values.h"
+#include "session/player_values/blobfinder.h"
 #include "sim/devices/blobfinder.h"
 
 namespace PlayerCc {

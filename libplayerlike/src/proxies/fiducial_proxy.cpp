@@ -4,7 +4,7 @@
 #include "libplayerc++/fiducialproxy.h"
 #include "proxies/link.h"
 #include "proxies/sensor_support.h"
-#include "session/player_values.h"
+#include "session/player_values/fiducial.h"
 #include "sim/devices/fiducial.h"
 
 namespace PlayerCc {

@@ -5,7 +5,7 @@
 #include "core/errors.h"
 #include "libplayerc++/imuproxy.h"
 #include "proxies/link.h"
-#include "session/player_values.h"
+#include "session/player_values/imu.h"
 #include "sim/devices/compass.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/space_sensors.h"

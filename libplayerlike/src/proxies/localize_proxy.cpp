@@ -8,7 +8,7 @@
 #include "core/errors.h"
 #include "libplayerc++/localizeproxy.h"
 #include "proxies/link.h"
-#include "session/player_values.h"
+#include "session/player_values/localize.h"
 #include "sim/devices/amcl.h"
 #include "sim/devices/localization.h"
 

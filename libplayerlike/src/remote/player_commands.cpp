@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "protocol/player_xdr.h"
-#include "session/player_values.h"
+#include "session/player_values/gripper.h"
 
 namespace playerlike {
 namespace {

@@ -3,13 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "playerlike/session/device_planners.h"
 #include "protocol/player_xdr.h"
 #include "session/player_values.h"
+#include "session/player_values/actarray.h"
+#include "session/player_values/blobfinder.h"
+#include "session/player_values/fiducial.h"
+#include "session/player_values/gps.h"
+#include "session/player_values/gripper.h"
+#include "session/player_values/imu.h"
+#include "session/player_values/power.h"
 #include "session/range_settings.h"
 #include "sim/devices/actarray.h"
 #include "sim/devices/aio.h"
@@ -187,35 +193,12 @@ Made ranger(std::uint8_t subtype, std::string_view payload, const DeviceInfo& de
 
 Made battery(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_POWER_DATA_STATE) return nullptr;
-  const auto data = decode<player::PowerData>(payload);
-  const auto reading = std::make_shared<sim::BatteryReading>();
-  reading->voltage_v = double{data.volts};
-  reading->charge_percent = double{data.percent};
-  reading->energy_wh = double{data.joules} / 3600.0;
-  reading->power_w = double{data.watts};
-  reading->status =
-      data.charging > 0 ? sim::BatteryStatus::kCharging : sim::BatteryStatus::kDischarging;
-  return reading;
+  return std::make_shared<sim::BatteryReading>(battery_reading(decode<player::PowerData>(payload)));
 }
 
 Made gps(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_GPS_DATA_STATE) return nullptr;
-  const auto data = decode<player::GpsData>(payload);
-  constexpr double kAngle_rad = 1e-7 * std::numbers::pi / 180.0;
-  const auto reading = std::make_shared<sim::GpsReading>();
-  reading->latitude_rad = data.latitude * kAngle_rad;
-  reading->longitude_rad = data.longitude * kAngle_rad;
-  reading->altitude_m = data.altitude * 1e-3;
-  reading->speed_mps = data.speed;
-  reading->course_rad = data.course;
-  // Player's client library takes the UTM coordinates for centimetres.
-  reading->utm_easting_m = data.utm_e * 0.01;
-  reading->utm_northing_m = data.utm_n * 0.01;
-  reading->satellites = as_int(data.num_sats);
-  reading->quality = as_int(data.quality);
-  // Player's client library divides the dilutions by 10.
-  reading->accuracy = {data.err_horz, data.err_vert, data.hdop * 0.1, data.vdop * 0.1};
-  return reading;
+  return std::make_shared<sim::GpsReading>(gps_reading(decode<player::GpsData>(payload)));
 }
 
 Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
@@ -270,15 +253,9 @@ Made arm(std::uint8_t subtype, std::string_view payload, const DeviceInfo& devic
   const auto data = decode<player::ActarrayData>(payload);
   const auto reading = std::make_shared<sim::ActArrayReading>();
   for (const player::ActarrayActuator& actuator : data.actuators) {
-    sim::JointReading joint;
-    joint.state = joint_state(actuator.state);
-    joint.position = double{actuator.position};
-    joint.speed = double{actuator.speed};
-    joint.acceleration = double{actuator.acceleration};
-    joint.current_a = double{actuator.current};
-    joint.speed_setting =
-        setting_of(device.properties, "speed_" + std::to_string(reading->joints.size()));
-    reading->joints.push_back(joint);
+    const std::size_t joint = reading->joints.size();
+    reading->joints.push_back(
+        joint_reading(actuator, joint_setting(device.properties, "speed", joint)));
   }
   reading->is_powered = data.motor_state != 0;
   return reading;

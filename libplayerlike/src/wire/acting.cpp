@@ -6,7 +6,9 @@
 #include <memory>
 
 #include "libplayerinterface/player_constants.h"
-#include "session/player_values.h"
+#include "session/player_values/actarray.h"
+#include "session/player_values/gripper.h"
+#include "session/player_values/speech.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/actarray.h"
 #include "sim/devices/aio.h"

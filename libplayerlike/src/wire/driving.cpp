@@ -9,6 +9,7 @@
 #include "proxies/goal_driver.h"
 #include "proxies/planner.h"
 #include "session/player_values.h"
+#include "session/player_values/localize.h"
 #include "sim/devices/amcl.h"
 #include "sim/devices/localization.h"
 #include "wire/robot_device.h"

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "libplayerinterface/player_constants.h"
-#include "session/player_values.h"
+#include "session/player_values/blobfinder.h"
+#include "session/player_values/fiducial.h"
+#include "session/player_values/gps.h"
+#include "session/player_values/imu.h"
+#include "session/player_values/power.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/camera.h"
@@ -128,29 +131,7 @@ class Gps final : public RobotDevice {
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
     const auto* fix = reading_as<sim::GpsReading>(reading);
     if (fix == nullptr) return;
-    constexpr double kDegrees = 180.0 / std::numbers::pi;
-    // Clients divide the UTM coordinates by 100 and the dilutions of precision by 10.
-    constexpr double kUtmUnits = 100.0;
-    constexpr std::uint32_t kOneDop = 10;
-    const bool has_fix = fix->quality > 0;
-    player::GpsData data;
-    data.time_sec = static_cast<std::uint32_t>(fix->time_ns / sim::kNanosecondsPerSecond);
-    data.time_usec = static_cast<std::uint32_t>(fix->time_ns % sim::kNanosecondsPerSecond / 1000);
-    data.latitude = static_cast<std::int32_t>(std::lround(1e7 * kDegrees * fix->latitude_rad));
-    data.longitude = static_cast<std::int32_t>(std::lround(1e7 * kDegrees * fix->longitude_rad));
-    data.altitude =
-        static_cast<std::int32_t>(std::lround(std::clamp(1e3 * fix->altitude_m, -2e9, 2e9)));
-    data.speed = fix->speed_mps;
-    data.course = fix->course_rad;
-    data.utm_e = kUtmUnits * fix->utm_easting_m;
-    data.utm_n = kUtmUnits * fix->utm_northing_m;
-    data.quality = static_cast<std::uint32_t>(fix->quality);
-    data.num_sats = static_cast<std::uint32_t>(fix->satellites);
-    data.hdop = has_fix ? kOneDop : 0;
-    data.vdop = has_fix ? kOneDop : 0;
-    data.err_horz = has_fix ? setting("noise") : 0.0;
-    data.err_vert = has_fix ? setting("noise_vertical") : 0.0;
-    sink.data(PLAYER_GPS_DATA_STATE, player::encode(data));
+    sink.data(PLAYER_GPS_DATA_STATE, player::encode(gps_data<player::GpsData>(*fix, *settings())));
   }
 };
 
@@ -244,16 +225,7 @@ class Power final : public RobotDevice {
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
     const auto* battery = reading_as<sim::BatteryReading>(reading);
     if (battery == nullptr) return;
-    constexpr double kJoulesPerWattHour = 3600.0;
-    player::PowerData data;
-    data.valid = PLAYER_POWER_MASK_VOLTS | PLAYER_POWER_MASK_WATTS | PLAYER_POWER_MASK_JOULES |
-                 PLAYER_POWER_MASK_PERCENT | PLAYER_POWER_MASK_CHARGING;
-    data.volts = static_cast<float>(battery->voltage_v);
-    data.percent = static_cast<float>(battery->charge_percent);
-    data.joules = static_cast<float>(battery->energy_wh * kJoulesPerWattHour);
-    data.watts = static_cast<float>(battery->power_w);
-    data.charging = battery->status == sim::BatteryStatus::kCharging ? 1 : 0;
-    sink.data(PLAYER_POWER_DATA_STATE, player::encode(data));
+    sink.data(PLAYER_POWER_DATA_STATE, player::encode(power_data<player::PowerData>(*battery)));
   }
 };
 

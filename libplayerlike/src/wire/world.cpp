@@ -7,7 +7,7 @@
 #include "libplayerinterface/player_constants.h"
 #include "session/blackboard_feed.h"
 #include "session/object_values.h"
-#include "session/player_values.h"
+#include "session/player_values/map.h"
 #include "wire/robot_device.h"
 
 namespace playerlike::wire {
