@@ -4,7 +4,10 @@
 #include <vector>
 
 #include "protocol/player_xdr.h"
+#include "session/player_values/aio.h"
+#include "session/player_values/dio.h"
 #include "session/player_values/gripper.h"
+#include "session/player_values/ptz.h"
 
 namespace playerlike {
 namespace {
@@ -109,17 +112,11 @@ struct Converter {
   }
   Converted operator()(const sim::DigitalOutputCommand& what) const {
     if (interface != PLAYER_DIO_CODE) return std::nullopt;
-    player::DioCmd payload;
-    payload.count = static_cast<std::uint32_t>(what.count);
-    payload.digout = what.bits;
-    return command_of(PLAYER_DIO_CMD_VALUES, payload);
+    return command_of(PLAYER_DIO_CMD_VALUES, to_players<player::DioCmd>(what));
   }
   Converted operator()(const sim::AnalogOutputCommand& what) const {
     if (interface != PLAYER_AIO_CODE) return std::nullopt;
-    player::AioCmd payload;
-    payload.id = static_cast<std::uint32_t>(what.channel);
-    payload.voltage = narrow(what.voltage_v);
-    return command_of(PLAYER_AIO_CMD_STATE, payload);
+    return command_of(PLAYER_AIO_CMD_STATE, to_players<player::AioCmd>(what));
   }
   Converted operator()(const sim::OpaqueCommand& what) const {
     if (interface != PLAYER_OPAQUE_CODE) return std::nullopt;
@@ -156,21 +153,11 @@ struct Converter {
 
   Converted operator()(const sim::PointCommand& what) const {
     if (interface != PLAYER_PTZ_CODE) return std::nullopt;
-    player::PtzCmd payload;
-    payload.pan = narrow(what.pan_rad);
-    payload.tilt = narrow(what.tilt_rad);
-    payload.zoom = narrow(what.view_rad);
-    payload.panspeed = narrow(what.pan_speed_radps);
-    payload.tiltspeed = narrow(what.tilt_speed_radps);
-    return command_of(PLAYER_PTZ_CMD_STATE, payload);
+    return command_of(PLAYER_PTZ_CMD_STATE, to_players<player::PtzCmd>(what));
   }
-  /// Player has no zoom speed.
   Converted operator()(const sim::PanCommand& what) const {
     if (interface != PLAYER_PTZ_CODE) return std::nullopt;
-    player::PtzCmd payload;
-    payload.panspeed = narrow(what.pan_speed_radps);
-    payload.tiltspeed = narrow(what.tilt_speed_radps);
-    return command_of(PLAYER_PTZ_CMD_STATE, payload);
+    return command_of(PLAYER_PTZ_CMD_STATE, to_players<player::PtzCmd>(what));
   }
 
   Converted operator()(const sim::JointCommand& what) const {

@@ -8,32 +8,24 @@
 
 #include "playerlike/session/device_planners.h"
 #include "protocol/player_xdr.h"
-#include "session/player_values.h"
 #include "session/player_values/actarray.h"
+#include "session/player_values/aio.h"
+#include "session/player_values/blinkenlight.h"
 #include "session/player_values/blobfinder.h"
+#include "session/player_values/dio.h"
 #include "session/player_values/fiducial.h"
 #include "session/player_values/gps.h"
 #include "session/player_values/gripper.h"
 #include "session/player_values/imu.h"
 #include "session/player_values/power.h"
+#include "session/player_values/ptz.h"
 #include "session/range_settings.h"
-#include "sim/devices/actarray.h"
-#include "sim/devices/aio.h"
 #include "sim/devices/amcl.h"
-#include "sim/devices/battery.h"
-#include "sim/devices/blinkenlight.h"
-#include "sim/devices/blobfinder.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/camera.h"
-#include "sim/devices/dio.h"
-#include "sim/devices/fiducial.h"
-#include "sim/devices/gps.h"
-#include "sim/devices/gripper.h"
-#include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/opaque.h"
-#include "sim/devices/ptz.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/wifi.h"
 
@@ -43,11 +35,16 @@ namespace {
 using Made = std::shared_ptr<sim::Reading>;
 using player::decode;
 
+template <typename R>
+std::shared_ptr<R> made(R reading) {
+  return std::make_shared<R>(std::move(reading));
+}
+
 /// A copy of the last reading for a message with a part of its values; a new one before the first.
 template <typename R>
-std::shared_ptr<R> next_of(const sim::SharedReading& last) {
+R next_of(const sim::SharedReading& last) {
   const auto* before = dynamic_cast<const R*>(last.get());
-  return before == nullptr ? std::make_shared<R>() : std::make_shared<R>(*before);
+  return before == nullptr ? R() : *before;
 }
 
 std::vector<double> doubles(const std::vector<float>& values) {
@@ -193,16 +190,16 @@ Made ranger(std::uint8_t subtype, std::string_view payload, const DeviceInfo& de
 
 Made battery(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_POWER_DATA_STATE) return nullptr;
-  return std::make_shared<sim::BatteryReading>(battery_reading(decode<player::PowerData>(payload)));
+  return made(battery_reading(decode<player::PowerData>(payload)));
 }
 
 Made gps(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_GPS_DATA_STATE) return nullptr;
-  return std::make_shared<sim::GpsReading>(gps_reading(decode<player::GpsData>(payload)));
+  return made(gps_reading(decode<player::GpsData>(payload)));
 }
 
 Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
-  const auto reading = next_of<sim::ImuReading>(last);
+  const auto reading = made(next_of<sim::ImuReading>(last));
   switch (subtype) {
     case PLAYER_IMU_DATA_STATE:
       reading->yaw_rad = decode<player::ImuDataState>(payload).pose.pyaw;
@@ -244,8 +241,7 @@ Made bumpers(std::uint8_t subtype, std::string_view payload) {
 
 Made gripper(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_GRIPPER_DATA_STATE) return nullptr;
-  return std::make_shared<sim::GripperReading>(
-      gripper_reading(decode<player::GripperData>(payload)));
+  return made(gripper_reading(decode<player::GripperData>(payload)));
 }
 
 Made arm(std::uint8_t subtype, std::string_view payload, const DeviceInfo& device) {
@@ -263,15 +259,7 @@ Made arm(std::uint8_t subtype, std::string_view payload, const DeviceInfo& devic
 
 Made camera_head(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_PTZ_DATA_STATE) return nullptr;
-  const auto data = decode<player::PtzData>(payload);
-  const auto reading = std::make_shared<sim::PtzReading>();
-  reading->pan_rad = double{data.pan};
-  reading->tilt_rad = double{data.tilt};
-  reading->view_rad = double{data.zoom};
-  reading->pan_speed_radps = double{data.panspeed};
-  reading->tilt_speed_radps = double{data.tiltspeed};
-  reading->moving = data.status != 0;
-  return reading;
+  return made(from_players<sim::PtzReading>(decode<player::PtzData>(payload)));
 }
 
 // --- What is seen
@@ -346,19 +334,14 @@ Made image(std::uint8_t subtype, std::string_view payload) {
 
 Made voltages(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
   if (subtype != PLAYER_AIO_DATA_STATE) return nullptr;
-  const auto reading = next_of<sim::AioReading>(last);
-  reading->inputs_v = doubles(decode<player::AioData>(payload).voltages);
-  return reading;
+  return made(from_players(decode<player::AioData>(payload), next_of<sim::AioReading>(last)));
 }
 
 Made digital_inputs(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_DIO_DATA_VALUES) return nullptr;
-  const auto data = decode<player::DioData>(payload);
-  constexpr std::uint32_t kMostLines = 32;
-  const auto reading = std::make_shared<sim::DioReading>();
-  reading->input_count = as_int(std::min(data.count, kMostLines));
-  reading->inputs = data.bits;
-  return reading;
+  auto data = decode<player::DioData>(payload);
+  data.count = std::min<std::uint32_t>(data.count, sim::DioParams::kMaxLines);
+  return made(from_players<sim::DioReading>(data));
 }
 
 std::string text_of(const std::vector<std::uint8_t>& bytes) {
@@ -387,7 +370,7 @@ Made links(std::uint8_t subtype, std::string_view payload) {
 
 Made opaque(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
   if (subtype != PLAYER_OPAQUE_DATA_STATE) return nullptr;
-  const auto reading = next_of<sim::OpaqueReading>(last);
+  const auto reading = made(next_of<sim::OpaqueReading>(last));
   reading->data = decode<player::OpaqueData>(payload).data;
   ++reading->number;
   return reading;
@@ -395,14 +378,10 @@ Made opaque(std::uint8_t subtype, std::string_view payload, const sim::SharedRea
 
 Made light(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_BLINKENLIGHT_DATA_STATE) return nullptr;
-  const auto data = decode<player::BlinkenlightData>(payload);
-  const auto reading = std::make_shared<sim::BlinkenlightReading>();
-  reading->enabled = data.enable != 0;
-  reading->colour = {data.color.red, data.color.green, data.color.blue, 255};
-  reading->period_s = double{data.period};
-  reading->duty_cycle = double{data.dutycycle};
-  reading->lit = reading->enabled;
-  return reading;
+  auto shown = from_players<sim::BlinkenlightReading>(decode<player::BlinkenlightData>(payload));
+  shown.colour.a = 255;
+  shown.lit = shown.enabled;
+  return made(shown);
 }
 
 Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,

@@ -1,7 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,10 +23,5 @@ namespace playerlike {
 /// TakeChargeRequest: a number of seconds, and a truth value that must be set before.
 inline constexpr const char* kWatchdogProperty = "watchdog";
 inline constexpr const char* kTakeOverProperty = "take_over";
-
-/// A number of a message, which is unsigned; readings count with int.
-[[nodiscard]] constexpr int as_int(std::uint32_t value) {
-  return static_cast<int>(value < 0x7fffffffU ? value : 0x7fffffffU);
-}
 
 }  // namespace playerlike

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "session/player_values.h"
+#include "session/player_values/fields.h"
 #include "sim/devices/blobfinder.h"
 
 /// @file

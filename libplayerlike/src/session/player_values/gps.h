@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "session/player_values.h"
+#include "session/player_values/fields.h"
 #include "session/range_settings.h"
 #include "sim/core/time.h"
 #include "sim/devices/gps.h"
