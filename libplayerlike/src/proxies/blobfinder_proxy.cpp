@@ -40,7 +40,7 @@ playerc_blobfinder_blob_t BlobfinderProxy::GetBlob(uint32_t aIndex) const {
   return Look<BlobfinderReading>(
       [&](const auto& r) {
         return mLink->has_element(fun, {"blob", "blobs"}, aIndex, r.blobs.size())
-                   ? playerlike::blob_of<playerc_blobfinder_blob_t>(r.blobs[aIndex])
+                   ? playerlike::to_players<playerc_blobfinder_blob_t>(r.blobs[aIndex])
                    : playerc_blobfinder_blob_t{};
       },
       fun);

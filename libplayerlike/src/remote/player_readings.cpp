@@ -190,7 +190,7 @@ Made ranger(std::uint8_t subtype, std::string_view payload, const DeviceInfo& de
 
 Made battery(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_POWER_DATA_STATE) return nullptr;
-  return made(battery_reading(decode<player::PowerData>(payload)));
+  return made(from_players<sim::BatteryReading>(decode<player::PowerData>(payload)));
 }
 
 Made gps(std::uint8_t subtype, std::string_view payload) {
@@ -200,16 +200,19 @@ Made gps(std::uint8_t subtype, std::string_view payload) {
 
 Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
   const auto reading = made(next_of<sim::ImuReading>(last));
+  const auto set_values = [&](const player::ImuDataCalib& values) {
+    *reading = from_players(values, *reading);
+  };
   switch (subtype) {
     case PLAYER_IMU_DATA_STATE:
       reading->yaw_rad = decode<player::ImuDataState>(payload).pose.pyaw;
       return reading;
     case PLAYER_IMU_DATA_CALIB:
-      set_imu_values(decode<player::ImuDataCalib>(payload), *reading);
+      set_values(decode<player::ImuDataCalib>(payload));
       return reading;
     case PLAYER_IMU_DATA_QUAT: {
       const auto data = decode<player::ImuDataQuat>(payload);
-      set_imu_values(data.calib_data, *reading);
+      set_values(data.calib_data);
       const double w = double{data.q0};
       const double x = double{data.q1};
       const double y = double{data.q2};
@@ -219,7 +222,7 @@ Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReadin
     }
     case PLAYER_IMU_DATA_EULER: {
       const auto data = decode<player::ImuDataEuler>(payload);
-      set_imu_values(data.calib_data, *reading);
+      set_values(data.calib_data);
       reading->yaw_rad = data.orientation.pyaw;
       return reading;
     }
@@ -246,15 +249,11 @@ Made gripper(std::uint8_t subtype, std::string_view payload) {
 
 Made arm(std::uint8_t subtype, std::string_view payload, const DeviceInfo& device) {
   if (subtype != PLAYER_ACTARRAY_DATA_STATE) return nullptr;
-  const auto data = decode<player::ActarrayData>(payload);
-  const auto reading = std::make_shared<sim::ActArrayReading>();
-  for (const player::ActarrayActuator& actuator : data.actuators) {
-    const std::size_t joint = reading->joints.size();
-    reading->joints.push_back(
-        joint_reading(actuator, joint_setting(device.properties, "speed", joint)));
+  auto reading = from_players<sim::ActArrayReading>(decode<player::ActarrayData>(payload));
+  for (std::size_t i = 0; i < reading.joints.size(); ++i) {
+    reading.joints[i].speed_setting = joint_setting(device.properties, "speed", i);
   }
-  reading->is_powered = data.motor_state != 0;
-  return reading;
+  return made(std::move(reading));
 }
 
 Made camera_head(std::uint8_t subtype, std::string_view payload) {
@@ -275,14 +274,7 @@ Made fiducials(std::uint8_t subtype, std::string_view payload) {
 
 Made blobs(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_BLOBFINDER_DATA_BLOBS) return nullptr;
-  const auto data = decode<player::BlobfinderData>(payload);
-  const auto reading = std::make_shared<sim::BlobfinderReading>();
-  reading->width = as_int(data.width);
-  reading->height = as_int(data.height);
-  for (const player::BlobfinderBlob& blob : data.blobs) {
-    reading->blobs.push_back(seen_blob(blob));
-  }
-  return reading;
+  return made(from_players<sim::BlobfinderReading>(decode<player::BlobfinderData>(payload)));
 }
 
 [[noreturn]] void refuse_image(const player::CameraData& data) {

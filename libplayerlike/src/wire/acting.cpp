@@ -34,12 +34,8 @@ class ActArray final : public RobotDevice {
     const auto* measured = reading_as<sim::ActArrayReading>(reading);
     if (measured == nullptr) return;
     newest_ = measured->joints;
-    player::ActarrayData data;
-    for (const sim::JointReading& joint : measured->joints) {
-      data.actuators.push_back(actuator_of<player::ActarrayActuator>(joint));
-    }
-    data.motor_state = measured->is_powered ? 1 : 0;
-    sink.data(PLAYER_ACTARRAY_DATA_STATE, player::encode(data));
+    sink.data(PLAYER_ACTARRAY_DATA_STATE,
+              player::encode(to_players<player::ActarrayData>(*measured)));
   }
 
   void command(std::uint8_t subtype, std::string_view payload) override {

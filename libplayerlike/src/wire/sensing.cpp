@@ -10,12 +10,9 @@
 #include "session/player_values/gps.h"
 #include "session/player_values/imu.h"
 #include "session/player_values/power.h"
-#include "sim/devices/battery.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/camera.h"
 #include "sim/devices/compass.h"
-#include "sim/devices/gps.h"
-#include "sim/devices/imu.h"
 #include "sim/devices/space_sensors.h"
 #include "sim/devices/wifi.h"
 #include "wire/robot_device.h"
@@ -30,13 +27,8 @@ class Blobfinder final : public RobotDevice {
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
     const auto* seen = reading_as<sim::BlobfinderReading>(reading);
     if (seen == nullptr) return;
-    player::BlobfinderData data;
-    data.width = static_cast<std::uint32_t>(seen->width);
-    data.height = static_cast<std::uint32_t>(seen->height);
-    for (const auto& blob : seen->blobs) {
-      data.blobs.push_back(blob_of<player::BlobfinderBlob>(blob));
-    }
-    sink.data(PLAYER_BLOBFINDER_DATA_BLOBS, player::encode(data));
+    sink.data(PLAYER_BLOBFINDER_DATA_BLOBS,
+              player::encode(to_players<player::BlobfinderData>(*seen)));
   }
 };
 
@@ -144,13 +136,13 @@ class Imu final : public RobotDevice {
     if (const auto* compass = reading_as<sim::CompassReading>(reading)) {
       send_data(compass->heading_rad, {}, false, sink);
     } else if (const auto* unit = reading_as<sim::ImuReading>(reading)) {
-      send_data(unit->yaw_rad, imu_values<player::ImuDataCalib>(*unit), true, sink);
+      send_data(unit->yaw_rad, to_players<player::ImuDataCalib>(*unit), true, sink);
     } else if (const auto* gyroscope = reading_as<sim::GyroscopeReading>(reading)) {
       send_data(gyroscope->yaw_rad, {}, false, sink);
     } else if (const auto* motion = reading_as<sim::AccelerometerReading>(reading)) {
       sim::ImuReading values;
       values.acceleration_mps2 = motion->acceleration_mps2;
-      send_data(0.0, imu_values<player::ImuDataCalib>(values), true, sink);
+      send_data(0.0, to_players<player::ImuDataCalib>(values), true, sink);
     }
   }
 
@@ -225,7 +217,9 @@ class Power final : public RobotDevice {
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
     const auto* battery = reading_as<sim::BatteryReading>(reading);
     if (battery == nullptr) return;
-    sink.data(PLAYER_POWER_DATA_STATE, player::encode(power_data<player::PowerData>(*battery)));
+    auto data = to_players<player::PowerData>(*battery);
+    data.valid = kPowerFields;
+    sink.data(PLAYER_POWER_DATA_STATE, player::encode(data));
   }
 };
 

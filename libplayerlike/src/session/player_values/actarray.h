@@ -7,6 +7,7 @@
 
 #include "libplayerinterface/player_constants.h"
 #include "session/player_values/codes.h"
+#include "session/player_values/fields.h"
 #include "session/range_settings.h"
 #include "sim/devices/actarray.h"
 
@@ -55,28 +56,20 @@ struct AxisVector {
   return {0.0, 0.0, 1.0};
 }
 
-template <typename Actuator>
-[[nodiscard]] Actuator actuator_of(const sim::JointReading& joint) {
-  Actuator actuator = {};
-  actuator.position = static_cast<float>(joint.position);
-  actuator.speed = static_cast<float>(joint.speed);
-  actuator.acceleration = static_cast<float>(joint.acceleration);
-  actuator.current = static_cast<float>(joint.current_a);
-  actuator.state = joint_state_code(joint.state);
-  return actuator;
+/// Messages lack the setting of the speed.
+template <typename Actuator, MaybeConst<sim::JointReading> Joint, typename Same>
+void same_values(Actuator& actuator, Joint& joint, Same same) {
+  same(actuator.position, joint.position);
+  same(actuator.speed, joint.speed);
+  same(actuator.acceleration, joint.acceleration);
+  same(actuator.current, joint.current_a);
+  same.converted(actuator.state, joint.state, joint_state_code, joint_state);
 }
 
-/// @param speed_setting  of the joint, which messages lack.
-template <typename Actuator>
-[[nodiscard]] sim::JointReading joint_reading(const Actuator& actuator, double speed_setting) {
-  sim::JointReading joint;
-  joint.state = joint_state(actuator.state);
-  joint.position = double{actuator.position};
-  joint.speed = double{actuator.speed};
-  joint.acceleration = double{actuator.acceleration};
-  joint.current_a = double{actuator.current};
-  joint.speed_setting = speed_setting;
-  return joint;
+template <typename Data, MaybeConst<sim::ActArrayReading> Arm, typename Same>
+void same_values(Data& data, Arm& arm, Same same) {
+  same(data.actuators, arm.joints);
+  same(data.motor_state, arm.is_powered);
 }
 
 /// @param now  the newest reading of the joint; null before the first one.

@@ -10,35 +10,33 @@
 /// Player's interface blobfinder.
 namespace playerlike {
 
-template <typename Blob>
-[[nodiscard]] Blob blob_of(const sim::BlobfinderReading::Blob& seen) {
-  Blob blob = {};
-  blob.color = static_cast<std::uint32_t>(seen.colour.r << 16 | seen.colour.g << 8 | seen.colour.b);
-  blob.area = static_cast<std::uint32_t>(seen.area);
-  blob.x = static_cast<std::uint32_t>(seen.x);
-  blob.y = static_cast<std::uint32_t>(seen.y);
-  blob.left = static_cast<std::uint32_t>(seen.left);
-  blob.right = static_cast<std::uint32_t>(seen.right);
-  blob.top = static_cast<std::uint32_t>(seen.top);
-  blob.bottom = static_cast<std::uint32_t>(seen.bottom);
-  blob.range = static_cast<float>(seen.range_m);
-  return blob;
+/// A colour as 0xRRGGBB.
+[[nodiscard]] inline std::uint32_t colour_code(const sim::Colour& colour) {
+  return static_cast<std::uint32_t>(colour.r << 16 | colour.g << 8 | colour.b);
 }
-template <typename Blob>
-[[nodiscard]] sim::BlobfinderReading::Blob seen_blob(const Blob& blob) {
-  sim::BlobfinderReading::Blob seen;
-  seen.colour = {static_cast<std::uint8_t>(blob.color >> 16U),
-                 static_cast<std::uint8_t>(blob.color >> 8U), static_cast<std::uint8_t>(blob.color),
-                 255};
-  seen.area = as_int(blob.area);
-  seen.x = as_int(blob.x);
-  seen.y = as_int(blob.y);
-  seen.left = as_int(blob.left);
-  seen.right = as_int(blob.right);
-  seen.top = as_int(blob.top);
-  seen.bottom = as_int(blob.bottom);
-  seen.range_m = static_cast<double>(blob.range);
-  return seen;
+[[nodiscard]] inline sim::Colour colour_of_code(std::uint32_t code) {
+  return {static_cast<std::uint8_t>(code >> 16U), static_cast<std::uint8_t>(code >> 8U),
+          static_cast<std::uint8_t>(code), 255};
+}
+
+template <typename Blob, MaybeConst<sim::BlobfinderReading::Blob> Seen, typename Same>
+void same_values(Blob& blob, Seen& seen, Same same) {
+  same.converted(blob.color, seen.colour, colour_code, colour_of_code);
+  same(blob.area, seen.area);
+  same(blob.x, seen.x);
+  same(blob.y, seen.y);
+  same(blob.left, seen.left);
+  same(blob.right, seen.right);
+  same(blob.top, seen.top);
+  same(blob.bottom, seen.bottom);
+  same(blob.range, seen.range_m);
+}
+
+template <typename Data, MaybeConst<sim::BlobfinderReading> Seen, typename Same>
+void same_values(Data& data, Seen& seen, Same same) {
+  same(data.width, seen.width);
+  same(data.height, seen.height);
+  same(data.blobs, seen.blobs);
 }
 
 }  // namespace playerlike

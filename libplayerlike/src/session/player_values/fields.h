@@ -54,6 +54,15 @@ struct CopyValues {
       same_values(field, value, *this);
     }
   }
+  /// Copies a value that Player has in another form. @param to, from  functions that convert it.
+  template <typename Field, typename Value, typename To, typename From>
+  void converted(Field& field, Value& value, To to, From from) const {
+    if constexpr (kToPlayer) {
+      field = static_cast<Field>(to(value));
+    } else {
+      value = from(field);
+    }
+  }
 };
 
 /// A value as one of Player's structs.

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "session/player_values/fields.h"
 #include "sim/devices/imu.h"
 
 /// @file
@@ -8,20 +9,17 @@
 namespace playerlike {
 
 /// Acceleration, turning rate and magnetic field of an inertial unit.
-template <typename Calibrated>
-[[nodiscard]] Calibrated imu_values(const sim::ImuReading& reading) {
-  const auto& a = reading.acceleration_mps2;
-  const auto& w = reading.rate_radps;
-  const auto& b = reading.field_ut;
-  return {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2]),
-          static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2]),
-          static_cast<float>(b[0]), static_cast<float>(b[1]), static_cast<float>(b[2])};
-}
-template <typename Calibrated>
-void set_imu_values(const Calibrated& data, sim::ImuReading& reading) {
-  reading.acceleration_mps2 = {double{data.accel_x}, double{data.accel_y}, double{data.accel_z}};
-  reading.rate_radps = {double{data.gyro_x}, double{data.gyro_y}, double{data.gyro_z}};
-  reading.field_ut = {double{data.magn_x}, double{data.magn_y}, double{data.magn_z}};
+template <typename Calibrated, MaybeConst<sim::ImuReading> Unit, typename Same>
+void same_values(Calibrated& data, Unit& unit, Same same) {
+  same(data.accel_x, unit.acceleration_mps2[0]);
+  same(data.accel_y, unit.acceleration_mps2[1]);
+  same(data.accel_z, unit.acceleration_mps2[2]);
+  same(data.gyro_x, unit.rate_radps[0]);
+  same(data.gyro_y, unit.rate_radps[1]);
+  same(data.gyro_z, unit.rate_radps[2]);
+  same(data.magn_x, unit.field_ut[0]);
+  same(data.magn_y, unit.field_ut[1]);
+  same(data.magn_z, unit.field_ut[2]);
 }
 
 }  // namespace playerlike
