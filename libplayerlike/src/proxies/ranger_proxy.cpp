@@ -101,13 +101,16 @@ uint32_t RangerProxy::GetElementCount() const {
 player_pose3d_t RangerProxy::GetDevicePose() const {
   const scoped_lock_t lock(LockData());
   if (!mIsLaser) return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  return detail::pose_of(detail::scanner_settings(mLink->info().properties).mounting);
+  return detail::to_players<player_pose3d_t>(
+      detail::scanner_settings(mLink->info().properties).mounting);
 }
 
 player_bbox3d_t RangerProxy::GetDeviceSize() const {
   const scoped_lock_t lock(LockData());
-  if (mIsLaser) return detail::box_of(detail::scanner_settings(mLink->info().properties).size);
-  return {mLink->robot().width_m, mLink->robot().length_m, mLink->robot().height_m};
+  if (mIsLaser)
+    return detail::to_players<player_bbox3d_t>(
+        detail::scanner_settings(mLink->info().properties).size);
+  return detail::to_players<player_bbox3d_t>(mLink->robot());
 }
 
 player_pose3d_t RangerProxy::GetElementPose(uint32_t aIndex) const {
@@ -121,7 +124,8 @@ player_bbox3d_t RangerProxy::GetElementSize(uint32_t aIndex) const {
   const scoped_lock_t lock(LockData(fun));
   if (!mLink->has_element(fun, kElements, aIndex, mPoses.size()) || !mIsLaser)
     return {0.0, 0.0, 0.0};
-  return detail::box_of(detail::scanner_settings(mLink->info().properties).size);
+  return detail::to_players<player_bbox3d_t>(
+      detail::scanner_settings(mLink->info().properties).size);
 }
 
 uint32_t RangerProxy::GetRangeCount() const {

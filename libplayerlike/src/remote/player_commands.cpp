@@ -7,6 +7,7 @@
 #include "session/player_values/aio.h"
 #include "session/player_values/dio.h"
 #include "session/player_values/gripper.h"
+#include "session/player_values/position2d.h"
 #include "session/player_values/ptz.h"
 
 namespace playerlike {
@@ -32,8 +33,6 @@ std::vector<float> narrow(const std::vector<double>& values) {
   return narrowed;
 }
 
-player::Pose2d pose_of(const sim::Pose& pose) { return {pose.x_m, pose.y_m, pose.yaw_rad}; }
-
 /// Converts each type of command; none that the interface does not know.
 struct Converter {
   using Converted = std::optional<PlayerCommand>;
@@ -44,32 +43,26 @@ struct Converter {
 
   Converted operator()(const sim::TwistCommand& what) const {
     if (!drives()) return std::nullopt;
-    player::Position2dCmdVel payload;
-    payload.vel = {what.twist.v_mps, what.twist.lateral_mps, what.twist.omega_radps};
+    auto payload = to_players<player::Position2dCmdVel>(what);
     payload.state = 1;
     return command_of(PLAYER_POSITION2D_CMD_VEL, payload);
   }
   Converted operator()(const sim::HeadingCommand& what) const {
     if (!drives()) return std::nullopt;
-    player::Position2dCmdVelHead payload;
-    payload.velocity = what.v_mps;
-    payload.angle = what.yaw_rad;
-    return command_of(PLAYER_POSITION2D_CMD_VEL_HEAD, payload);
+    return command_of(PLAYER_POSITION2D_CMD_VEL_HEAD,
+                      to_players<player::Position2dCmdVelHead>(what));
   }
   Converted operator()(const sim::PositionCommand& what) const {
     if (!drives()) return std::nullopt;
     player::Position2dCmdPos payload;
-    payload.pos = pose_of(what.goal);
+    payload.pos = to_players<player::Pose2d>(what.goal);
     payload.vel = {what.max_speed_mps, 0.0, what.max_turn_rate_radps};
     payload.state = 1;
     return command_of(PLAYER_POSITION2D_CMD_POS, payload);
   }
   Converted operator()(const sim::CarCommand& what) const {
     if (!drives()) return std::nullopt;
-    player::Position2dCmdCar payload;
-    payload.velocity = what.v_mps;
-    payload.angle = what.steering_rad;
-    return command_of(PLAYER_POSITION2D_CMD_CAR, payload);
+    return command_of(PLAYER_POSITION2D_CMD_CAR, to_players<player::Position2dCmdCar>(what));
   }
   Converted operator()(const sim::MotorEnableCommand& what) const {
     if (!drives()) return std::nullopt;
@@ -80,7 +73,7 @@ struct Converter {
   Converted operator()(const sim::SetPoseCommand& what) const {
     if (interface == PLAYER_POSITION2D_CODE) {
       player::Position2dSetOdomReq payload;
-      payload.pose = pose_of(what.pose);
+      payload.pose = to_players<player::Pose2d>(what.pose);
       return request_of(PLAYER_POSITION2D_REQ_SET_ODOM, payload);
     }
     if (interface == PLAYER_LOCALIZE_CODE) {
@@ -88,7 +81,7 @@ struct Converter {
       constexpr double kPosition_m2 = 0.25;
       constexpr double kHeading_rad2 = 0.0685;
       player::LocalizeSetPose payload;
-      payload.mean = pose_of(what.pose);
+      payload.mean = to_players<player::Pose2d>(what.pose);
       const std::array<double, 3> variance =
           what.variance.value_or(std::array{kPosition_m2, kPosition_m2, kHeading_rad2});
       const std::array<double, 3> covariance = what.covariance.value_or(std::array<double, 3>{});

@@ -8,6 +8,7 @@
 #include "remote/player_commands.h"
 #include "remote/player_session.h"
 #include "session/player_values.h"
+#include "session/player_values/poses.h"
 
 namespace playerlike {
 
@@ -24,7 +25,7 @@ namespace {
 
 PlayerCommand planner_command(std::uint8_t subtype, const sim::Pose& pose) {
   player::PlannerCmd payload;
-  payload.goal = {pose.x_m, pose.y_m, pose.yaw_rad};
+  payload.goal = to_players<player::Pose2d>(pose);
   return {false, subtype, player::encode(payload)};
 }
 
@@ -58,7 +59,7 @@ DevicePlanners::Path PlayerSession::planner_path(unsigned index) {
     path.length_m = answer.waypoints_distance;
     path.waypoints.reserve(answer.waypoints.size());
     for (const player::Pose2d& pose : answer.waypoints) {
-      path.waypoints.push_back({pose.px, pose.py, pose.pa});
+      path.waypoints.push_back(from_players<sim::Pose>(pose));
     }
   } catch (const protocol::ProtocolError& e) {
     refuse_bytes(*link(), e.what());
@@ -200,7 +201,7 @@ std::vector<LocalizationParticle> PlayerSession::particles(DeviceId device) {
     for (const auto& particle : player::decode<player::LocalizeGetParticles>(bytes).particles) {
       const auto& [px, py, pa] = particle.pose;
       if (!std::isfinite(px + py + pa + particle.alpha)) continue;
-      particles.push_back({{px, py, sim::normalize_angle(pa)}, particle.alpha});
+      particles.push_back({normalized_pose(particle.pose), particle.alpha});
     }
   } catch (const protocol::ProtocolError& e) {
     refuse_bytes(*link(), e.what());

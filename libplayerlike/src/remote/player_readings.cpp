@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "playerlike/session/device_planners.h"
 #include "protocol/player_xdr.h"
 #include "session/player_values/actarray.h"
 #include "session/player_values/aio.h"
@@ -17,6 +16,8 @@
 #include "session/player_values/gps.h"
 #include "session/player_values/gripper.h"
 #include "session/player_values/imu.h"
+#include "session/player_values/planner.h"
+#include "session/player_values/position2d.h"
 #include "session/player_values/power.h"
 #include "session/player_values/ptz.h"
 #include "session/range_settings.h"
@@ -24,7 +25,6 @@
 #include "sim/devices/bumper.h"
 #include "sim/devices/camera.h"
 #include "sim/devices/laser.h"
-#include "sim/devices/localization.h"
 #include "sim/devices/opaque.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/wifi.h"
@@ -51,20 +51,11 @@ std::vector<double> doubles(const std::vector<float>& values) {
   return {values.begin(), values.end()};
 }
 
-sim::Pose pose_of(const player::Pose2d& pose) { return {pose.px, pose.py, pose.pa}; }
-
 // --- Positions
 
 Made position(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_POSITION2D_DATA_STATE) return nullptr;
-  const auto data = decode<player::Position2dData>(payload);
-  const auto reading = std::make_shared<sim::PoseReading>();
-  reading->pose = pose_of(data.pos);
-  reading->twist.v_mps = data.vel.px;
-  reading->twist.lateral_mps = data.vel.py;
-  reading->twist.omega_radps = data.vel.pa;
-  reading->stalled = data.stall != 0;
-  return reading;
+  return made(from_players<sim::PoseReading>(decode<player::Position2dData>(payload)));
 }
 
 /// The most likely hypothesis first.
@@ -76,8 +67,9 @@ Made localization(std::uint8_t subtype, std::string_view payload) {
   reading->pending = data.pending_count;
   for (const player::LocalizeHypoth& hypoth : data.hypoths) {
     const auto& cov = hypoth.cov;
-    reading->hypotheses.push_back(
-        {pose_of(hypoth.mean), {{cov[0], cov[1], cov[2]}, {cov[3], cov[4], cov[5]}}, hypoth.alpha});
+    reading->hypotheses.push_back({from_players<sim::Pose>(hypoth.mean),
+                                   {{cov[0], cov[1], cov[2]}, {cov[3], cov[4], cov[5]}},
+                                   hypoth.alpha});
   }
   std::stable_sort(reading->hypotheses.begin(), reading->hypotheses.end(),
                    [](const sim::PoseHypothesis& a, const sim::PoseHypothesis& b) {
@@ -90,14 +82,8 @@ Made planner(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_PLANNER_DATA_STATE) return nullptr;
   const auto data = decode<player::PlannerData>(payload);
   const auto reading = std::make_shared<PlannerReading>();
-  PlannerState& state = reading->state;
-  state.valid = data.valid != 0;
-  state.done = data.done != 0;
-  state.pose = pose_of(data.pos);
-  state.goal = pose_of(data.goal);
-  state.waypoint = pose_of(data.waypoint);
-  state.waypoint_index = data.waypoint_idx;
-  state.reported_waypoints = data.waypoints_count;
+  reading->state = from_players<PlannerState>(data);
+  reading->state.reported_waypoints = data.waypoints_count;
   return reading;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "playerlike/messages/requests.h"
+#include "session/player_values/poses.h"
 #include "session/range_settings.h"
 #include "sim/core/pose.h"
 #include "sim/devices/device.h"
@@ -23,7 +24,7 @@ template <typename Hypothesis>
   const double noise_m = setting_of(settings, "noise");
   const double noise_yaw_rad = setting_of(settings, "noise_yaw");
   Hypothesis hypothesis = {};
-  hypothesis.mean = {reading.pose.x_m, reading.pose.y_m, reading.pose.yaw_rad};
+  hypothesis.mean = to_players<decltype(hypothesis.mean)>(reading.pose);
   hypothesis.cov[0] = noise_m * noise_m;
   hypothesis.cov[1] = noise_m * noise_m;
   hypothesis.cov[2] = noise_yaw_rad * noise_yaw_rad;
@@ -33,7 +34,7 @@ template <typename Hypothesis>
 template <typename Hypothesis>
 [[nodiscard]] Hypothesis hypothesis_of(const sim::PoseHypothesis& of) {
   Hypothesis hypothesis = {};
-  hypothesis.mean = {of.mean.x_m, of.mean.y_m, of.mean.yaw_rad};
+  hypothesis.mean = to_players<decltype(hypothesis.mean)>(of.mean);
   for (std::size_t i = 0; i < 3; ++i) {
     hypothesis.cov[i] = of.covariance.variance[i];
     hypothesis.cov[i + 3] = of.covariance.covariance[i];
