@@ -20,6 +20,7 @@
 #include "session/player_values/position2d.h"
 #include "session/player_values/power.h"
 #include "session/player_values/ptz.h"
+#include "session/player_values/wifi.h"
 #include "session/range_settings.h"
 #include "sim/devices/amcl.h"
 #include "sim/devices/bumper.h"
@@ -27,7 +28,6 @@
 #include "sim/devices/laser.h"
 #include "sim/devices/opaque.h"
 #include "sim/devices/rangers.h"
-#include "sim/devices/wifi.h"
 
 namespace playerlike {
 namespace {
@@ -322,28 +322,9 @@ Made digital_inputs(std::uint8_t subtype, std::string_view payload) {
   return made(from_players<sim::DioReading>(data));
 }
 
-std::string text_of(const std::vector<std::uint8_t>& bytes) {
-  return player::text_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-}
-
 Made links(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_WIFI_DATA_STATE) return nullptr;
-  const auto data = decode<player::WifiData>(payload);
-  const auto reading = std::make_shared<sim::WifiReading>();
-  for (const player::WifiLink& link : data.links) {
-    sim::WifiReading::Link shown;
-    shown.name = text_of(link.essid);
-    shown.mac = text_of(link.mac);
-    shown.ip = text_of(link.ip);
-    shown.access_point = link.mode == PLAYER_WIFI_MODE_MASTER;
-    shown.level_dbm = static_cast<std::int32_t>(link.level);
-    reading->links.push_back(std::move(shown));
-  }
-  if (!data.links.empty()) {
-    reading->floor_dbm = static_cast<std::int32_t>(data.links.front().noise);
-    reading->channel_mhz = data.links.front().freq;
-  }
-  return reading;
+  return made(wifi_reading(decode<player::WifiData>(payload)));
 }
 
 Made opaque(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {

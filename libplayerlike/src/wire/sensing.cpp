@@ -10,11 +10,11 @@
 #include "session/player_values/gps.h"
 #include "session/player_values/imu.h"
 #include "session/player_values/power.h"
+#include "session/player_values/wifi.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/camera.h"
 #include "sim/devices/compass.h"
 #include "sim/devices/space_sensors.h"
-#include "sim/devices/wifi.h"
 #include "wire/robot_device.h"
 
 namespace playerlike::wire {
@@ -230,34 +230,14 @@ class Wifi final : public RobotDevice {
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
     const auto* heard = reading_as<sim::WifiReading>(reading);
     if (heard == nullptr) return;
-    // Levels are negative numbers: clients take them from the unsigned fields.
-    const auto level = [](double dbm) {
-      return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(dbm)));
-    };
     player::WifiData data;
     for (const auto& station : heard->links) {
-      player::WifiLink& link = data.links.emplace_back();
-      link.mac = short_text(station.mac);
-      link.ip = short_text(station.ip);
-      link.essid = short_text(station.name);
-      link.mode = station.access_point ? PLAYER_WIFI_MODE_MASTER : PLAYER_WIFI_MODE_ADHOC;
-      link.freq = whole_number(heard->channel_mhz);
-      link.qual = static_cast<std::uint32_t>(sim::link_quality(station.level_dbm));
-      link.level = level(station.level_dbm);
-      link.noise = level(heard->floor_dbm);
+      data.links.push_back(wifi_link<player::WifiLink>(*heard, station));
     }
     data.mode = PLAYER_WIFI_MODE_ADHOC;
     data.qual_type = PLAYER_WIFI_QUAL_DBM;
     data.maxqual = 100;  // in percent, unlike the levels
     sink.data(PLAYER_WIFI_DATA_STATE, player::encode(data));
-  }
-
- private:
-  // The bytes of a text with a final zero byte; the protocol has room for 32.
-  [[nodiscard]] static std::vector<std::uint8_t> short_text(std::string_view text) {
-    constexpr std::size_t kRoom = 32;
-    const std::string bytes = player::text_bytes(text.substr(0, kRoom - 1));
-    return {bytes.begin(), bytes.end()};
   }
 };
 
