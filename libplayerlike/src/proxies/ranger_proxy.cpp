@@ -173,7 +173,7 @@ double RangerProxy::GetIntensity(uint32_t aIndex) const {
   if (aIndex < intensities.size()) return intensities[aIndex];
   if (const double echo = mLink->property("intensity", 0.0); echo > 0.0) {
     const double range = mLink->element_or_zero(fun, kRanges, aIndex, ranges_of(mLink->newest));
-    return range < mLink->property("range_max", 0.0) ? echo : 0.0;
+    return playerlike::echo_intensity(range, mLink->property("range_max", 0.0), echo);
   }
   mLink->warn_once(fun, "there is no intensity " + std::to_string(aIndex) +
                             ": the simulated rangers measure ranges only; intensities read 0");
@@ -203,10 +203,11 @@ void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularR
                                    {"the least range", aMinRange},
                                    {"the greatest range", aMaxRange},
                                    {"the resolution of ranges", aRangeRes}});
-  if (aMinRange < 0.0 || aMaxRange < 0.0 || aRangeRes < 0.0) {
-    playerlike::refuse(fun, "a range, or the resolution of ranges, is negative");
-  }
   const scoped_lock_t lock(LockData(fun));
+  const auto limits = playerlike::translated(fun, [&] {
+    return playerlike::range_limits({aMinRange, aMaxRange, aRangeRes},
+                                    mLink->property("range_max", 0.0));
+  });
   if (mIsLaser) {
     const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
     const detail::BeamWindow window = detail::window_of(
@@ -215,12 +216,11 @@ void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularR
     mStride = window.stride;
     mShown = window.shown;
   }
-  const double most = mLink->property("range_max", 0.0);
   mLink->core->begin_change();
-  mMaxRange = aMaxRange > 0.0 ? std::min(aMaxRange, most) : most;
-  mMinRange = std::min(aMinRange, mMaxRange);
-  mRangeRes = aRangeRes;
-  mLimits = mRangeRes > 0.0 || mMinRange > 0.0 || mMaxRange != most;
+  mMinRange = limits.min_m;
+  mMaxRange = limits.max_m;
+  mRangeRes = limits.resolution_m;
+  mLimits = limits.any;
   View();
   mLink->show();
 }

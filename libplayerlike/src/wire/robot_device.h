@@ -113,8 +113,6 @@ template <typename Reading>
 }
 /// @param sized  a BoxSize or a RobotInfo.
 [[nodiscard]] player::Bbox3d box_3d(const auto& sized) { return to_players<player::Bbox3d>(sized); }
-/// A number that is not negative. @param value  clamped to the range of the type.
-[[nodiscard]] std::uint32_t whole_number(double value);
 /// @}
 
 /// A text of a message without its final zero byte.

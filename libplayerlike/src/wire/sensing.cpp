@@ -6,6 +6,7 @@
 
 #include "libplayerinterface/player_constants.h"
 #include "session/player_values/blobfinder.h"
+#include "session/player_values/bumper.h"
 #include "session/player_values/fiducial.h"
 #include "session/player_values/gps.h"
 #include "session/player_values/imu.h"
@@ -45,14 +46,7 @@ class Bumper final : public RobotDevice {
  protected:
   std::optional<std::string> answer(std::uint8_t subtype, std::string_view /*payload*/) override {
     if (subtype != PLAYER_BUMPER_REQ_GET_GEOM) return std::nullopt;
-    player::BumperGeom geometry;
-    for (const Mounting& segment : element_mountings(*settings())) {
-      const std::string number = std::to_string(geometry.bumper_def.size());
-      geometry.bumper_def.push_back({pose_3d(segment),
-                                     static_cast<float>(setting("length_" + number)),
-                                     static_cast<float>(setting("radius_" + number))});
-    }
-    return player::encode(geometry);
+    return player::encode(player::BumperGeom{bumper_segments<player::BumperDefine>(*settings())});
   }
 };
 

@@ -35,8 +35,7 @@ template <typename Bytes>
 
 /// A received station. Levels are negative numbers, also in unsigned fields.
 template <typename Link>
-[[nodiscard]] Link wifi_link(const sim::WifiReading& heard,
-                             const sim::WifiReading::Link& station) {
+[[nodiscard]] Link wifi_link(const sim::WifiReading& heard, const sim::WifiReading::Link& station) {
   const auto level = [](double dbm) {
     return static_cast<decltype(Link::level)>(static_cast<std::int32_t>(std::lround(dbm)));
   };
@@ -45,11 +44,9 @@ template <typename Link>
   set_text(station.ip, link.ip);
   set_text(station.name, link.essid);
   link.mode = station.access_point ? PLAYER_WIFI_MODE_MASTER : PLAYER_WIFI_MODE_ADHOC;
-  if constexpr (std::is_integral_v<decltype(link.freq)>) {
-    link.freq = static_cast<decltype(link.freq)>(std::lround(heard.channel_mhz));
-  } else {
-    link.freq = heard.channel_mhz;
-  }
+  constexpr bool kIsWhole = std::is_integral_v<decltype(link.freq)>;
+  link.freq = static_cast<decltype(link.freq)>(kIsWhole ? std::round(heard.channel_mhz)
+                                                        : heard.channel_mhz);
   link.qual = number_as<decltype(link.qual)>(sim::link_quality(station.level_dbm));
   link.level = level(station.level_dbm);
   link.noise = level(heard.floor_dbm);
