@@ -5,8 +5,6 @@
 #include "libplayerc++/irproxy.h"
 #include "proxies/link.h"
 #include "proxies/sensor_support.h"
-#include "session/player_values/ir.h"
-#include "sim/devices/rangers.h"
 
 namespace PlayerCc {
 

@@ -40,6 +40,12 @@ std::shared_ptr<R> made(R reading) {
   return std::make_shared<R>(std::move(reading));
 }
 
+/// The reading of a message; null if the message is of another kind.
+template <typename R, typename Data>
+Made reading_if(bool is_data, std::string_view payload) {
+  return is_data ? made(from_players<R>(decode<Data>(payload))) : nullptr;
+}
+
 /// A copy of the last reading for a message with a part of its values; a new one before the first.
 template <typename R>
 R next_of(const sim::SharedReading& last) {
@@ -52,11 +58,6 @@ std::vector<double> doubles(const std::vector<float>& values) {
 }
 
 // --- Positions
-
-Made position(std::uint8_t subtype, std::string_view payload) {
-  if (subtype != PLAYER_POSITION2D_DATA_STATE) return nullptr;
-  return made(from_players<sim::PoseReading>(decode<player::Position2dData>(payload)));
-}
 
 /// The most likely hypothesis first.
 Made localization(std::uint8_t subtype, std::string_view payload) {
@@ -174,11 +175,6 @@ Made ranger(std::uint8_t subtype, std::string_view payload, const DeviceInfo& de
 
 // --- The robot's state
 
-Made battery(std::uint8_t subtype, std::string_view payload) {
-  if (subtype != PLAYER_POWER_DATA_STATE) return nullptr;
-  return made(from_players<sim::BatteryReading>(decode<player::PowerData>(payload)));
-}
-
 Made gps(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_GPS_DATA_STATE) return nullptr;
   return made(gps_reading(decode<player::GpsData>(payload)));
@@ -242,11 +238,6 @@ Made arm(std::uint8_t subtype, std::string_view payload, const DeviceInfo& devic
   return made(std::move(reading));
 }
 
-Made camera_head(std::uint8_t subtype, std::string_view payload) {
-  if (subtype != PLAYER_PTZ_DATA_STATE) return nullptr;
-  return made(from_players<sim::PtzReading>(decode<player::PtzData>(payload)));
-}
-
 // --- What is seen
 
 Made fiducials(std::uint8_t subtype, std::string_view payload) {
@@ -256,11 +247,6 @@ Made fiducials(std::uint8_t subtype, std::string_view payload) {
     reading->marks.push_back(mark_of(item));
   }
   return reading;
-}
-
-Made blobs(std::uint8_t subtype, std::string_view payload) {
-  if (subtype != PLAYER_BLOBFINDER_DATA_BLOBS) return nullptr;
-  return made(from_players<sim::BlobfinderReading>(decode<player::BlobfinderData>(payload)));
 }
 
 [[noreturn]] void refuse_image(const player::CameraData& data) {
@@ -347,7 +333,8 @@ Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,
              const DeviceInfo& device, const sim::SharedReading& last) {
   switch (interface) {
     case PLAYER_POSITION2D_CODE:
-      return position(subtype, payload);
+      return reading_if<sim::PoseReading, player::Position2dData>(
+          subtype == PLAYER_POSITION2D_DATA_STATE, payload);
     case PLAYER_LOCALIZE_CODE:
       return localization(subtype, payload);
     case PLAYER_PLANNER_CODE:
@@ -363,7 +350,8 @@ Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,
       if (subtype != PLAYER_IR_DATA_RANGES) return nullptr;
       return infrared(decode<player::IrData>(payload), device);
     case PLAYER_POWER_CODE:
-      return battery(subtype, payload);
+      return reading_if<sim::BatteryReading, player::PowerData>(subtype == PLAYER_POWER_DATA_STATE,
+                                                                payload);
     case PLAYER_GPS_CODE:
       return gps(subtype, payload);
     case PLAYER_IMU_CODE:
@@ -373,7 +361,8 @@ Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,
     case PLAYER_BUMPER_CODE:
       return bumpers(subtype, payload);
     case PLAYER_PTZ_CODE:
-      return camera_head(subtype, payload);
+      return reading_if<sim::PtzReading, player::PtzData>(subtype == PLAYER_PTZ_DATA_STATE,
+                                                          payload);
     case PLAYER_GRIPPER_CODE:
       return gripper(subtype, payload);
     case PLAYER_AIO_CODE:
@@ -383,7 +372,8 @@ Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,
     case PLAYER_WIFI_CODE:
       return links(subtype, payload);
     case PLAYER_BLOBFINDER_CODE:
-      return blobs(subtype, payload);
+      return reading_if<sim::BlobfinderReading, player::BlobfinderData>(
+          subtype == PLAYER_BLOBFINDER_DATA_BLOBS, payload);
     case PLAYER_CAMERA_CODE:
       return image(subtype, payload);
     case PLAYER_ACTARRAY_CODE:

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "libplayerinterface/player_constants.h"
-#include "session/player_values/ir.h"
 #include "session/player_values/ranger.h"
 #include "session/scan_drivers.h"
 #include "sim/devices/laser.h"

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "libplayerinterface/player_constants.h"
-#include "session/player_values/codes.h"
 #include "session/player_values/fields.h"
 #include "session/range_settings.h"
 #include "sim/devices/actarray.h"

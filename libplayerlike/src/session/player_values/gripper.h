@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "libplayerinterface/player_constants.h"
-#include "session/player_values/codes.h"
+#include "session/player_values/fields.h"
 #include "session/range_settings.h"
 #include "sim/devices/device.h"
 #include "sim/devices/gripper.h"

@@ -2,14 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "playerlike/messages/messages.h"
 #include "session/player_values/poses.h"
 #include "session/range_settings.h"
+#include "sim/devices/rangers.h"
 
 /// @file
-/// Player's interface ranger, and what sonar, ir and bumper share with it.
+/// Player's interfaces ranger and ir, and what sonar shares with them.
 namespace playerlike {
 
 /// The poses of a device's elements. @throws SessionError as element_mountings().
@@ -25,6 +27,14 @@ template <typename Pose3d>
 /// The intensity of a range of simulated rangers, which have the same for all echoes.
 [[nodiscard]] inline double echo_intensity(double range_m, double range_max_m, double echo) {
   return range_m < range_max_m ? echo : 0.0;
+}
+
+/// The voltage of an element: as measured, or that of its range.
+[[nodiscard]] inline double voltage_v(const sim::RangerReading& ring, std::size_t element,
+                                      const DeviceSettings& settings) {
+  if (element < ring.voltages_v.size()) return ring.voltages_v[element];
+  return sim::infrared_voltage_v(ring.ranges_m[element], setting_of(settings, "voltage_gain"),
+                                 setting_of(settings, "voltage_shift"));
 }
 
 /// How a client has limited and rounded the ranges.
