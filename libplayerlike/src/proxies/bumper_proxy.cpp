@@ -7,7 +7,6 @@
 #include "proxies/link.h"
 #include "proxies/sensor_support.h"
 #include "session/player_values/bumper.h"
-#include "sim/devices/bumper.h"
 
 namespace PlayerCc {
 

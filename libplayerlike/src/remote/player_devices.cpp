@@ -24,9 +24,7 @@ void PlayerSession::draw(unsigned index, const DeviceDrawing& drawing) {
 namespace {
 
 PlayerCommand planner_command(std::uint8_t subtype, const sim::Pose& pose) {
-  player::PlannerCmd payload;
-  payload.goal = to_players<player::Pose2d>(pose);
-  return {false, subtype, player::encode(payload)};
+  return {false, subtype, player::encode(player::PlannerCmd{to_players<player::Pose2d>(pose)})};
 }
 
 }  // namespace
@@ -43,8 +41,7 @@ void PlayerSession::set_planner_start(unsigned index, const sim::Pose& start) {
 
 void PlayerSession::enable_planner(unsigned index, bool on) {
   require_open();
-  player::PlannerEnableReq payload;
-  payload.state = on ? 1 : 0;
+  const player::PlannerEnableReq payload{static_cast<std::uint8_t>(on ? 1 : 0)};
   tell(address_of(PLAYER_PLANNER_CODE, index),
        {true, PLAYER_PLANNER_REQ_ENABLE, player::encode(payload)});
 }

@@ -11,6 +11,7 @@
 #include "session/player_values/aio.h"
 #include "session/player_values/blinkenlight.h"
 #include "session/player_values/blobfinder.h"
+#include "session/player_values/bumper.h"
 #include "session/player_values/dio.h"
 #include "session/player_values/fiducial.h"
 #include "session/player_values/gps.h"
@@ -23,7 +24,6 @@
 #include "session/player_values/wifi.h"
 #include "session/range_settings.h"
 #include "sim/devices/amcl.h"
-#include "sim/devices/bumper.h"
 #include "sim/devices/camera.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/opaque.h"
@@ -218,10 +218,9 @@ Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReadin
 
 Made bumpers(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_BUMPER_DATA_STATE) return nullptr;
-  const auto reading = std::make_shared<sim::BumperReading>();
-  reading->pressed = decode<player::BumperData>(payload).bumpers;
-  for (std::uint8_t& pressed : reading->pressed) pressed = pressed != 0 ? 1 : 0;
-  return reading;
+  auto felt = from_players<sim::BumperReading>(decode<player::BumperData>(payload));
+  for (std::uint8_t& pressed : felt.pressed) pressed = pressed != 0 ? 1 : 0;
+  return made(std::move(felt));
 }
 
 Made gripper(std::uint8_t subtype, std::string_view payload) {

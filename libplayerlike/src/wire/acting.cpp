@@ -40,25 +40,19 @@ class ActArray final : public RobotDevice {
 
   void command(std::uint8_t subtype, std::string_view payload) override {
     switch (subtype) {
-      case PLAYER_ACTARRAY_CMD_POS: {
-        const auto asked = player::decode<player::ActarrayPositionCmd>(payload);
-        return move(Mode::kPosition, asked.joint, {asked.position});
-      }
+      case PLAYER_ACTARRAY_CMD_POS:
+        return move_one(Mode::kPosition, player::decode<player::ActarrayPositionCmd>(payload));
       case PLAYER_ACTARRAY_CMD_MULTI_POS:
         return move(Mode::kPosition, 0,
                     player::decode<player::ActarrayMultiPositionCmd>(payload).positions);
-      case PLAYER_ACTARRAY_CMD_SPEED: {
-        const auto asked = player::decode<player::ActarraySpeedCmd>(payload);
-        return move(Mode::kSpeed, asked.joint, {asked.speed});
-      }
+      case PLAYER_ACTARRAY_CMD_SPEED:
+        return move_one(Mode::kSpeed, player::decode<player::ActarraySpeedCmd>(payload));
       case PLAYER_ACTARRAY_CMD_MULTI_SPEED:
         return move(Mode::kSpeed, 0, player::decode<player::ActarrayMultiSpeedCmd>(payload).speeds);
       case PLAYER_ACTARRAY_CMD_HOME:
         return move(Mode::kHome, player::decode<player::ActarrayHomeCmd>(payload).joint, {});
-      case PLAYER_ACTARRAY_CMD_CURRENT: {
-        const auto asked = player::decode<player::ActarrayCurrentCmd>(payload);
-        return move(Mode::kCurrent, asked.joint, {asked.current});
-      }
+      case PLAYER_ACTARRAY_CMD_CURRENT:
+        return move_one(Mode::kCurrent, player::decode<player::ActarrayCurrentCmd>(payload));
       case PLAYER_ACTARRAY_CMD_MULTI_CURRENT:
         return move(Mode::kCurrent, 0,
                     player::decode<player::ActarrayMultiCurrentCmd>(payload).currents);
@@ -105,6 +99,11 @@ class ActArray final : public RobotDevice {
                  std::to_string(count_) + ", counted from 0");
   }
 
+  void move_one(Mode mode, const auto& asked) const {
+    const auto& [joint, value] = asked;
+    move(mode, joint, {value});
+  }
+
   // Values beyond the last joint have no effect.
   void move(Mode mode, std::int32_t joint, const std::vector<float>& values) const {
     require_joint(joint);
@@ -145,15 +144,9 @@ class ActArray final : public RobotDevice {
 
 // --- Inputs and outputs
 
-class Aio final : public RobotDevice {
+class Aio final : public PlainDevice<sim::AioReading, player::AioData, PLAYER_AIO_DATA_STATE> {
  public:
-  using RobotDevice::RobotDevice;
-
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
-    const auto* measured = reading_as<sim::AioReading>(reading);
-    if (measured == nullptr) return;
-    sink.data(PLAYER_AIO_DATA_STATE, player::encode(to_players<player::AioData>(*measured)));
-  }
+  using PlainDevice::PlainDevice;
 
   void command(std::uint8_t subtype, std::string_view payload) override {
     if (subtype != PLAYER_AIO_CMD_STATE) return;
@@ -167,15 +160,9 @@ class Aio final : public RobotDevice {
   }
 };
 
-class Dio final : public RobotDevice {
+class Dio final : public PlainDevice<sim::DioReading, player::DioData, PLAYER_DIO_DATA_VALUES> {
  public:
-  using RobotDevice::RobotDevice;
-
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
-    const auto* measured = reading_as<sim::DioReading>(reading);
-    if (measured == nullptr) return;
-    sink.data(PLAYER_DIO_DATA_VALUES, player::encode(to_players<player::DioData>(*measured)));
-  }
+  using PlainDevice::PlainDevice;
 
   void command(std::uint8_t subtype, std::string_view payload) override {
     if (subtype != PLAYER_DIO_CMD_VALUES) return;
@@ -185,16 +172,10 @@ class Dio final : public RobotDevice {
   }
 };
 
-class Blinkenlight final : public RobotDevice {
+class Blinkenlight final : public PlainDevice<sim::BlinkenlightReading, player::BlinkenlightData,
+                                              PLAYER_BLINKENLIGHT_DATA_STATE> {
  public:
-  using RobotDevice::RobotDevice;
-
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
-    const auto* light = reading_as<sim::BlinkenlightReading>(reading);
-    if (light == nullptr) return;
-    sink.data(PLAYER_BLINKENLIGHT_DATA_STATE,
-              player::encode(to_players<player::BlinkenlightData>(*light)));
-  }
+  using PlainDevice::PlainDevice;
 
   void command(std::uint8_t subtype, std::string_view payload) override {
     sim::LightCommand change;

@@ -102,6 +102,18 @@ template <typename Reading>
   return typeid(reading) == typeid(Reading) ? static_cast<const Reading*>(&reading) : nullptr;
 }
 
+/// A device whose readings are one of Player's structs, see same_values().
+template <typename Reading, typename Data, std::uint8_t kSubtype>
+class PlainDevice : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* measured = reading_as<Reading>(reading);
+    if (measured != nullptr) sink.data(kSubtype, player::encode(to_players<Data>(*measured)));
+  }
+};
+
 /// @name Values in Player's form
 /// @{
 [[nodiscard]] inline player::Pose2d pose_2d(const sim::Pose& pose) {

@@ -12,7 +12,6 @@
 #include "session/player_values/imu.h"
 #include "session/player_values/power.h"
 #include "session/player_values/wifi.h"
-#include "sim/devices/bumper.h"
 #include "sim/devices/camera.h"
 #include "sim/devices/compass.h"
 #include "sim/devices/space_sensors.h"
@@ -21,27 +20,13 @@
 namespace playerlike::wire {
 namespace {
 
-class Blobfinder final : public RobotDevice {
+using Blobfinder =
+    PlainDevice<sim::BlobfinderReading, player::BlobfinderData, PLAYER_BLOBFINDER_DATA_BLOBS>;
+
+class Bumper final
+    : public PlainDevice<sim::BumperReading, player::BumperData, PLAYER_BUMPER_DATA_STATE> {
  public:
-  using RobotDevice::RobotDevice;
-
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
-    const auto* seen = reading_as<sim::BlobfinderReading>(reading);
-    if (seen == nullptr) return;
-    sink.data(PLAYER_BLOBFINDER_DATA_BLOBS,
-              player::encode(to_players<player::BlobfinderData>(*seen)));
-  }
-};
-
-class Bumper final : public RobotDevice {
- public:
-  using RobotDevice::RobotDevice;
-
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
-    const auto* felt = reading_as<sim::BumperReading>(reading);
-    if (felt == nullptr) return;
-    sink.data(PLAYER_BUMPER_DATA_STATE, player::encode(player::BumperData{felt->pressed}));
-  }
+  using PlainDevice::PlainDevice;
 
  protected:
   std::optional<std::string> answer(std::uint8_t subtype, std::string_view /*payload*/) override {

@@ -6,10 +6,16 @@
 
 #include "session/player_values/poses.h"
 #include "session/range_settings.h"
+#include "sim/devices/bumper.h"
 
 /// @file
 /// Player's interface bumper.
 namespace playerlike {
+
+template <typename Data, MaybeConst<sim::BumperReading> Felt, typename Same>
+void same_values(Data& data, Felt& felt, Same same) {
+  same(data.bumpers, felt.pressed);
+}
 
 /// The segments of a bumper. @throws SessionError as element_mountings().
 template <typename Segment>
