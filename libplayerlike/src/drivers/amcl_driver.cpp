@@ -9,7 +9,7 @@
 #include "libCCMorse/AmclDriver.h"
 #include "playerlike/messages/driver_settings.h"
 #include "proxies/link.h"
-#include "session/player_values.h"
+#include "session/player_values/localize.h"
 
 namespace CCMorse {
 

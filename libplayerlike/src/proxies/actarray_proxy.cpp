@@ -8,7 +8,7 @@
 #include "core/errors.h"
 #include "libplayerc++/actarrayproxy.h"
 #include "proxies/link.h"
-#include "session/player_values.h"
+#include "session/player_values/actarray.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/actarray.h"
 
@@ -169,7 +169,7 @@ player_actarray_actuator_t ActArrayProxy::GetActuatorData(uint32_t aJoint) const
   const scoped_lock_t lock(LockData(fun));
   const auto& joints = mLink->newest.as<ActArrayReading>().joints;
   if (!mLink->has_element(fun, kJointWords, aJoint, joints.size())) return {};
-  return playerlike::actuator_of<player_actarray_actuator_t>(joints[aJoint]);
+  return playerlike::to_players<player_actarray_actuator_t>(joints[aJoint]);
 }
 
 player_actarray_actuatorgeom_t ActArrayProxy::GetActuatorGeom(uint32_t aJoint) const {

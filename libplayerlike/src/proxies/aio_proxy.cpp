@@ -1,14 +1,12 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
 #include <ostream>
 #include <string>
 
 #include "core/errors.h"
 #include "libplayerc++/aioproxy.h"
 #include "proxies/link.h"
-#include "sim/core/number_text.h"
-#include "sim/devices/aio.h"
+#include "session/player_values/aio.h"
 
 namespace PlayerCc {
 
@@ -32,17 +30,14 @@ double AioProxy::GetVoltage(uint32_t aIndex) const {
 void AioProxy::SetVoltage(uint32_t aIndex, double aVoltage) {
   const char* fun = "AioProxy::SetVoltage";
   const scoped_lock_t lock(mLink->lock_for_command(fun));
-  const double count = std::clamp<double>(mLink->property("outputs", sim::AioParams::kMaxLines),
-                                          0.0, sim::AioParams::kMaxLines);
-  if (!(std::abs(aVoltage) <= sim::AioParams::kMaxVolts)) {
-    playerlike::refuse(fun, "output " + std::to_string(aIndex) + " cannot have " +
-                                sim::rounded_text(aVoltage, 6) + " V: there are " +
-                                std::to_string(static_cast<int>(count)) +
-                                " outputs, counted from 0, of at most 1e6 V to either side");
+  const auto count = static_cast<uint32_t>(std::clamp<double>(
+      mLink->property("outputs", sim::AioParams::kMaxLines), 0.0, sim::AioParams::kMaxLines));
+  if (!playerlike::is_line_voltage(aVoltage)) {
+    playerlike::refuse(fun, playerlike::output_fault(aIndex, aVoltage, count));
   }
-  if (!(aIndex < count)) {
+  if (aIndex >= count) {
     return mLink->warn_once(fun, "there is no analog output " + std::to_string(aIndex) +
-                                     ": there are " + std::to_string(static_cast<int>(count)) +
+                                     ": there are " + std::to_string(count) +
                                      ", counted from 0; setting it has no effect");
   }
   mLink->send(fun, sim::AnalogOutputCommand{static_cast<int>(aIndex), aVoltage});

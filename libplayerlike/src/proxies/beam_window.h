@@ -15,15 +15,11 @@ using playerlike::bearing_rad;
 using playerlike::kRangeResolution_m;
 using playerlike::part_of;
 using playerlike::ScannerSettings;
+using playerlike::to_players;
 
 /// As playerlike::scanner_settings(). @throws PlayerError kNotAvailable.
 inline ScannerSettings scanner_settings(const playerlike::DeviceSettings& settings) {
   return playerlike::translated("", [&] { return playerlike::scanner_settings(settings); });
-}
-
-/// A device's size in Player's form.
-inline player_bbox3d_t box_of(const playerlike::BoxSize& size) {
-  return {size.width_m, size.length_m, size.height_m};
 }
 
 /// As playerlike::window_of(). @throws PlayerError kBadArgument in the name of `fun`.

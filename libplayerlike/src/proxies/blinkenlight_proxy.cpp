@@ -5,8 +5,7 @@
 #include "core/errors.h"
 #include "libplayerc++/blinkenlightproxy.h"
 #include "proxies/link.h"
-#include "sim/core/number_text.h"
-#include "sim/devices/blinkenlight.h"
+#include "session/player_values/blinkenlight.h"
 
 namespace PlayerCc {
 
@@ -38,24 +37,18 @@ void BlinkenLightProxy::SetEnable(bool aSet) {
 void BlinkenLightProxy::SetPeriod(double aPeriod) {
   const char* fun = "BlinkenLightProxy::SetPeriod";
   const scoped_lock_t lock(mLink->lock_for_command(fun));
-  if (!(aPeriod >= 0.0 && aPeriod <= 1e6)) {
-    playerlike::refuse(fun,
-                       "a light's period is in 0..1e6 s, but is " + sim::rounded_text(aPeriod, 6));
-  }
   sim::LightCommand command;
   command.period_s = aPeriod;
+  if (const auto fault = playerlike::flashing_fault(command)) playerlike::refuse(fun, *fault);
   mLink->send(fun, command);
 }
 
 void BlinkenLightProxy::SetDutyCycle(double aDutyCycle) {
   const char* fun = "BlinkenLightProxy::SetDutyCycle";
   const scoped_lock_t lock(mLink->lock_for_command(fun));
-  if (!(aDutyCycle >= 0.0 && aDutyCycle <= 1.0)) {
-    playerlike::refuse(
-        fun, "a light's duty cycle is in 0..1, but is " + sim::rounded_text(aDutyCycle, 6));
-  }
   sim::LightCommand command;
   command.duty_cycle = aDutyCycle;
+  if (const auto fault = playerlike::flashing_fault(command)) playerlike::refuse(fun, *fault);
   mLink->send(fun, command);
 }
 

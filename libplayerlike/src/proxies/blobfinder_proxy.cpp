@@ -6,7 +6,7 @@
 #include "libplayerc++/blobfinderproxy.h"
 #include "proxies/link.h"
 #include "proxies/sensor_support.h"
-#include "session/player_values.h"
+#include "session/player_values/blobfinder.h"
 #include "sim/devices/blobfinder.h"
 
 namespace PlayerCc {
@@ -40,7 +40,7 @@ playerc_blobfinder_blob_t BlobfinderProxy::GetBlob(uint32_t aIndex) const {
   return Look<BlobfinderReading>(
       [&](const auto& r) {
         return mLink->has_element(fun, {"blob", "blobs"}, aIndex, r.blobs.size())
-                   ? playerlike::blob_of<playerc_blobfinder_blob_t>(r.blobs[aIndex])
+                   ? playerlike::to_players<playerc_blobfinder_blob_t>(r.blobs[aIndex])
                    : playerc_blobfinder_blob_t{};
       },
       fun);

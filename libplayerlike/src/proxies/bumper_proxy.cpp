@@ -1,13 +1,12 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <ostream>
-#include <string>
 #include <vector>
 
 #include "libplayerc++/bumperproxy.h"
 #include "proxies/link.h"
 #include "proxies/sensor_support.h"
-#include "sim/devices/bumper.h"
+#include "session/player_values/bumper.h"
 
 namespace PlayerCc {
 
@@ -23,11 +22,9 @@ BumperProxy::BumperProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, 
   const char* fun = "BumperProxy::BumperProxy";
   Attach(PLAYER_BUMPER_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
-  for (const player_pose3d_t& pose : detail::element_poses(mLink->info().properties)) {
-    const std::string number = std::to_string(mPoses.size());
-    mPoses.push_back({pose, static_cast<float>(mLink->property("length_" + number, 0.0)),
-                      static_cast<float>(mLink->property("radius_" + number, 0.0))});
-  }
+  mPoses = playerlike::translated("", [&] {
+    return playerlike::bumper_segments<player_bumper_define_t>(mLink->info().properties);
+  });
 }
 
 BumperProxy::~BumperProxy() { ClientProxy::Unsubscribe(); }

@@ -4,7 +4,7 @@
 #include "libplayerc++/fiducialproxy.h"
 #include "proxies/link.h"
 #include "proxies/sensor_support.h"
-#include "session/player_values.h"
+#include "session/player_values/fiducial.h"
 #include "sim/devices/fiducial.h"
 
 namespace PlayerCc {
@@ -33,7 +33,7 @@ player_fiducial_item_t FiducialProxy::GetFiducialItem(uint32_t aIndex) const {
 
 player_pose3d_t FiducialProxy::GetSensorPose() const {
   const scoped_lock_t lock(LockData());
-  return detail::pose_of(playerlike::mounting_of(mLink->info().properties));
+  return playerlike::to_players<player_pose3d_t>(playerlike::mounting_of(mLink->info().properties));
 }
 
 player_bbox3d_t FiducialProxy::GetSensorSize() const {

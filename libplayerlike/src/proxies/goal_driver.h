@@ -1,10 +1,13 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
 #include "playerlike/session/session.h"
+#include "session/player_values/poses.h"
 #include "sim/core/pose.h"
 
 namespace playerlike {
@@ -45,6 +48,18 @@ class GoalDriver {
   /// State of the newest goal, as of the driver's last round before now.
   [[nodiscard]] virtual GoalState state() const = 0;
 };
+
+/// The goal in the words of Player's position2d. @param speeds  the greatest ones; 0: the robot's.
+template <typename Pose2d>
+[[nodiscard]] GoalDriver::Goal driver_goal(const Pose2d& goal, const Pose2d& speeds,
+                                           double robot_speed_mps, double robot_turn_rate_radps) {
+  const auto limited = [](double wish, double limit) {
+    return wish == 0.0 ? limit : std::min(std::abs(wish), limit);
+  };
+  const sim::Pose pose = normalized_pose(goal);
+  return {pose.position(), pose.yaw_rad, limited(speeds.px, robot_speed_mps),
+          limited(speeds.pa, robot_turn_rate_radps)};
+}
 
 /// The driver for a binding of find_interface(). All callers share one driver as long as one of
 /// them holds it.

@@ -6,7 +6,7 @@
 #include "libplayerc++/gripperproxy.h"
 #include "libplayerc++/playerconstants.h"
 #include "proxies/link.h"
-#include "session/player_values.h"
+#include "session/player_values/gripper.h"
 #include "sim/devices/gripper.h"
 
 namespace PlayerCc {

@@ -5,7 +5,7 @@
 #include "core/errors.h"
 #include "libplayerc++/imuproxy.h"
 #include "proxies/link.h"
-#include "session/player_values.h"
+#include "session/player_values/imu.h"
 #include "sim/devices/compass.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/space_sensors.h"
@@ -43,7 +43,7 @@ float ImuProxy::GetYMagn() { return GetRawValues().magn_y; }
 float ImuProxy::GetZMagn() { return GetRawValues().magn_z; }
 player_imu_data_calib_t ImuProxy::GetRawValues() const {
   auto values = Look<ImuReading>(
-      [](const ImuReading& r) { return playerlike::imu_values<player_imu_data_calib_t>(r); });
+      [](const ImuReading& r) { return playerlike::to_players<player_imu_data_calib_t>(r); });
   const auto acceleration = Look(&sim::AccelerometerReading::acceleration_mps2);
   values.accel_x += static_cast<float>(acceleration[0]);
   values.accel_y += static_cast<float>(acceleration[1]);

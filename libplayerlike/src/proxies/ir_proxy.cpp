@@ -5,7 +5,6 @@
 #include "libplayerc++/irproxy.h"
 #include "proxies/link.h"
 #include "proxies/sensor_support.h"
-#include "sim/devices/rangers.h"
 
 namespace PlayerCc {
 
@@ -44,8 +43,7 @@ double IrProxy::GetVoltage(uint32_t aIndex) const {
   const std::vector<double>& ranges = reading.ranges_m;
   if (aIndex < reading.voltages_v.size()) return reading.voltages_v[aIndex];
   if (!mLink->has_element(fun, detail::kTransducers, aIndex, ranges.size())) return 0.0;
-  return sim::infrared_voltage_v(ranges[aIndex], mLink->property("voltage_gain", 0.0),
-                                 mLink->property("voltage_shift", 0.0));
+  return playerlike::voltage_v(reading, aIndex, mLink->info().properties);
 }
 
 uint32_t IrProxy::GetPoseCount() const {

@@ -207,7 +207,8 @@ void LaserProxy::RequestGeom() { const scoped_lock_t lock(LockData("LaserProxy::
 
 player_pose3d_t LaserProxy::GetPose() {
   const scoped_lock_t lock(LockData());
-  return detail::pose_of(detail::scanner_settings(mLink->info().properties).mounting);
+  return detail::to_players<player_pose3d_t>(
+      detail::scanner_settings(mLink->info().properties).mounting);
 }
 
 player_pose3d_t LaserProxy::GetRobotPose() {
@@ -215,12 +216,13 @@ player_pose3d_t LaserProxy::GetRobotPose() {
   const std::optional<sim::Pose> known = mPoses ? mPoses->poses().at(mLink->measured->time_ns)
                                                 : mLink->core->last_pose(mLink->binding.robot);
   const sim::Pose pose = known.value_or(sim::Pose{});
-  return {pose.x_m, pose.y_m, 0.0, 0.0, 0.0, pose.yaw_rad};
+  return detail::to_players<player_pose3d_t>(pose);
 }
 
 player_bbox3d_t LaserProxy::GetSize() {
   const scoped_lock_t lock(LockData());
-  return detail::box_of(detail::scanner_settings(mLink->info().properties).size);
+  return detail::to_players<player_bbox3d_t>(
+      detail::scanner_settings(mLink->info().properties).size);
 }
 
 double LaserProxy::LeastRange(bool aLeft) const {

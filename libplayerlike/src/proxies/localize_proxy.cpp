@@ -8,7 +8,7 @@
 #include "core/errors.h"
 #include "libplayerc++/localizeproxy.h"
 #include "proxies/link.h"
-#include "session/player_values.h"
+#include "session/player_values/localize.h"
 #include "sim/devices/amcl.h"
 #include "sim/devices/localization.h"
 
@@ -65,7 +65,7 @@ int LocalizeProxy::GetParticles() {
   const char* fun = "LocalizeProxy::GetParticles";
   const scoped_lock_t lock(LockData(fun));
   if (const auto* reading = mLink->newest.find<PoseReading>()) {
-    mParticles.assign(1, {reading->pose.x_m, reading->pose.y_m, reading->pose.yaw_rad});
+    mParticles.assign(1, playerlike::to_players<player_pose2d_t>(reading->pose));
     mWeights.assign(1, 1.0);
     return 0;
   }
@@ -76,7 +76,7 @@ int LocalizeProxy::GetParticles() {
     mParticles.clear();
     mWeights.clear();
     for (const playerlike::LocalizationParticle& particle : particles) {
-      mParticles.push_back({particle.pose.x_m, particle.pose.y_m, particle.pose.yaw_rad});
+      mParticles.push_back(playerlike::to_players<player_pose2d_t>(particle.pose));
       mWeights.push_back(particle.weight);
     }
   });

@@ -8,7 +8,7 @@
 #include "core/errors.h"
 #include "libplayerc++/mapproxy.h"
 #include "proxies/link.h"
-#include "session/player_values.h"
+#include "session/player_values/map.h"
 #include "sim/world/occupancy_map.h"
 
 namespace PlayerCc {

@@ -6,18 +6,14 @@
 #include "libplayerc++/plannerproxy.h"
 #include "proxies/link.h"
 #include "proxies/planner.h"
+#include "session/player_values/poses.h"
 
 namespace PlayerCc {
 
 using playerlike::PlannerState;
 using playerlike::require_finite;
+using playerlike::to_players;
 using playerlike::translated;
-
-namespace {
-
-player_pose2d_t players_pose(const sim::Pose& pose) { return {pose.x_m, pose.y_m, pose.yaw_rad}; }
-
-}  // namespace
 
 PlannerProxy::PlannerProxy(PlayerClient* aPc, uint32_t aIndex)
     : ClientProxy(aPc, aIndex),
@@ -89,21 +85,21 @@ double PlannerProxy::GetPathLength() const {
 }
 
 player_pose2d_t PlannerProxy::GetPose() const {
-  return players_pose(State("PlannerProxy::GetPose")->pose);
+  return to_players<player_pose2d_t>(State("PlannerProxy::GetPose")->pose);
 }
 double PlannerProxy::GetPx() const { return GetPose().px; }
 double PlannerProxy::GetPy() const { return GetPose().py; }
 double PlannerProxy::GetPa() const { return GetPose().pa; }
 
 player_pose2d_t PlannerProxy::GetGoal() const {
-  return players_pose(State("PlannerProxy::GetGoal")->goal);
+  return to_players<player_pose2d_t>(State("PlannerProxy::GetGoal")->goal);
 }
 double PlannerProxy::GetGx() const { return GetGoal().px; }
 double PlannerProxy::GetGy() const { return GetGoal().py; }
 double PlannerProxy::GetGa() const { return GetGoal().pa; }
 
 player_pose2d_t PlannerProxy::GetCurrentWaypoint() const {
-  return players_pose(State("PlannerProxy::GetCurrentWaypoint")->waypoint);
+  return to_players<player_pose2d_t>(State("PlannerProxy::GetCurrentWaypoint")->waypoint);
 }
 double PlannerProxy::GetWx() const { return GetCurrentWaypoint().px; }
 double PlannerProxy::GetWy() const { return GetCurrentWaypoint().py; }
@@ -112,7 +108,7 @@ double PlannerProxy::GetWa() const { return GetCurrentWaypoint().pa; }
 player_pose2d_t PlannerProxy::GetWaypoint(uint32_t aIndex) const {
   const char* fun = "PlannerProxy::GetWaypoint";
   const scoped_lock_t lock(LockData(fun));
-  return players_pose(
+  return to_players<player_pose2d_t>(
       mLink->element_or_zero(fun, {"waypoint", "waypoints"}, aIndex, mFetched->waypoints));
 }
 double PlannerProxy::GetIx(int i) const { return GetWaypoint(static_cast<uint32_t>(i)).px; }

@@ -1,19 +1,17 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <ostream>
 
 #include "core/errors.h"
 #include "libplayerc++/position2dproxy.h"
 #include "proxies/goal_driver.h"
 #include "proxies/link.h"
-#include "sim/devices/localization.h"
+#include "session/player_values/position2d.h"
 
 namespace PlayerCc {
 
 using playerlike::require_finite;
-using playerlike::SessionError;
 using playerlike::translated;
 using sim::PoseReading;
 
@@ -43,11 +41,7 @@ struct Position2dProxy::Control {
     const auto& link = *proxy.mLink;
     translated(fun, [&] {
       const auto& motion = link.binding.motion;
-      if (!motion) {
-        throw SessionError(SessionError::Code::kNotAvailable,
-                           "robot " + link.robot().name +
-                               " has no motors (a device of type \"motion\") in this world");
-      }
+      if (!motion) throw playerlike::no_motors(link.robot());
       link.core->send(fun, *motion, command);
     });
   }
@@ -135,24 +129,12 @@ void Position2dProxy::GoTo(player_pose2d_t pos, player_pose2d_t vel) {
                        {"the forward speed", vel.px},
                        {"the sideways speed", vel.py},
                        {"the turn rate", vel.pa}});
-  const double yaw_rad = sim::normalize_angle(pos.pa);
   if (mControl->driver != nullptr) {
-    const auto limited = [](double wish, double robot) {
-      return wish == 0.0 ? robot : std::min(std::abs(wish), robot);
-    };
     const scoped_lock_t lock(LockData(fun));
-    mControl->driver->go_to({{pos.px, pos.py},
-                             yaw_rad,
-                             limited(vel.px, mControl->robot_speed_mps),
-                             limited(vel.pa, mControl->robot_turn_rate_radps)});
-    return;
+    return mControl->driver->go_to(playerlike::driver_goal(pos, vel, mControl->robot_speed_mps,
+                                                           mControl->robot_turn_rate_radps));
   }
-  Control::drive(*this,
-                 sim::PositionCommand{{pos.px, pos.py, yaw_rad},
-                                      std::hypot(vel.px, vel.py),
-                                      std::abs(vel.pa),
-                                      Control::frame(*this)},
-                 fun);
+  Control::drive(*this, playerlike::position_command(pos, vel, Control::frame(*this)), fun);
 }
 
 void Position2dProxy::GoTo(player_pose2d_t pos) { GoTo(pos, {0.0, 0.0, 0.0}); }
@@ -173,16 +155,14 @@ void Position2dProxy::RequestGeom() {
 
 player_pose3d_t Position2dProxy::GetOffset() {
   const scoped_lock_t lock(LockData("Position2dProxy::GetOffset"));
-  const sim::Vec2& center_m = mLink->robot().center_m;
-  return {center_m.x(), center_m.y(), 0.0, 0.0, 0.0, 0.0};
+  return playerlike::center_of<player_pose3d_t>(mLink->robot());
 }
 
 player_pose3d_t Position2dProxy::GetPose() { return GetOffset(); }
 
 player_bbox3d_t Position2dProxy::GetSize() {
   const scoped_lock_t lock(LockData("Position2dProxy::GetSize"));
-  const playerlike::RobotInfo& robot = mLink->robot();
-  return {robot.width_m, robot.length_m, robot.height_m};
+  return playerlike::to_players<player_bbox3d_t>(mLink->robot());
 }
 
 void Position2dProxy::SetMotorEnable(bool enable) {

@@ -101,13 +101,16 @@ uint32_t RangerProxy::GetElementCount() const {
 player_pose3d_t RangerProxy::GetDevicePose() const {
   const scoped_lock_t lock(LockData());
   if (!mIsLaser) return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  return detail::pose_of(detail::scanner_settings(mLink->info().properties).mounting);
+  return detail::to_players<player_pose3d_t>(
+      detail::scanner_settings(mLink->info().properties).mounting);
 }
 
 player_bbox3d_t RangerProxy::GetDeviceSize() const {
   const scoped_lock_t lock(LockData());
-  if (mIsLaser) return detail::box_of(detail::scanner_settings(mLink->info().properties).size);
-  return {mLink->robot().width_m, mLink->robot().length_m, mLink->robot().height_m};
+  if (mIsLaser)
+    return detail::to_players<player_bbox3d_t>(
+        detail::scanner_settings(mLink->info().properties).size);
+  return detail::to_players<player_bbox3d_t>(mLink->robot());
 }
 
 player_pose3d_t RangerProxy::GetElementPose(uint32_t aIndex) const {
@@ -121,7 +124,8 @@ player_bbox3d_t RangerProxy::GetElementSize(uint32_t aIndex) const {
   const scoped_lock_t lock(LockData(fun));
   if (!mLink->has_element(fun, kElements, aIndex, mPoses.size()) || !mIsLaser)
     return {0.0, 0.0, 0.0};
-  return detail::box_of(detail::scanner_settings(mLink->info().properties).size);
+  return detail::to_players<player_bbox3d_t>(
+      detail::scanner_settings(mLink->info().properties).size);
 }
 
 uint32_t RangerProxy::GetRangeCount() const {
@@ -169,7 +173,7 @@ double RangerProxy::GetIntensity(uint32_t aIndex) const {
   if (aIndex < intensities.size()) return intensities[aIndex];
   if (const double echo = mLink->property("intensity", 0.0); echo > 0.0) {
     const double range = mLink->element_or_zero(fun, kRanges, aIndex, ranges_of(mLink->newest));
-    return range < mLink->property("range_max", 0.0) ? echo : 0.0;
+    return playerlike::echo_intensity(range, mLink->property("range_max", 0.0), echo);
   }
   mLink->warn_once(fun, "there is no intensity " + std::to_string(aIndex) +
                             ": the simulated rangers measure ranges only; intensities read 0");
@@ -199,10 +203,11 @@ void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularR
                                    {"the least range", aMinRange},
                                    {"the greatest range", aMaxRange},
                                    {"the resolution of ranges", aRangeRes}});
-  if (aMinRange < 0.0 || aMaxRange < 0.0 || aRangeRes < 0.0) {
-    playerlike::refuse(fun, "a range, or the resolution of ranges, is negative");
-  }
   const scoped_lock_t lock(LockData(fun));
+  const auto limits = playerlike::translated(fun, [&] {
+    return playerlike::range_limits({aMinRange, aMaxRange, aRangeRes},
+                                    mLink->property("range_max", 0.0));
+  });
   if (mIsLaser) {
     const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
     const detail::BeamWindow window = detail::window_of(
@@ -211,12 +216,11 @@ void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularR
     mStride = window.stride;
     mShown = window.shown;
   }
-  const double most = mLink->property("range_max", 0.0);
   mLink->core->begin_change();
-  mMaxRange = aMaxRange > 0.0 ? std::min(aMaxRange, most) : most;
-  mMinRange = std::min(aMinRange, mMaxRange);
-  mRangeRes = aRangeRes;
-  mLimits = mRangeRes > 0.0 || mMinRange > 0.0 || mMaxRange != most;
+  mMinRange = limits.min_m;
+  mMaxRange = limits.max_m;
+  mRangeRes = limits.resolution_m;
+  mLimits = limits.any;
   View();
   mLink->show();
 }

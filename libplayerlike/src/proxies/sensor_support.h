@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "libplayerc++/playerstructs.h"
 #include "proxies/link.h"
+#include "session/player_values/ranger.h"
 #include "session/range_settings.h"
 #include "sim/devices/rangers.h"
 
@@ -22,20 +23,11 @@ inline uint32_t count_of_ranges(const sim::RangerReading& reading) {
   return static_cast<uint32_t>(reading.ranges_m.size());
 }
 
-/// A mounting in Player's form.
-inline player_pose3d_t pose_of(const playerlike::Mounting& mounting) {
-  return {mounting.x_m, mounting.y_m, mounting.z_m, 0.0, 0.0, mounting.yaw_rad};
-}
-
-/// Poses on the body of a device's elements; see playerlike::element_mountings().
+/// As playerlike::element_poses().
 /// @throws PlayerError kNotAvailable.
 inline std::vector<player_pose3d_t> element_poses(const playerlike::DeviceSettings& settings) {
-  const auto mountings =
-      playerlike::translated("", [&] { return playerlike::element_mountings(settings); });
-  std::vector<player_pose3d_t> poses;
-  poses.reserve(mountings.size());
-  for (const playerlike::Mounting& mounting : mountings) poses.push_back(pose_of(mounting));
-  return poses;
+  return playerlike::translated(
+      "", [&] { return playerlike::element_poses<player_pose3d_t>(settings); });
 }
 
 /// Prints a pose in the format of proxies: "x y yaw", separated by tabs.

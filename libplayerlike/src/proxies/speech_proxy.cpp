@@ -5,7 +5,7 @@
 #include "core/errors.h"
 #include "libplayerc++/speechproxy.h"
 #include "proxies/link.h"
-#include "session/player_values.h"
+#include "session/player_values/speech.h"
 
 namespace PlayerCc {
 

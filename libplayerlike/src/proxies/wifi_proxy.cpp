@@ -1,24 +1,12 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <cmath>
 #include <ostream>
-#include <string>
 
 #include "libplayerc++/wifiproxy.h"
 #include "proxies/link.h"
-#include "proxies/sensor_support.h"
-#include "sim/devices/wifi.h"
+#include "session/player_values/wifi.h"
 
 namespace PlayerCc {
 namespace {
-
-// Copies a text into an array of bytes and terminates it with a zero.
-template <std::size_t size>
-void put(const std::string& text, uint8_t (&into)[size]) {
-  const std::size_t length = std::min(text.size(), size - 1);
-  std::copy_n(text.begin(), length, into);
-  into[length] = 0;
-}
 
 template <std::size_t size>
 char* text_of(uint8_t (&bytes)[size]) {
@@ -39,20 +27,9 @@ void WiFiProxy::HandleReading() {
   if (reading == nullptr) return;
   mLinks.clear();
   for (const auto& link : reading->links) {
-    playerc_wifi_link_t shown = {};
-    put(link.mac, shown.mac);
-    put(link.ip, shown.ip);
-    put(link.name, shown.essid);
-    shown.mode = link.access_point ? PLAYER_WIFI_MODE_MASTER : PLAYER_WIFI_MODE_ADHOC;
-    shown.freq = reading->channel_mhz;
-    shown.qual = sim::link_quality(link.level_dbm);
-    shown.level = static_cast<int>(std::lround(link.level_dbm));
-    shown.noise = static_cast<int>(std::lround(reading->floor_dbm));
-    mLinks.push_back(shown);
+    mLinks.push_back(playerlike::wifi_link<playerc_wifi_link_t>(*reading, link));
   }
-  const std::size_t length = std::min(reading->own_ip.size(), sizeof mOwnIp - 1);
-  std::copy_n(reading->own_ip.begin(), length, mOwnIp);
-  mOwnIp[length] = '\0';
+  playerlike::set_text(reading->own_ip, mOwnIp);
 }
 
 // The caller holds the client's mutex.

@@ -4,7 +4,11 @@
 #include <vector>
 
 #include "protocol/player_xdr.h"
-#include "session/player_values.h"
+#include "session/player_values/aio.h"
+#include "session/player_values/dio.h"
+#include "session/player_values/gripper.h"
+#include "session/player_values/position2d.h"
+#include "session/player_values/ptz.h"
 
 namespace playerlike {
 namespace {
@@ -29,8 +33,6 @@ std::vector<float> narrow(const std::vector<double>& values) {
   return narrowed;
 }
 
-player::Pose2d pose_of(const sim::Pose& pose) { return {pose.x_m, pose.y_m, pose.yaw_rad}; }
-
 /// Converts each type of command; none that the interface does not know.
 struct Converter {
   using Converted = std::optional<PlayerCommand>;
@@ -41,51 +43,42 @@ struct Converter {
 
   Converted operator()(const sim::TwistCommand& what) const {
     if (!drives()) return std::nullopt;
-    player::Position2dCmdVel payload;
-    payload.vel = {what.twist.v_mps, what.twist.lateral_mps, what.twist.omega_radps};
+    auto payload = to_players<player::Position2dCmdVel>(what);
     payload.state = 1;
     return command_of(PLAYER_POSITION2D_CMD_VEL, payload);
   }
   Converted operator()(const sim::HeadingCommand& what) const {
     if (!drives()) return std::nullopt;
-    player::Position2dCmdVelHead payload;
-    payload.velocity = what.v_mps;
-    payload.angle = what.yaw_rad;
-    return command_of(PLAYER_POSITION2D_CMD_VEL_HEAD, payload);
+    return command_of(PLAYER_POSITION2D_CMD_VEL_HEAD,
+                      to_players<player::Position2dCmdVelHead>(what));
   }
   Converted operator()(const sim::PositionCommand& what) const {
     if (!drives()) return std::nullopt;
-    player::Position2dCmdPos payload;
-    payload.pos = pose_of(what.goal);
-    payload.vel = {what.max_speed_mps, 0.0, what.max_turn_rate_radps};
-    payload.state = 1;
-    return command_of(PLAYER_POSITION2D_CMD_POS, payload);
+    return command_of(PLAYER_POSITION2D_CMD_POS,
+                      player::Position2dCmdPos{to_players<player::Pose2d>(what.goal),
+                                               {what.max_speed_mps, 0.0, what.max_turn_rate_radps},
+                                               1});
   }
   Converted operator()(const sim::CarCommand& what) const {
     if (!drives()) return std::nullopt;
-    player::Position2dCmdCar payload;
-    payload.velocity = what.v_mps;
-    payload.angle = what.steering_rad;
-    return command_of(PLAYER_POSITION2D_CMD_CAR, payload);
+    return command_of(PLAYER_POSITION2D_CMD_CAR, to_players<player::Position2dCmdCar>(what));
   }
   Converted operator()(const sim::MotorEnableCommand& what) const {
     if (!drives()) return std::nullopt;
-    player::Position2dPowerConfig payload;
-    payload.state = flag(what.enabled);
-    return request_of(PLAYER_POSITION2D_REQ_MOTOR_POWER, payload);
+    return request_of(PLAYER_POSITION2D_REQ_MOTOR_POWER,
+                      player::Position2dPowerConfig{flag(what.enabled)});
   }
   Converted operator()(const sim::SetPoseCommand& what) const {
     if (interface == PLAYER_POSITION2D_CODE) {
-      player::Position2dSetOdomReq payload;
-      payload.pose = pose_of(what.pose);
-      return request_of(PLAYER_POSITION2D_REQ_SET_ODOM, payload);
+      return request_of(PLAYER_POSITION2D_REQ_SET_ODOM,
+                        player::Position2dSetOdomReq{to_players<player::Pose2d>(what.pose)});
     }
     if (interface == PLAYER_LOCALIZE_CODE) {
       // Without a covariance: 0.5 m and 15 degrees.
       constexpr double kPosition_m2 = 0.25;
       constexpr double kHeading_rad2 = 0.0685;
       player::LocalizeSetPose payload;
-      payload.mean = pose_of(what.pose);
+      payload.mean = to_players<player::Pose2d>(what.pose);
       const std::array<double, 3> variance =
           what.variance.value_or(std::array{kPosition_m2, kPosition_m2, kHeading_rad2});
       const std::array<double, 3> covariance = what.covariance.value_or(std::array<double, 3>{});
@@ -103,50 +96,35 @@ struct Converter {
 
   Converted operator()(const sim::SayCommand& what) const {
     if (interface != PLAYER_SPEECH_CODE) return std::nullopt;
-    player::SpeechCmd payload;
-    payload.string = player::text_bytes(what.text);
-    return command_of(PLAYER_SPEECH_CMD_SAY, payload);
+    return command_of(PLAYER_SPEECH_CMD_SAY, player::SpeechCmd{player::text_bytes(what.text)});
   }
   Converted operator()(const sim::DigitalOutputCommand& what) const {
     if (interface != PLAYER_DIO_CODE) return std::nullopt;
-    player::DioCmd payload;
-    payload.count = static_cast<std::uint32_t>(what.count);
-    payload.digout = what.bits;
-    return command_of(PLAYER_DIO_CMD_VALUES, payload);
+    return command_of(PLAYER_DIO_CMD_VALUES, to_players<player::DioCmd>(what));
   }
   Converted operator()(const sim::AnalogOutputCommand& what) const {
     if (interface != PLAYER_AIO_CODE) return std::nullopt;
-    player::AioCmd payload;
-    payload.id = static_cast<std::uint32_t>(what.channel);
-    payload.voltage = narrow(what.voltage_v);
-    return command_of(PLAYER_AIO_CMD_STATE, payload);
+    return command_of(PLAYER_AIO_CMD_STATE, to_players<player::AioCmd>(what));
   }
   Converted operator()(const sim::OpaqueCommand& what) const {
     if (interface != PLAYER_OPAQUE_CODE) return std::nullopt;
-    player::OpaqueData payload;
-    payload.data = what.data;
-    return command_of(PLAYER_OPAQUE_CMD_DATA, payload);
+    return command_of(PLAYER_OPAQUE_CMD_DATA, player::OpaqueData{what.data});
   }
 
   /// A command to flash has both period and duty cycle; the session adds the one that is missing.
   Converted operator()(const sim::LightCommand& what) const {
     if (interface != PLAYER_BLINKENLIGHT_CODE) return std::nullopt;
-    if (what.colour) {
-      player::BlinkenlightCmdColor payload;
-      payload.color.red = what.colour->r;
-      payload.color.green = what.colour->g;
-      payload.color.blue = what.colour->b;
-      return command_of(PLAYER_BLINKENLIGHT_CMD_COLOR, payload);
+    if (const auto& colour = what.colour) {
+      return command_of(PLAYER_BLINKENLIGHT_CMD_COLOR,
+                        player::BlinkenlightCmdColor{0, {0, colour->r, colour->g, colour->b}});
     }
     if (what.period_s || what.duty_cycle) {
-      player::BlinkenlightCmdFlash payload;
-      payload.period = narrow(what.period_s.value_or(1.0));
-      payload.dutycycle = narrow(what.duty_cycle.value_or(0.5));
-      return command_of(PLAYER_BLINKENLIGHT_CMD_FLASH, payload);
+      return command_of(PLAYER_BLINKENLIGHT_CMD_FLASH,
+                        player::BlinkenlightCmdFlash{0, narrow(what.period_s.value_or(1.0)),
+                                                     narrow(what.duty_cycle.value_or(0.5))});
     }
-    player::BlinkenlightCmdPower payload;
-    payload.enable = flag(what.enabled.value_or(true));
-    return command_of(PLAYER_BLINKENLIGHT_CMD_POWER, payload);
+    return command_of(PLAYER_BLINKENLIGHT_CMD_POWER,
+                      player::BlinkenlightCmdPower{0, flag(what.enabled.value_or(true))});
   }
 
   Converted operator()(const sim::GripCommand& what) const {
@@ -156,98 +134,59 @@ struct Converter {
 
   Converted operator()(const sim::PointCommand& what) const {
     if (interface != PLAYER_PTZ_CODE) return std::nullopt;
-    player::PtzCmd payload;
-    payload.pan = narrow(what.pan_rad);
-    payload.tilt = narrow(what.tilt_rad);
-    payload.zoom = narrow(what.view_rad);
-    payload.panspeed = narrow(what.pan_speed_radps);
-    payload.tiltspeed = narrow(what.tilt_speed_radps);
-    return command_of(PLAYER_PTZ_CMD_STATE, payload);
+    return command_of(PLAYER_PTZ_CMD_STATE, to_players<player::PtzCmd>(what));
   }
-  /// Player has no zoom speed.
   Converted operator()(const sim::PanCommand& what) const {
     if (interface != PLAYER_PTZ_CODE) return std::nullopt;
-    player::PtzCmd payload;
-    payload.panspeed = narrow(what.pan_speed_radps);
-    payload.tiltspeed = narrow(what.tilt_speed_radps);
-    return command_of(PLAYER_PTZ_CMD_STATE, payload);
+    return command_of(PLAYER_PTZ_CMD_STATE, to_players<player::PtzCmd>(what));
   }
 
   Converted operator()(const sim::JointCommand& what) const {
     if (interface != PLAYER_ACTARRAY_CODE) return std::nullopt;
     using Mode = sim::JointCommand::Mode;
-    const double value = what.values.empty() ? 0.0 : what.values.front();
-    const bool is_multi = what.values.size() > 1;
     switch (what.mode) {
       case Mode::kPlace:
         return std::nullopt;  // a real arm cannot
-      case Mode::kPosition: {
-        if (is_multi) {
-          player::ActarrayMultiPositionCmd payload;
-          payload.positions = narrow(what.values);
-          return command_of(PLAYER_ACTARRAY_CMD_MULTI_POS, payload);
-        }
-        player::ActarrayPositionCmd payload;
-        payload.joint = what.joint;
-        payload.position = narrow(value);
-        return command_of(PLAYER_ACTARRAY_CMD_POS, payload);
-      }
-      case Mode::kSpeed: {
-        if (is_multi) {
-          player::ActarrayMultiSpeedCmd payload;
-          payload.speeds = narrow(what.values);
-          return command_of(PLAYER_ACTARRAY_CMD_MULTI_SPEED, payload);
-        }
-        player::ActarraySpeedCmd payload;
-        payload.joint = what.joint;
-        payload.speed = narrow(value);
-        return command_of(PLAYER_ACTARRAY_CMD_SPEED, payload);
-      }
-      case Mode::kCurrent: {
-        if (is_multi) {
-          player::ActarrayMultiCurrentCmd payload;
-          payload.currents = narrow(what.values);
-          return command_of(PLAYER_ACTARRAY_CMD_MULTI_CURRENT, payload);
-        }
-        player::ActarrayCurrentCmd payload;
-        payload.joint = what.joint;
-        payload.current = narrow(value);
-        return command_of(PLAYER_ACTARRAY_CMD_CURRENT, payload);
-      }
+      case Mode::kPosition:
+        return move<player::ActarrayPositionCmd, player::ActarrayMultiPositionCmd>(
+            what, PLAYER_ACTARRAY_CMD_POS, PLAYER_ACTARRAY_CMD_MULTI_POS);
+      case Mode::kSpeed:
+        return move<player::ActarraySpeedCmd, player::ActarrayMultiSpeedCmd>(
+            what, PLAYER_ACTARRAY_CMD_SPEED, PLAYER_ACTARRAY_CMD_MULTI_SPEED);
+      case Mode::kCurrent:
+        return move<player::ActarrayCurrentCmd, player::ActarrayMultiCurrentCmd>(
+            what, PLAYER_ACTARRAY_CMD_CURRENT, PLAYER_ACTARRAY_CMD_MULTI_CURRENT);
       case Mode::kHome:
         break;
     }
-    player::ActarrayHomeCmd payload;
-    payload.joint = what.joint;
-    return command_of(PLAYER_ACTARRAY_CMD_HOME, payload);
+    return command_of(PLAYER_ACTARRAY_CMD_HOME, player::ActarrayHomeCmd{what.joint});
   }
   Converted operator()(const sim::JointSettingCommand& what) const {
     if (interface != PLAYER_ACTARRAY_CODE) return std::nullopt;
     using Setting = sim::JointSettingCommand::Setting;
     switch (what.setting) {
-      case Setting::kPower: {
-        player::ActarrayPowerConfig payload;
-        payload.value = flag(what.value != 0.0);
-        return request_of(PLAYER_ACTARRAY_REQ_POWER, payload);
-      }
-      case Setting::kBrakes: {
-        player::ActarrayBrakesConfig payload;
-        payload.value = flag(what.value != 0.0);
-        return request_of(PLAYER_ACTARRAY_REQ_BRAKES, payload);
-      }
-      case Setting::kSpeed: {
-        player::ActarraySpeedConfig payload;
-        payload.joint = what.joint;
-        payload.speed = narrow(what.value);
-        return request_of(PLAYER_ACTARRAY_REQ_SPEED, payload);
-      }
+      case Setting::kPower:
+        return request_of(PLAYER_ACTARRAY_REQ_POWER,
+                          player::ActarrayPowerConfig{flag(what.value != 0.0)});
+      case Setting::kBrakes:
+        return request_of(PLAYER_ACTARRAY_REQ_BRAKES,
+                          player::ActarrayBrakesConfig{flag(what.value != 0.0)});
+      case Setting::kSpeed:
+        return request_of(PLAYER_ACTARRAY_REQ_SPEED,
+                          player::ActarraySpeedConfig{what.joint, narrow(what.value)});
       case Setting::kAcceleration:
         break;
     }
-    player::ActarrayAccelConfig payload;
-    payload.joint = what.joint;
-    payload.accel = narrow(what.value);
-    return request_of(PLAYER_ACTARRAY_REQ_ACCEL, payload);
+    return request_of(PLAYER_ACTARRAY_REQ_ACCEL,
+                      player::ActarrayAccelConfig{what.joint, narrow(what.value)});
+  }
+
+  /// The command to one joint, or to several from the first one on.
+  template <typename One, typename Many>
+  static PlayerCommand move(const sim::JointCommand& what, std::uint8_t one, std::uint8_t many) {
+    if (what.values.size() > 1) return command_of(many, Many{narrow(what.values)});
+    return command_of(one,
+                      One{what.joint, what.values.empty() ? 0.0F : narrow(what.values.front())});
   }
 
   // Player has neither waypoints nor teleports of a robot.

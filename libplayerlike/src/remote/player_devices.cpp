@@ -8,6 +8,7 @@
 #include "remote/player_commands.h"
 #include "remote/player_session.h"
 #include "session/player_values.h"
+#include "session/player_values/poses.h"
 
 namespace playerlike {
 
@@ -23,9 +24,7 @@ void PlayerSession::draw(unsigned index, const DeviceDrawing& drawing) {
 namespace {
 
 PlayerCommand planner_command(std::uint8_t subtype, const sim::Pose& pose) {
-  player::PlannerCmd payload;
-  payload.goal = {pose.x_m, pose.y_m, pose.yaw_rad};
-  return {false, subtype, player::encode(payload)};
+  return {false, subtype, player::encode(player::PlannerCmd{to_players<player::Pose2d>(pose)})};
 }
 
 }  // namespace
@@ -42,8 +41,7 @@ void PlayerSession::set_planner_start(unsigned index, const sim::Pose& start) {
 
 void PlayerSession::enable_planner(unsigned index, bool on) {
   require_open();
-  player::PlannerEnableReq payload;
-  payload.state = on ? 1 : 0;
+  const player::PlannerEnableReq payload{static_cast<std::uint8_t>(on ? 1 : 0)};
   tell(address_of(PLAYER_PLANNER_CODE, index),
        {true, PLAYER_PLANNER_REQ_ENABLE, player::encode(payload)});
 }
@@ -58,7 +56,7 @@ DevicePlanners::Path PlayerSession::planner_path(unsigned index) {
     path.length_m = answer.waypoints_distance;
     path.waypoints.reserve(answer.waypoints.size());
     for (const player::Pose2d& pose : answer.waypoints) {
-      path.waypoints.push_back({pose.px, pose.py, pose.pa});
+      path.waypoints.push_back(from_players<sim::Pose>(pose));
     }
   } catch (const protocol::ProtocolError& e) {
     refuse_bytes(*link(), e.what());
@@ -200,7 +198,7 @@ std::vector<LocalizationParticle> PlayerSession::particles(DeviceId device) {
     for (const auto& particle : player::decode<player::LocalizeGetParticles>(bytes).particles) {
       const auto& [px, py, pa] = particle.pose;
       if (!std::isfinite(px + py + pa + particle.alpha)) continue;
-      particles.push_back({{px, py, sim::normalize_angle(pa)}, particle.alpha});
+      particles.push_back({normalized_pose(particle.pose), particle.alpha});
     }
   } catch (const protocol::ProtocolError& e) {
     refuse_bytes(*link(), e.what());

@@ -3,33 +3,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
-#include "playerlike/session/device_planners.h"
 #include "protocol/player_xdr.h"
-#include "session/player_values.h"
+#include "session/player_values/actarray.h"
+#include "session/player_values/aio.h"
+#include "session/player_values/blinkenlight.h"
+#include "session/player_values/blobfinder.h"
+#include "session/player_values/bumper.h"
+#include "session/player_values/dio.h"
+#include "session/player_values/fiducial.h"
+#include "session/player_values/gps.h"
+#include "session/player_values/gripper.h"
+#include "session/player_values/imu.h"
+#include "session/player_values/planner.h"
+#include "session/player_values/position2d.h"
+#include "session/player_values/power.h"
+#include "session/player_values/ptz.h"
+#include "session/player_values/wifi.h"
 #include "session/range_settings.h"
-#include "sim/devices/actarray.h"
-#include "sim/devices/aio.h"
 #include "sim/devices/amcl.h"
-#include "sim/devices/battery.h"
-#include "sim/devices/blinkenlight.h"
-#include "sim/devices/blobfinder.h"
-#include "sim/devices/bumper.h"
 #include "sim/devices/camera.h"
-#include "sim/devices/dio.h"
-#include "sim/devices/fiducial.h"
-#include "sim/devices/gps.h"
-#include "sim/devices/gripper.h"
-#include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
-#include "sim/devices/localization.h"
 #include "sim/devices/opaque.h"
-#include "sim/devices/ptz.h"
 #include "sim/devices/rangers.h"
-#include "sim/devices/wifi.h"
 
 namespace playerlike {
 namespace {
@@ -37,32 +35,29 @@ namespace {
 using Made = std::shared_ptr<sim::Reading>;
 using player::decode;
 
+template <typename R>
+std::shared_ptr<R> made(R reading) {
+  return std::make_shared<R>(std::move(reading));
+}
+
+/// The reading of a message; null if the message is of another kind.
+template <typename R, typename Data>
+Made reading_if(bool is_data, std::string_view payload) {
+  return is_data ? made(from_players<R>(decode<Data>(payload))) : nullptr;
+}
+
 /// A copy of the last reading for a message with a part of its values; a new one before the first.
 template <typename R>
-std::shared_ptr<R> next_of(const sim::SharedReading& last) {
+R next_of(const sim::SharedReading& last) {
   const auto* before = dynamic_cast<const R*>(last.get());
-  return before == nullptr ? std::make_shared<R>() : std::make_shared<R>(*before);
+  return before == nullptr ? R() : *before;
 }
 
 std::vector<double> doubles(const std::vector<float>& values) {
   return {values.begin(), values.end()};
 }
 
-sim::Pose pose_of(const player::Pose2d& pose) { return {pose.px, pose.py, pose.pa}; }
-
 // --- Positions
-
-Made position(std::uint8_t subtype, std::string_view payload) {
-  if (subtype != PLAYER_POSITION2D_DATA_STATE) return nullptr;
-  const auto data = decode<player::Position2dData>(payload);
-  const auto reading = std::make_shared<sim::PoseReading>();
-  reading->pose = pose_of(data.pos);
-  reading->twist.v_mps = data.vel.px;
-  reading->twist.lateral_mps = data.vel.py;
-  reading->twist.omega_radps = data.vel.pa;
-  reading->stalled = data.stall != 0;
-  return reading;
-}
 
 /// The most likely hypothesis first.
 Made localization(std::uint8_t subtype, std::string_view payload) {
@@ -73,8 +68,9 @@ Made localization(std::uint8_t subtype, std::string_view payload) {
   reading->pending = data.pending_count;
   for (const player::LocalizeHypoth& hypoth : data.hypoths) {
     const auto& cov = hypoth.cov;
-    reading->hypotheses.push_back(
-        {pose_of(hypoth.mean), {{cov[0], cov[1], cov[2]}, {cov[3], cov[4], cov[5]}}, hypoth.alpha});
+    reading->hypotheses.push_back({from_players<sim::Pose>(hypoth.mean),
+                                   {{cov[0], cov[1], cov[2]}, {cov[3], cov[4], cov[5]}},
+                                   hypoth.alpha});
   }
   std::stable_sort(reading->hypotheses.begin(), reading->hypotheses.end(),
                    [](const sim::PoseHypothesis& a, const sim::PoseHypothesis& b) {
@@ -87,14 +83,8 @@ Made planner(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_PLANNER_DATA_STATE) return nullptr;
   const auto data = decode<player::PlannerData>(payload);
   const auto reading = std::make_shared<PlannerReading>();
-  PlannerState& state = reading->state;
-  state.valid = data.valid != 0;
-  state.done = data.done != 0;
-  state.pose = pose_of(data.pos);
-  state.goal = pose_of(data.goal);
-  state.waypoint = pose_of(data.waypoint);
-  state.waypoint_index = data.waypoint_idx;
-  state.reported_waypoints = data.waypoints_count;
+  reading->state = from_players<PlannerState>(data);
+  reading->state.reported_waypoints = data.waypoints_count;
   return reading;
 }
 
@@ -185,51 +175,26 @@ Made ranger(std::uint8_t subtype, std::string_view payload, const DeviceInfo& de
 
 // --- The robot's state
 
-Made battery(std::uint8_t subtype, std::string_view payload) {
-  if (subtype != PLAYER_POWER_DATA_STATE) return nullptr;
-  const auto data = decode<player::PowerData>(payload);
-  const auto reading = std::make_shared<sim::BatteryReading>();
-  reading->voltage_v = double{data.volts};
-  reading->charge_percent = double{data.percent};
-  reading->energy_wh = double{data.joules} / 3600.0;
-  reading->power_w = double{data.watts};
-  reading->status =
-      data.charging > 0 ? sim::BatteryStatus::kCharging : sim::BatteryStatus::kDischarging;
-  return reading;
-}
-
 Made gps(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_GPS_DATA_STATE) return nullptr;
-  const auto data = decode<player::GpsData>(payload);
-  constexpr double kAngle_rad = 1e-7 * std::numbers::pi / 180.0;
-  const auto reading = std::make_shared<sim::GpsReading>();
-  reading->latitude_rad = data.latitude * kAngle_rad;
-  reading->longitude_rad = data.longitude * kAngle_rad;
-  reading->altitude_m = data.altitude * 1e-3;
-  reading->speed_mps = data.speed;
-  reading->course_rad = data.course;
-  // Player's client library takes the UTM coordinates for centimetres.
-  reading->utm_easting_m = data.utm_e * 0.01;
-  reading->utm_northing_m = data.utm_n * 0.01;
-  reading->satellites = as_int(data.num_sats);
-  reading->quality = as_int(data.quality);
-  // Player's client library divides the dilutions by 10.
-  reading->accuracy = {data.err_horz, data.err_vert, data.hdop * 0.1, data.vdop * 0.1};
-  return reading;
+  return made(gps_reading(decode<player::GpsData>(payload)));
 }
 
 Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
-  const auto reading = next_of<sim::ImuReading>(last);
+  const auto reading = made(next_of<sim::ImuReading>(last));
+  const auto set_values = [&](const player::ImuDataCalib& values) {
+    *reading = from_players(values, *reading);
+  };
   switch (subtype) {
     case PLAYER_IMU_DATA_STATE:
       reading->yaw_rad = decode<player::ImuDataState>(payload).pose.pyaw;
       return reading;
     case PLAYER_IMU_DATA_CALIB:
-      set_imu_values(decode<player::ImuDataCalib>(payload), *reading);
+      set_values(decode<player::ImuDataCalib>(payload));
       return reading;
     case PLAYER_IMU_DATA_QUAT: {
       const auto data = decode<player::ImuDataQuat>(payload);
-      set_imu_values(data.calib_data, *reading);
+      set_values(data.calib_data);
       const double w = double{data.q0};
       const double x = double{data.q1};
       const double y = double{data.q2};
@@ -239,7 +204,7 @@ Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReadin
     }
     case PLAYER_IMU_DATA_EULER: {
       const auto data = decode<player::ImuDataEuler>(payload);
-      set_imu_values(data.calib_data, *reading);
+      set_values(data.calib_data);
       reading->yaw_rad = data.orientation.pyaw;
       return reading;
     }
@@ -253,48 +218,23 @@ Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReadin
 
 Made bumpers(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_BUMPER_DATA_STATE) return nullptr;
-  const auto reading = std::make_shared<sim::BumperReading>();
-  reading->pressed = decode<player::BumperData>(payload).bumpers;
-  for (std::uint8_t& pressed : reading->pressed) pressed = pressed != 0 ? 1 : 0;
-  return reading;
+  auto felt = from_players<sim::BumperReading>(decode<player::BumperData>(payload));
+  for (std::uint8_t& pressed : felt.pressed) pressed = pressed != 0 ? 1 : 0;
+  return made(std::move(felt));
 }
 
 Made gripper(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_GRIPPER_DATA_STATE) return nullptr;
-  return std::make_shared<sim::GripperReading>(
-      gripper_reading(decode<player::GripperData>(payload)));
+  return made(gripper_reading(decode<player::GripperData>(payload)));
 }
 
 Made arm(std::uint8_t subtype, std::string_view payload, const DeviceInfo& device) {
   if (subtype != PLAYER_ACTARRAY_DATA_STATE) return nullptr;
-  const auto data = decode<player::ActarrayData>(payload);
-  const auto reading = std::make_shared<sim::ActArrayReading>();
-  for (const player::ActarrayActuator& actuator : data.actuators) {
-    sim::JointReading joint;
-    joint.state = joint_state(actuator.state);
-    joint.position = double{actuator.position};
-    joint.speed = double{actuator.speed};
-    joint.acceleration = double{actuator.acceleration};
-    joint.current_a = double{actuator.current};
-    joint.speed_setting =
-        setting_of(device.properties, "speed_" + std::to_string(reading->joints.size()));
-    reading->joints.push_back(joint);
+  auto reading = from_players<sim::ActArrayReading>(decode<player::ActarrayData>(payload));
+  for (std::size_t i = 0; i < reading.joints.size(); ++i) {
+    reading.joints[i].speed_setting = joint_setting(device.properties, "speed", i);
   }
-  reading->is_powered = data.motor_state != 0;
-  return reading;
-}
-
-Made camera_head(std::uint8_t subtype, std::string_view payload) {
-  if (subtype != PLAYER_PTZ_DATA_STATE) return nullptr;
-  const auto data = decode<player::PtzData>(payload);
-  const auto reading = std::make_shared<sim::PtzReading>();
-  reading->pan_rad = double{data.pan};
-  reading->tilt_rad = double{data.tilt};
-  reading->view_rad = double{data.zoom};
-  reading->pan_speed_radps = double{data.panspeed};
-  reading->tilt_speed_radps = double{data.tiltspeed};
-  reading->moving = data.status != 0;
-  return reading;
+  return made(std::move(reading));
 }
 
 // --- What is seen
@@ -304,18 +244,6 @@ Made fiducials(std::uint8_t subtype, std::string_view payload) {
   const auto reading = std::make_shared<sim::FiducialReading>();
   for (const player::FiducialItem& item : decode<player::FiducialData>(payload).fiducials) {
     reading->marks.push_back(mark_of(item));
-  }
-  return reading;
-}
-
-Made blobs(std::uint8_t subtype, std::string_view payload) {
-  if (subtype != PLAYER_BLOBFINDER_DATA_BLOBS) return nullptr;
-  const auto data = decode<player::BlobfinderData>(payload);
-  const auto reading = std::make_shared<sim::BlobfinderReading>();
-  reading->width = as_int(data.width);
-  reading->height = as_int(data.height);
-  for (const player::BlobfinderBlob& blob : data.blobs) {
-    reading->blobs.push_back(seen_blob(blob));
   }
   return reading;
 }
@@ -369,48 +297,24 @@ Made image(std::uint8_t subtype, std::string_view payload) {
 
 Made voltages(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
   if (subtype != PLAYER_AIO_DATA_STATE) return nullptr;
-  const auto reading = next_of<sim::AioReading>(last);
-  reading->inputs_v = doubles(decode<player::AioData>(payload).voltages);
-  return reading;
+  return made(from_players(decode<player::AioData>(payload), next_of<sim::AioReading>(last)));
 }
 
 Made digital_inputs(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_DIO_DATA_VALUES) return nullptr;
-  const auto data = decode<player::DioData>(payload);
-  constexpr std::uint32_t kMostLines = 32;
-  const auto reading = std::make_shared<sim::DioReading>();
-  reading->input_count = as_int(std::min(data.count, kMostLines));
-  reading->inputs = data.bits;
-  return reading;
-}
-
-std::string text_of(const std::vector<std::uint8_t>& bytes) {
-  return player::text_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  auto data = decode<player::DioData>(payload);
+  data.count = std::min<std::uint32_t>(data.count, sim::DioParams::kMaxLines);
+  return made(from_players<sim::DioReading>(data));
 }
 
 Made links(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_WIFI_DATA_STATE) return nullptr;
-  const auto data = decode<player::WifiData>(payload);
-  const auto reading = std::make_shared<sim::WifiReading>();
-  for (const player::WifiLink& link : data.links) {
-    sim::WifiReading::Link shown;
-    shown.name = text_of(link.essid);
-    shown.mac = text_of(link.mac);
-    shown.ip = text_of(link.ip);
-    shown.access_point = link.mode == PLAYER_WIFI_MODE_MASTER;
-    shown.level_dbm = static_cast<std::int32_t>(link.level);
-    reading->links.push_back(std::move(shown));
-  }
-  if (!data.links.empty()) {
-    reading->floor_dbm = static_cast<std::int32_t>(data.links.front().noise);
-    reading->channel_mhz = data.links.front().freq;
-  }
-  return reading;
+  return made(wifi_reading(decode<player::WifiData>(payload)));
 }
 
 Made opaque(std::uint8_t subtype, std::string_view payload, const sim::SharedReading& last) {
   if (subtype != PLAYER_OPAQUE_DATA_STATE) return nullptr;
-  const auto reading = next_of<sim::OpaqueReading>(last);
+  const auto reading = made(next_of<sim::OpaqueReading>(last));
   reading->data = decode<player::OpaqueData>(payload).data;
   ++reading->number;
   return reading;
@@ -418,21 +322,18 @@ Made opaque(std::uint8_t subtype, std::string_view payload, const sim::SharedRea
 
 Made light(std::uint8_t subtype, std::string_view payload) {
   if (subtype != PLAYER_BLINKENLIGHT_DATA_STATE) return nullptr;
-  const auto data = decode<player::BlinkenlightData>(payload);
-  const auto reading = std::make_shared<sim::BlinkenlightReading>();
-  reading->enabled = data.enable != 0;
-  reading->colour = {data.color.red, data.color.green, data.color.blue, 255};
-  reading->period_s = double{data.period};
-  reading->duty_cycle = double{data.dutycycle};
-  reading->lit = reading->enabled;
-  return reading;
+  auto shown = from_players<sim::BlinkenlightReading>(decode<player::BlinkenlightData>(payload));
+  shown.colour.a = 255;
+  shown.lit = shown.enabled;
+  return made(shown);
 }
 
 Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,
              const DeviceInfo& device, const sim::SharedReading& last) {
   switch (interface) {
     case PLAYER_POSITION2D_CODE:
-      return position(subtype, payload);
+      return reading_if<sim::PoseReading, player::Position2dData>(
+          subtype == PLAYER_POSITION2D_DATA_STATE, payload);
     case PLAYER_LOCALIZE_CODE:
       return localization(subtype, payload);
     case PLAYER_PLANNER_CODE:
@@ -448,7 +349,8 @@ Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,
       if (subtype != PLAYER_IR_DATA_RANGES) return nullptr;
       return infrared(decode<player::IrData>(payload), device);
     case PLAYER_POWER_CODE:
-      return battery(subtype, payload);
+      return reading_if<sim::BatteryReading, player::PowerData>(subtype == PLAYER_POWER_DATA_STATE,
+                                                                payload);
     case PLAYER_GPS_CODE:
       return gps(subtype, payload);
     case PLAYER_IMU_CODE:
@@ -458,7 +360,8 @@ Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,
     case PLAYER_BUMPER_CODE:
       return bumpers(subtype, payload);
     case PLAYER_PTZ_CODE:
-      return camera_head(subtype, payload);
+      return reading_if<sim::PtzReading, player::PtzData>(subtype == PLAYER_PTZ_DATA_STATE,
+                                                          payload);
     case PLAYER_GRIPPER_CODE:
       return gripper(subtype, payload);
     case PLAYER_AIO_CODE:
@@ -468,7 +371,8 @@ Made made_of(unsigned interface, std::uint8_t subtype, std::string_view payload,
     case PLAYER_WIFI_CODE:
       return links(subtype, payload);
     case PLAYER_BLOBFINDER_CODE:
-      return blobs(subtype, payload);
+      return reading_if<sim::BlobfinderReading, player::BlobfinderData>(
+          subtype == PLAYER_BLOBFINDER_DATA_BLOBS, payload);
     case PLAYER_CAMERA_CODE:
       return image(subtype, payload);
     case PLAYER_ACTARRAY_CODE:

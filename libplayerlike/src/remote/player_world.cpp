@@ -13,6 +13,7 @@
 #include "messages/player_interfaces.h"
 #include "protocol/player_xdr.h"
 #include "remote/player_session.h"
+#include "session/player_values/poses.h"
 #include "sim/core/colour.h"
 
 namespace playerlike {
@@ -134,14 +135,14 @@ ObjectPose PlayerWorld::handle(const ObjectPoseRequest& what) {
   request.name = player::text_bytes(what.name);
   const auto answer = ask_for<player::SimulationPose2dReq>(
       PLAYER_SIMULATION_CODE, PLAYER_SIMULATION_REQ_GET_POSE2D, player::encode(request));
-  return {{answer.pose.px, answer.pose.py, answer.pose.pa}, session_.time().sim_time_ns};
+  return {from_players<sim::Pose>(answer.pose), session_.time().sim_time_ns};
 }
 
 void PlayerWorld::handle(const PlaceObjectRequest& what) {
   require_finite(sim::PlaceCommand{what.pose});
   player::SimulationPose2dReq request;
   request.name = player::text_bytes(what.name);
-  request.pose = {what.pose.x_m, what.pose.y_m, what.pose.yaw_rad};
+  request.pose = to_players<player::Pose2d>(what.pose);
   static_cast<void>(
       ask(PLAYER_SIMULATION_CODE, PLAYER_SIMULATION_REQ_SET_POSE2D, player::encode(request)));
 }

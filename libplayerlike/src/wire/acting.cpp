@@ -6,15 +6,14 @@
 #include <memory>
 
 #include "libplayerinterface/player_constants.h"
-#include "session/player_values.h"
-#include "sim/core/number_text.h"
-#include "sim/devices/actarray.h"
-#include "sim/devices/aio.h"
-#include "sim/devices/blinkenlight.h"
-#include "sim/devices/dio.h"
-#include "sim/devices/gripper.h"
+#include "session/player_values/actarray.h"
+#include "session/player_values/aio.h"
+#include "session/player_values/blinkenlight.h"
+#include "session/player_values/dio.h"
+#include "session/player_values/gripper.h"
+#include "session/player_values/ptz.h"
+#include "session/player_values/speech.h"
 #include "sim/devices/opaque.h"
-#include "sim/devices/ptz.h"
 #include "wire/robot_device.h"
 
 namespace playerlike::wire {
@@ -35,35 +34,25 @@ class ActArray final : public RobotDevice {
     const auto* measured = reading_as<sim::ActArrayReading>(reading);
     if (measured == nullptr) return;
     newest_ = measured->joints;
-    player::ActarrayData data;
-    for (const sim::JointReading& joint : measured->joints) {
-      data.actuators.push_back(actuator_of<player::ActarrayActuator>(joint));
-    }
-    data.motor_state = measured->is_powered ? 1 : 0;
-    sink.data(PLAYER_ACTARRAY_DATA_STATE, player::encode(data));
+    sink.data(PLAYER_ACTARRAY_DATA_STATE,
+              player::encode(to_players<player::ActarrayData>(*measured)));
   }
 
   void command(std::uint8_t subtype, std::string_view payload) override {
     switch (subtype) {
-      case PLAYER_ACTARRAY_CMD_POS: {
-        const auto asked = player::decode<player::ActarrayPositionCmd>(payload);
-        return move(Mode::kPosition, asked.joint, {asked.position});
-      }
+      case PLAYER_ACTARRAY_CMD_POS:
+        return move_one(Mode::kPosition, player::decode<player::ActarrayPositionCmd>(payload));
       case PLAYER_ACTARRAY_CMD_MULTI_POS:
         return move(Mode::kPosition, 0,
                     player::decode<player::ActarrayMultiPositionCmd>(payload).positions);
-      case PLAYER_ACTARRAY_CMD_SPEED: {
-        const auto asked = player::decode<player::ActarraySpeedCmd>(payload);
-        return move(Mode::kSpeed, asked.joint, {asked.speed});
-      }
+      case PLAYER_ACTARRAY_CMD_SPEED:
+        return move_one(Mode::kSpeed, player::decode<player::ActarraySpeedCmd>(payload));
       case PLAYER_ACTARRAY_CMD_MULTI_SPEED:
         return move(Mode::kSpeed, 0, player::decode<player::ActarrayMultiSpeedCmd>(payload).speeds);
       case PLAYER_ACTARRAY_CMD_HOME:
         return move(Mode::kHome, player::decode<player::ActarrayHomeCmd>(payload).joint, {});
-      case PLAYER_ACTARRAY_CMD_CURRENT: {
-        const auto asked = player::decode<player::ActarrayCurrentCmd>(payload);
-        return move(Mode::kCurrent, asked.joint, {asked.current});
-      }
+      case PLAYER_ACTARRAY_CMD_CURRENT:
+        return move_one(Mode::kCurrent, player::decode<player::ActarrayCurrentCmd>(payload));
       case PLAYER_ACTARRAY_CMD_MULTI_CURRENT:
         return move(Mode::kCurrent, 0,
                     player::decode<player::ActarrayMultiCurrentCmd>(payload).currents);
@@ -110,6 +99,11 @@ class ActArray final : public RobotDevice {
                  std::to_string(count_) + ", counted from 0");
   }
 
+  void move_one(Mode mode, const auto& asked) const {
+    const auto& [joint, value] = asked;
+    move(mode, joint, {value});
+  }
+
   // Values beyond the last joint have no effect.
   void move(Mode mode, std::int32_t joint, const std::vector<float>& values) const {
     require_joint(joint);
@@ -150,67 +144,38 @@ class ActArray final : public RobotDevice {
 
 // --- Inputs and outputs
 
-class Aio final : public RobotDevice {
+class Aio final : public PlainDevice<sim::AioReading, player::AioData, PLAYER_AIO_DATA_STATE> {
  public:
-  using RobotDevice::RobotDevice;
-
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
-    const auto* measured = reading_as<sim::AioReading>(reading);
-    if (measured == nullptr) return;
-    player::AioData data;
-    for (const double volts : measured->inputs_v)
-      data.voltages.push_back(static_cast<float>(volts));
-    sink.data(PLAYER_AIO_DATA_STATE, player::encode(data));
-  }
+  using PlainDevice::PlainDevice;
 
   void command(std::uint8_t subtype, std::string_view payload) override {
     if (subtype != PLAYER_AIO_CMD_STATE) return;
     const auto asked = player::decode<player::AioCmd>(payload);
     const std::uint32_t count = count_setting("outputs", sim::AioParams::kMaxLines);
-    const auto volts = static_cast<double>(asked.voltage);
-    if (asked.id >= count || !(std::abs(volts) <= sim::AioParams::kMaxVolts)) {
-      refuse_value("output " + std::to_string(asked.id) + " cannot have " +
-                   sim::rounded_text(volts, 6) + " V: there are " + std::to_string(count) +
-                   " outputs, counted from 0, of at most 1e6 V to either side");
+    const auto output = from_players<sim::AnalogOutputCommand>(asked);
+    if (asked.id >= count || !is_line_voltage(output.voltage_v)) {
+      refuse_value(output_fault(asked.id, output.voltage_v, count));
     }
-    send(sim::AnalogOutputCommand{static_cast<int>(asked.id), volts});
+    send(output);
   }
 };
 
-class Dio final : public RobotDevice {
+class Dio final : public PlainDevice<sim::DioReading, player::DioData, PLAYER_DIO_DATA_VALUES> {
  public:
-  using RobotDevice::RobotDevice;
-
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
-    const auto* measured = reading_as<sim::DioReading>(reading);
-    if (measured == nullptr) return;
-    sink.data(PLAYER_DIO_DATA_VALUES,
-              player::encode(player::DioData{static_cast<std::uint32_t>(measured->input_count),
-                                             measured->inputs}));
-  }
+  using PlainDevice::PlainDevice;
 
   void command(std::uint8_t subtype, std::string_view payload) override {
     if (subtype != PLAYER_DIO_CMD_VALUES) return;
-    const auto asked = player::decode<player::DioCmd>(payload);
-    const std::uint32_t outputs = count_setting("outputs", sim::DioParams::kMaxLines);
-    send(sim::DigitalOutputCommand{static_cast<int>(std::min(asked.count, outputs)), asked.digout});
+    auto asked = player::decode<player::DioCmd>(payload);
+    asked.count = std::min(asked.count, count_setting("outputs", sim::DioParams::kMaxLines));
+    send(from_players<sim::DigitalOutputCommand>(asked));
   }
 };
 
-class Blinkenlight final : public RobotDevice {
+class Blinkenlight final : public PlainDevice<sim::BlinkenlightReading, player::BlinkenlightData,
+                                              PLAYER_BLINKENLIGHT_DATA_STATE> {
  public:
-  using RobotDevice::RobotDevice;
-
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
-    const auto* light = reading_as<sim::BlinkenlightReading>(reading);
-    if (light == nullptr) return;
-    const sim::Colour& c = light->colour;
-    sink.data(
-        PLAYER_BLINKENLIGHT_DATA_STATE,
-        player::encode(player::BlinkenlightData{
-            static_cast<std::uint8_t>(light->enabled ? 1 : 0), static_cast<float>(light->period_s),
-            static_cast<float>(light->duty_cycle), player::Color{c.a, c.r, c.g, c.b}}));
-  }
+  using PlainDevice::PlainDevice;
 
   void command(std::uint8_t subtype, std::string_view payload) override {
     sim::LightCommand change;
@@ -246,14 +211,7 @@ class Blinkenlight final : public RobotDevice {
   static void set_flashing(float period, float duty_cycle, sim::LightCommand& change) {
     change.period_s = static_cast<double>(period);
     change.duty_cycle = static_cast<double>(duty_cycle);
-    if (!(*change.period_s >= 0.0 && *change.period_s <= 1e6)) {
-      refuse_value("a light's period is in 0..1e6 s, but is " +
-                   sim::rounded_text(*change.period_s, 6));
-    }
-    if (!(*change.duty_cycle >= 0.0 && *change.duty_cycle <= 1.0)) {
-      refuse_value("a light's duty cycle is in 0..1, but is " +
-                   sim::rounded_text(*change.duty_cycle, 6));
-    }
+    if (const auto fault = flashing_fault(change)) refuse_value(*fault);
   }
 };
 
@@ -294,21 +252,14 @@ class Ptz final : public RobotDevice {
     const auto* head = reading_as<sim::PtzReading>(reading);
     if (head == nullptr) return;
     status_ = head->moving ? 1 : 0;
-    sink.data(PLAYER_PTZ_DATA_STATE,
-              player::encode(player::PtzData{
-                  static_cast<float>(head->pan_rad), static_cast<float>(head->tilt_rad),
-                  static_cast<float>(head->view_rad), static_cast<float>(head->pan_speed_radps),
-                  static_cast<float>(head->tilt_speed_radps), status_}));
+    sink.data(PLAYER_PTZ_DATA_STATE, player::encode(to_players<player::PtzData>(*head)));
   }
 
   void command(std::uint8_t subtype, std::string_view payload) override {
     if (subtype != PLAYER_PTZ_CMD_STATE) return;
     const auto asked = player::decode<player::PtzCmd>(payload);
-    const auto pan_speed = static_cast<double>(asked.panspeed);
-    const auto tilt_speed = static_cast<double>(asked.tiltspeed);
-    if (controls_speed_) return send(sim::PanCommand{pan_speed, tilt_speed, 0.0});
-    send(sim::PointCommand{static_cast<double>(asked.pan), static_cast<double>(asked.tilt),
-                           static_cast<double>(asked.zoom), pan_speed, tilt_speed});
+    if (controls_speed_) return send(from_players<sim::PanCommand>(asked));
+    send(from_players<sim::PointCommand>(asked));
   }
 
  protected:

@@ -9,8 +9,10 @@
 #include "proxies/goal_driver.h"
 #include "proxies/planner.h"
 #include "session/player_values.h"
+#include "session/player_values/localize.h"
+#include "session/player_values/planner.h"
+#include "session/player_values/position2d.h"
 #include "sim/devices/amcl.h"
-#include "sim/devices/localization.h"
 #include "wire/robot_device.h"
 
 namespace playerlike::wire {
@@ -49,34 +51,28 @@ class Position2d final : public RobotDevice {
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
     const auto* measured = reading_as<sim::PoseReading>(reading);
     if (measured == nullptr) return;
-    const sim::Twist& twist = measured->twist;
     constexpr std::size_t kLength = 6 * sizeof(double) + 4;
-    sink.data(
-        PLAYER_POSITION2D_DATA_STATE,
-        encode_long(player::Position2dData{pose_2d(measured->pose),
-                                           {twist.v_mps, twist.lateral_mps, twist.omega_radps},
-                                           static_cast<std::uint8_t>(measured->stalled ? 1 : 0)},
-                    kLength));
+    sink.data(PLAYER_POSITION2D_DATA_STATE,
+              encode_long(to_players<player::Position2dData>(*measured), kLength));
   }
 
   void command(std::uint8_t subtype, std::string_view payload) override {
     switch (subtype) {
-      case PLAYER_POSITION2D_CMD_VEL: {
-        const auto asked = player::decode<player::Position2dCmdVel>(payload);
-        return drive(sim::TwistCommand{
-            {.v_mps = asked.vel.px, .omega_radps = asked.vel.pa, .lateral_mps = asked.vel.py}});
-      }
+      case PLAYER_POSITION2D_CMD_VEL:
+        return drive(
+            from_players<sim::TwistCommand>(player::decode<player::Position2dCmdVel>(payload)));
       case PLAYER_POSITION2D_CMD_POS:
         return go_to(player::decode<player::Position2dCmdPos>(payload));
-      case PLAYER_POSITION2D_CMD_CAR: {
-        const auto asked = player::decode<player::Position2dCmdCar>(payload);
-        return drive(sim::CarCommand{asked.velocity, asked.angle});
-      }
+      case PLAYER_POSITION2D_CMD_CAR:
+        return drive(
+            from_players<sim::CarCommand>(player::decode<player::Position2dCmdCar>(payload)));
       case PLAYER_POSITION2D_CMD_VEL_HEAD: {
-        const auto asked = player::decode<player::Position2dCmdVelHead>(payload);
-        require_number("the heading", asked.angle);
-        return drive(sim::HeadingCommand{asked.velocity, 0.0, sim::normalize_angle(asked.angle),
-                                         binding().reading.device});
+        auto command = from_players<sim::HeadingCommand>(
+            player::decode<player::Position2dCmdVelHead>(payload));
+        require_number("the heading", command.yaw_rad);
+        command.yaw_rad = sim::normalize_angle(command.yaw_rad);
+        command.frame = binding().reading.device;
+        return drive(command);
       }
       default:
         return;
@@ -86,11 +82,9 @@ class Position2d final : public RobotDevice {
  protected:
   std::optional<std::string> answer(std::uint8_t subtype, std::string_view payload) override {
     switch (subtype) {
-      case PLAYER_POSITION2D_REQ_GET_GEOM: {
-        const sim::Vec2& center_m = robot().center_m;
-        return player::encode(player::Position2dGeom{
-            {center_m.x(), center_m.y(), 0.0, 0.0, 0.0, 0.0}, box_3d(robot())});
-      }
+      case PLAYER_POSITION2D_REQ_GET_GEOM:
+        return player::encode(
+            player::Position2dGeom{center_of<player::Pose3d>(robot()), box_3d(robot())});
       case PLAYER_POSITION2D_REQ_MOTOR_POWER:
         switch_motors(player::decode<player::Position2dPowerConfig>(payload).state != 0);
         return empty_payload();
@@ -134,11 +128,7 @@ class Position2d final : public RobotDevice {
   }
 
   void send_to_motors(const sim::Command& command) const {
-    if (!binding().motion) {
-      throw SessionError(
-          SessionError::Code::kNotAvailable,
-          "robot " + robot().name + " has no motors (a device of type \"motion\") in this world");
-    }
+    if (!binding().motion) throw no_motors(robot());
     session().send(*binding().motion, command);
   }
 
@@ -150,25 +140,16 @@ class Position2d final : public RobotDevice {
   }
 
   void go_to(const player::Position2dCmdPos& asked) const {
-    const sim::Pose goal{asked.pos.px, asked.pos.py, asked.pos.pa};
-    for (const double number : {goal.x_m, goal.y_m, goal.yaw_rad}) {
+    for (const double number : {asked.pos.px, asked.pos.py, asked.pos.pa}) {
       require_number("a goal's coordinate", number);
     }
     for (const double number : {asked.vel.px, asked.vel.py, asked.vel.pa}) {
       require_number("a speed", number);
     }
-    const double yaw_rad = sim::normalize_angle(goal.yaw_rad);
     if (driver_ == nullptr) {
-      return drive(sim::PositionCommand{{goal.x_m, goal.y_m, yaw_rad},
-                                        std::hypot(asked.vel.px, asked.vel.py),
-                                        std::abs(asked.vel.pa),
-                                        binding().reading.device});
+      return drive(position_command(asked.pos, asked.vel, binding().reading.device));
     }
-    const auto limited = [](double wish, double limit) {
-      return wish == 0.0 ? limit : std::min(std::abs(wish), limit);
-    };
-    driver_->go_to({goal.position(), yaw_rad, limited(asked.vel.px, max_speed_mps_),
-                    limited(asked.vel.pa, max_turn_rate_radps_)});
+    driver_->go_to(driver_goal(asked.pos, asked.vel, max_speed_mps_, max_turn_rate_radps_));
   }
 
   void switch_motors(bool on) const {
@@ -184,7 +165,7 @@ class Position2d final : public RobotDevice {
   void set_odometry(const player::Pose2d& pose) const {
     require_number("a coordinate of the odometry", pose.px + pose.py);
     require_number("the heading", pose.pa);
-    send(sim::SetPoseCommand{{pose.px, pose.py, sim::normalize_angle(pose.pa)}});
+    send(sim::SetPoseCommand{normalized_pose(pose)});
   }
 
   double max_speed_mps_;
@@ -227,9 +208,8 @@ class Localize final : public RobotDevice {
         }
         if (!is_filter()) return empty_payload();  // it needs no first pose
         for (const double number : asked.cov) require_number("a covariance", number);
-        const sim::Pose pose{asked.mean.px, asked.mean.py, sim::normalize_angle(asked.mean.pa)};
-        const sim::SetPoseCommand command = set_pose_command(pose, asked.cov);
-        send(command);  // refuses what is no pose or no covariance
+        // Refuses what is no pose or no covariance.
+        send(set_pose_command(normalized_pose(asked.mean), asked.cov));
         return empty_payload();
       }
       case PLAYER_LOCALIZE_REQ_GET_PARTICLES:
@@ -267,13 +247,7 @@ class PlannerDevice final : public RobotDevice {
 
   void on_reading(DeviceId /*device*/, const sim::Reading& /*reading*/, DataSink& sink) override {
     const PlannerState state = planner_->state();
-    player::PlannerData data;
-    data.valid = state.valid ? 1 : 0;
-    data.done = state.done ? 1 : 0;
-    data.pos = pose_2d(state.pose);
-    data.goal = pose_2d(state.goal);
-    data.waypoint = pose_2d(state.waypoint);
-    data.waypoint_idx = state.waypoint_index;
+    auto data = to_players<player::PlannerData>(state);
     data.waypoints_count = static_cast<std::uint32_t>(state.waypoints.size());
     sink.data(PLAYER_PLANNER_DATA_STATE, player::encode(data));
   }
@@ -284,7 +258,7 @@ class PlannerDevice final : public RobotDevice {
     for (const double number : {pose.px, pose.py, pose.pa}) {
       require_number("a coordinate of the pose", number);
     }
-    const sim::Pose X_W{pose.px, pose.py, sim::normalize_angle(pose.pa)};
+    const sim::Pose X_W = normalized_pose(pose);
     if (subtype == PLAYER_PLANNER_CMD_GOAL) {
       planner_->set_goal(X_W);
     } else {

@@ -150,13 +150,9 @@ std::string RobotDevice::driver() const {
 }
 
 std::uint32_t RobotDevice::count_setting(const std::string& name, std::uint32_t most) const {
-  return std::min(whole_number(setting(name)), most);
-}
-
-std::uint32_t whole_number(double value) {
-  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
-  if (!(value > 0.0)) return 0;  // or NaN
-  return static_cast<std::uint32_t>(std::llround(std::min(value, kMost)));
+  const double count = setting(name);
+  if (!(count > 0.0)) return 0;  // or NaN
+  return static_cast<std::uint32_t>(std::llround(std::min<double>(count, most)));
 }
 
 void require_number(const char* what, double value) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "libplayerinterface/player_constants.h"
+#include "session/player_values/ranger.h"
 #include "session/scan_drivers.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/rangers.h"
@@ -219,9 +220,8 @@ class RangerDevice final : public RobotDevice {
         is_laser_(info().type == "laser"),
         scanner_(is_laser_ ? scanner_settings(info().properties) : ScannerSettings{}),
         beams_(scanner_),
-        min_range_m_(setting("range_min")),
-        max_range_m_(setting("range_max")) {
-    if (!is_laser_) elements_ = element_mountings(info().properties);
+        limits_{setting("range_min"), setting("range_max")} {
+    if (!is_laser_) elements_ = element_poses<player::Pose3d>(*settings());
   }
 
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
@@ -241,7 +241,7 @@ class RangerDevice final : public RobotDevice {
     // As Stage's driver: intensities follow their ranges.
     player::RangerDataIntns strengths;
     for (const double range_m : data_.ranges) {
-      strengths.intensities.push_back(range_m < max_range_m_ ? echo : 0.0);
+      strengths.intensities.push_back(echo_intensity(range_m, limits_.max_m, echo));
     }
     sink.data(PLAYER_RANGER_DATA_INTNS, encode_long(strengths, length));
   }
@@ -271,9 +271,7 @@ class RangerDevice final : public RobotDevice {
   void show(const std::vector<double>& ranges_m, const BeamWindow& window) {
     data_.ranges.resize(window.shown);
     for (std::size_t i = 0; i < window.shown; ++i) {
-      const double range_m = ranges_m[window.first + i * window.stride];
-      data_.ranges[i] =
-          limits_ ? limited_range_m(range_m, range_res_m_, min_range_m_, max_range_m_) : range_m;
+      data_.ranges[i] = limits_.limited_m(ranges_m[window.first + i * window.stride]);
     }
   }
 
@@ -287,7 +285,7 @@ class RangerDevice final : public RobotDevice {
       return geometry;
     }
     geometry.size = box_3d(robot());
-    for (const Mounting& element : elements_) geometry.element_poses.push_back(pose_3d(element));
+    geometry.element_poses = elements_;
     geometry.element_sizes.resize(elements_.size());
     return geometry;
   }
@@ -298,9 +296,9 @@ class RangerDevice final : public RobotDevice {
     now.min_angle = is_laser_ ? beams_.min_rad() : -0.5 * view_rad;
     now.max_angle = is_laser_ ? beams_.max_rad() : 0.5 * view_rad;
     now.angular_res = is_laser_ ? beams_.spacing_rad() : view_rad;
-    now.min_range = min_range_m_;
-    now.max_range = max_range_m_;
-    now.range_res = range_res_m_ > 0.0 ? range_res_m_ : kRangeResolution_m;
+    now.min_range = limits_.min_m;
+    now.max_range = limits_.max_m;
+    now.range_res = limits_.resolution_m > 0.0 ? limits_.resolution_m : kRangeResolution_m;
     now.frequency = setting("frequency");
     return now;
   }
@@ -312,26 +310,18 @@ class RangerDevice final : public RobotDevice {
     require_number("the angular resolution", wish.angular_res);
     for (const double range_m : {wish.min_range, wish.max_range, wish.range_res}) {
       require_number("a range", range_m);
-      if (range_m >= 0.0) continue;
-      throw SessionError(SessionError::Code::kBadArgument,
-                         "a range, or the resolution of ranges, is negative");
     }
+    const RangeLimits limits =
+        range_limits({wish.min_range, wish.max_range, wish.range_res}, setting("range_max"));
     if (is_laser_) beams_.choose(wish.min_angle, wish.max_angle, wish.angular_res);
-    const double most_m = setting("range_max");
-    max_range_m_ = wish.max_range > 0.0 ? std::min(wish.max_range, most_m) : most_m;
-    min_range_m_ = std::min(wish.min_range, max_range_m_);
-    range_res_m_ = wish.range_res;
-    limits_ = range_res_m_ > 0.0 || min_range_m_ > 0.0 || max_range_m_ != most_m;
+    limits_ = limits;
   }
 
   const bool is_laser_;
   const ScannerSettings scanner_;
-  ShownBeams beams_;                // of a laser
-  std::vector<Mounting> elements_;  // of a ring
-  double min_range_m_;
-  double max_range_m_;
-  double range_res_m_ = 0.0;           // 0: ranges are not rounded
-  bool limits_ = false;                // whether a client has limited or rounded the ranges
+  ShownBeams beams_;                      // of a laser
+  std::vector<player::Pose3d> elements_;  // of a ring
+  RangeLimits limits_;
   player::RangerDataRange data_ = {};  // keeps its memory
 };
 
@@ -339,18 +329,13 @@ class RangerDevice final : public RobotDevice {
 class RingDevice : public RobotDevice {
  public:
   explicit RingDevice(const DeviceContext& context)
-      : RobotDevice(context), elements_(element_mountings(info().properties)) {}
+      : RobotDevice(context), poses_(element_poses<player::Pose3d>(*settings())) {}
 
  protected:
-  [[nodiscard]] std::vector<player::Pose3d> poses() const {
-    std::vector<player::Pose3d> poses;
-    poses.reserve(elements_.size());
-    for (const Mounting& element : elements_) poses.push_back(pose_3d(element));
-    return poses;
-  }
+  [[nodiscard]] const std::vector<player::Pose3d>& poses() const { return poses_; }
 
  private:
-  std::vector<Mounting> elements_;
+  const std::vector<player::Pose3d> poses_;
 };
 
 class SonarDevice final : public RingDevice {
@@ -389,16 +374,11 @@ class IrDevice final : public RingDevice {
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
     const auto* ring = reading_as<sim::RangerReading>(reading);
     if (ring == nullptr) return;
-    const double gain = setting("voltage_gain");
-    const double shift = setting("voltage_shift");
     data_.ranges.clear();
     data_.voltages.clear();
     for (std::size_t i = 0; i < ring->ranges_m.size(); ++i) {
-      const double range_m = ring->ranges_m[i];
-      data_.ranges.push_back(static_cast<float>(range_m));
-      data_.voltages.push_back(static_cast<float>(
-          i < ring->voltages_v.size() ? ring->voltages_v[i]
-                                      : sim::infrared_voltage_v(range_m, gain, shift)));
+      data_.ranges.push_back(static_cast<float>(ring->ranges_m[i]));
+      data_.voltages.push_back(static_cast<float>(voltage_v(*ring, i, *settings())));
     }
     sink.data(PLAYER_IR_DATA_RANGES, player::encode(data_));
   }

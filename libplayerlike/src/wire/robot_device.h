@@ -15,6 +15,7 @@
 #include "protocol/player_structs.h"
 #include "protocol/player_xdr.h"
 #include "session/player_values.h"
+#include "session/player_values/poses.h"
 #include "session/range_settings.h"
 #include "wire/player_device.h"
 
@@ -101,25 +102,29 @@ template <typename Reading>
   return typeid(reading) == typeid(Reading) ? static_cast<const Reading*>(&reading) : nullptr;
 }
 
+/// A device whose readings are one of Player's structs, see same_values().
+template <typename Reading, typename Data, std::uint8_t kSubtype>
+class PlainDevice : public RobotDevice {
+ public:
+  using RobotDevice::RobotDevice;
+
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
+    const auto* measured = reading_as<Reading>(reading);
+    if (measured != nullptr) sink.data(kSubtype, player::encode(to_players<Data>(*measured)));
+  }
+};
+
 /// @name Values in Player's form
 /// @{
 [[nodiscard]] inline player::Pose2d pose_2d(const sim::Pose& pose) {
-  return {pose.x_m, pose.y_m, pose.yaw_rad};
+  return to_players<player::Pose2d>(pose);
 }
-[[nodiscard]] inline player::Pose3d pose_3d(const Mounting& mounting) {
-  return {mounting.x_m, mounting.y_m, mounting.z_m, 0.0, 0.0, mounting.yaw_rad};
+/// @param placed  a Mounting or a sim::Pose.
+[[nodiscard]] player::Pose3d pose_3d(const auto& placed) {
+  return to_players<player::Pose3d>(placed);
 }
-[[nodiscard]] inline player::Pose3d pose_3d(const sim::Pose& pose) {
-  return {pose.x_m, pose.y_m, 0.0, 0.0, 0.0, pose.yaw_rad};
-}
-[[nodiscard]] inline player::Bbox3d box_3d(const BoxSize& size) {
-  return {size.width_m, size.length_m, size.height_m};
-}
-[[nodiscard]] inline player::Bbox3d box_3d(const RobotInfo& robot) {
-  return {robot.width_m, robot.length_m, robot.height_m};
-}
-/// A number that is not negative. @param value  clamped to the range of the type.
-[[nodiscard]] std::uint32_t whole_number(double value);
+/// @param sized  a BoxSize or a RobotInfo.
+[[nodiscard]] player::Bbox3d box_3d(const auto& sized) { return to_players<player::Bbox3d>(sized); }
 /// @}
 
 /// A text of a message without its final zero byte.

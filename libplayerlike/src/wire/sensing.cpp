@@ -3,61 +3,35 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "libplayerinterface/player_constants.h"
-#include "session/player_values.h"
-#include "sim/devices/battery.h"
-#include "sim/devices/bumper.h"
+#include "session/player_values/blobfinder.h"
+#include "session/player_values/bumper.h"
+#include "session/player_values/fiducial.h"
+#include "session/player_values/gps.h"
+#include "session/player_values/imu.h"
+#include "session/player_values/power.h"
+#include "session/player_values/wifi.h"
 #include "sim/devices/camera.h"
 #include "sim/devices/compass.h"
-#include "sim/devices/gps.h"
-#include "sim/devices/imu.h"
 #include "sim/devices/space_sensors.h"
-#include "sim/devices/wifi.h"
 #include "wire/robot_device.h"
 
 namespace playerlike::wire {
 namespace {
 
-class Blobfinder final : public RobotDevice {
+using Blobfinder =
+    PlainDevice<sim::BlobfinderReading, player::BlobfinderData, PLAYER_BLOBFINDER_DATA_BLOBS>;
+
+class Bumper final
+    : public PlainDevice<sim::BumperReading, player::BumperData, PLAYER_BUMPER_DATA_STATE> {
  public:
-  using RobotDevice::RobotDevice;
-
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
-    const auto* seen = reading_as<sim::BlobfinderReading>(reading);
-    if (seen == nullptr) return;
-    player::BlobfinderData data;
-    data.width = static_cast<std::uint32_t>(seen->width);
-    data.height = static_cast<std::uint32_t>(seen->height);
-    for (const auto& blob : seen->blobs) {
-      data.blobs.push_back(blob_of<player::BlobfinderBlob>(blob));
-    }
-    sink.data(PLAYER_BLOBFINDER_DATA_BLOBS, player::encode(data));
-  }
-};
-
-class Bumper final : public RobotDevice {
- public:
-  using RobotDevice::RobotDevice;
-
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
-    const auto* felt = reading_as<sim::BumperReading>(reading);
-    if (felt == nullptr) return;
-    sink.data(PLAYER_BUMPER_DATA_STATE, player::encode(player::BumperData{felt->pressed}));
-  }
+  using PlainDevice::PlainDevice;
 
  protected:
   std::optional<std::string> answer(std::uint8_t subtype, std::string_view /*payload*/) override {
     if (subtype != PLAYER_BUMPER_REQ_GET_GEOM) return std::nullopt;
-    player::BumperGeom geometry;
-    for (const Mounting& segment : element_mountings(*settings())) {
-      const std::string number = std::to_string(geometry.bumper_def.size());
-      geometry.bumper_def.push_back({pose_3d(segment),
-                                     static_cast<float>(setting("length_" + number)),
-                                     static_cast<float>(setting("radius_" + number))});
-    }
-    return player::encode(geometry);
+    return player::encode(player::BumperGeom{bumper_segments<player::BumperDefine>(*settings())});
   }
 };
 
@@ -128,29 +102,7 @@ class Gps final : public RobotDevice {
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
     const auto* fix = reading_as<sim::GpsReading>(reading);
     if (fix == nullptr) return;
-    constexpr double kDegrees = 180.0 / std::numbers::pi;
-    // Clients divide the UTM coordinates by 100 and the dilutions of precision by 10.
-    constexpr double kUtmUnits = 100.0;
-    constexpr std::uint32_t kOneDop = 10;
-    const bool has_fix = fix->quality > 0;
-    player::GpsData data;
-    data.time_sec = static_cast<std::uint32_t>(fix->time_ns / sim::kNanosecondsPerSecond);
-    data.time_usec = static_cast<std::uint32_t>(fix->time_ns % sim::kNanosecondsPerSecond / 1000);
-    data.latitude = static_cast<std::int32_t>(std::lround(1e7 * kDegrees * fix->latitude_rad));
-    data.longitude = static_cast<std::int32_t>(std::lround(1e7 * kDegrees * fix->longitude_rad));
-    data.altitude =
-        static_cast<std::int32_t>(std::lround(std::clamp(1e3 * fix->altitude_m, -2e9, 2e9)));
-    data.speed = fix->speed_mps;
-    data.course = fix->course_rad;
-    data.utm_e = kUtmUnits * fix->utm_easting_m;
-    data.utm_n = kUtmUnits * fix->utm_northing_m;
-    data.quality = static_cast<std::uint32_t>(fix->quality);
-    data.num_sats = static_cast<std::uint32_t>(fix->satellites);
-    data.hdop = has_fix ? kOneDop : 0;
-    data.vdop = has_fix ? kOneDop : 0;
-    data.err_horz = has_fix ? setting("noise") : 0.0;
-    data.err_vert = has_fix ? setting("noise_vertical") : 0.0;
-    sink.data(PLAYER_GPS_DATA_STATE, player::encode(data));
+    sink.data(PLAYER_GPS_DATA_STATE, player::encode(gps_data<player::GpsData>(*fix, *settings())));
   }
 };
 
@@ -163,13 +115,13 @@ class Imu final : public RobotDevice {
     if (const auto* compass = reading_as<sim::CompassReading>(reading)) {
       send_data(compass->heading_rad, {}, false, sink);
     } else if (const auto* unit = reading_as<sim::ImuReading>(reading)) {
-      send_data(unit->yaw_rad, imu_values<player::ImuDataCalib>(*unit), true, sink);
+      send_data(unit->yaw_rad, to_players<player::ImuDataCalib>(*unit), true, sink);
     } else if (const auto* gyroscope = reading_as<sim::GyroscopeReading>(reading)) {
       send_data(gyroscope->yaw_rad, {}, false, sink);
     } else if (const auto* motion = reading_as<sim::AccelerometerReading>(reading)) {
       sim::ImuReading values;
       values.acceleration_mps2 = motion->acceleration_mps2;
-      send_data(0.0, imu_values<player::ImuDataCalib>(values), true, sink);
+      send_data(0.0, to_players<player::ImuDataCalib>(values), true, sink);
     }
   }
 
@@ -244,15 +196,8 @@ class Power final : public RobotDevice {
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
     const auto* battery = reading_as<sim::BatteryReading>(reading);
     if (battery == nullptr) return;
-    constexpr double kJoulesPerWattHour = 3600.0;
-    player::PowerData data;
-    data.valid = PLAYER_POWER_MASK_VOLTS | PLAYER_POWER_MASK_WATTS | PLAYER_POWER_MASK_JOULES |
-                 PLAYER_POWER_MASK_PERCENT | PLAYER_POWER_MASK_CHARGING;
-    data.volts = static_cast<float>(battery->voltage_v);
-    data.percent = static_cast<float>(battery->charge_percent);
-    data.joules = static_cast<float>(battery->energy_wh * kJoulesPerWattHour);
-    data.watts = static_cast<float>(battery->power_w);
-    data.charging = battery->status == sim::BatteryStatus::kCharging ? 1 : 0;
+    auto data = to_players<player::PowerData>(*battery);
+    data.valid = kPowerFields;
     sink.data(PLAYER_POWER_DATA_STATE, player::encode(data));
   }
 };
@@ -264,34 +209,14 @@ class Wifi final : public RobotDevice {
   void on_reading(DeviceId /*device*/, const sim::Reading& reading, DataSink& sink) override {
     const auto* heard = reading_as<sim::WifiReading>(reading);
     if (heard == nullptr) return;
-    // Levels are negative numbers: clients take them from the unsigned fields.
-    const auto level = [](double dbm) {
-      return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(dbm)));
-    };
     player::WifiData data;
     for (const auto& station : heard->links) {
-      player::WifiLink& link = data.links.emplace_back();
-      link.mac = short_text(station.mac);
-      link.ip = short_text(station.ip);
-      link.essid = short_text(station.name);
-      link.mode = station.access_point ? PLAYER_WIFI_MODE_MASTER : PLAYER_WIFI_MODE_ADHOC;
-      link.freq = whole_number(heard->channel_mhz);
-      link.qual = static_cast<std::uint32_t>(sim::link_quality(station.level_dbm));
-      link.level = level(station.level_dbm);
-      link.noise = level(heard->floor_dbm);
+      data.links.push_back(wifi_link<player::WifiLink>(*heard, station));
     }
     data.mode = PLAYER_WIFI_MODE_ADHOC;
     data.qual_type = PLAYER_WIFI_QUAL_DBM;
     data.maxqual = 100;  // in percent, unlike the levels
     sink.data(PLAYER_WIFI_DATA_STATE, player::encode(data));
-  }
-
- private:
-  // The bytes of a text with a final zero byte; the protocol has room for 32.
-  [[nodiscard]] static std::vector<std::uint8_t> short_text(std::string_view text) {
-    constexpr std::size_t kRoom = 32;
-    const std::string bytes = player::text_bytes(text.substr(0, kRoom - 1));
-    return {bytes.begin(), bytes.end()};
   }
 };
 

@@ -7,7 +7,7 @@
 #include "libplayerinterface/player_constants.h"
 #include "session/blackboard_feed.h"
 #include "session/object_values.h"
-#include "session/player_values.h"
+#include "session/player_values/map.h"
 #include "wire/robot_device.h"
 
 namespace playerlike::wire {
@@ -246,7 +246,7 @@ class Simulation final : public CommonDevice {
       }
       case PLAYER_SIMULATION_REQ_SET_POSE2D: {
         const auto asked = player::decode<player::SimulationPose2dReq>(payload);
-        place(asked.name, {asked.pose.px, asked.pose.py, asked.pose.pa});
+        place(asked.name, from_players<sim::Pose>(asked.pose));
         return empty_payload();
       }
       case PLAYER_SIMULATION_REQ_GET_POSE3D: {
@@ -258,7 +258,7 @@ class Simulation final : public CommonDevice {
       }
       case PLAYER_SIMULATION_REQ_SET_POSE3D: {
         const auto asked = player::decode<player::SimulationPose3dReq>(payload);
-        place(asked.name, {asked.pose.px, asked.pose.py, asked.pose.pyaw});
+        place(asked.name, from_players<sim::Pose>(asked.pose));
         return empty_payload();
       }
       case PLAYER_SIMULATION_REQ_GET_PROPERTY: {

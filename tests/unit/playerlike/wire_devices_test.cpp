@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Devices in Player's protocol. Their data are compared with those of the proxies in another
 // simulation of the same world; simulations are deterministic. Where both use the same function
-// (session/player_values.h), the expected numbers are derived by hand.
+// (session/player_values/), the expected numbers are derived by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -455,6 +455,8 @@ TEST(WireSonar, Ranges_MatchProxy) {
   for (std::uint32_t i = 0; i < proxy.GetPoseCount(); ++i) {
     expect_equal(proxy.GetPose(i), geometry.poses[i]);
   }
+  EXPECT_DOUBLE_EQ(geometry.poses.at(0).px, -0.08);  // at the back, in the world
+  EXPECT_DOUBLE_EQ(geometry.poses.at(0).pyaw, M_PI);
   EXPECT_TRUE(device.accepts(PLAYER_SONAR_REQ_POWER, player::SonarPowerConfig{1}));
 }
 
@@ -500,6 +502,13 @@ TEST(WireBumper, Segments_MatchProxy) {
   EXPECT_TRUE(has_bumped);
   const auto geometry = device.request<player::BumperGeom>(PLAYER_BUMPER_REQ_GET_GEOM);
   ASSERT_EQ(geometry.bumper_def.size(), proxy.GetPoseCount());
+  // The right one of the two in the world.
+  const player::BumperDefine& right = geometry.bumper_def.at(1);
+  EXPECT_DOUBLE_EQ(right.pose.px, 0.078);
+  EXPECT_DOUBLE_EQ(right.pose.py, -0.045);
+  EXPECT_DOUBLE_EQ(right.pose.pyaw, -M_PI / 6.0);
+  EXPECT_EQ(right.length, 0.094F);
+  EXPECT_EQ(right.radius, 0.09F);
   for (std::uint32_t i = 0; i < proxy.GetPoseCount(); ++i) {
     expect_equal(proxy.GetPose(i).pose, geometry.bumper_def[i].pose);
     EXPECT_EQ(proxy.GetPose(i).length, geometry.bumper_def[i].length);
@@ -753,7 +762,7 @@ TEST(WireWifi, Links_MatchProxy) {
   twins.read(device, 2);
   const auto data = device.data<player::WifiData>();
   ASSERT_EQ(data.links.size(), static_cast<std::size_t>(proxy.GetLinkCount()));
-  ASSERT_GT(proxy.GetLinkCount(), 0);
+  ASSERT_EQ(proxy.GetLinkCount(), 2);
   const auto text = [](const std::vector<std::uint8_t>& bytes) {
     EXPECT_EQ(bytes.back(), 0);
     return std::string(bytes.begin(), bytes.end() - 1);
@@ -769,6 +778,15 @@ TEST(WireWifi, Links_MatchProxy) {
     EXPECT_EQ(static_cast<std::int32_t>(link.level), proxy.GetLinkLevel(i));
     EXPECT_EQ(static_cast<std::int32_t>(link.noise), proxy.GetLinkNoise(i));
   }
+  const player::WifiLink& talker = data.links[0];
+  EXPECT_EQ(text(talker.essid), "talker");
+  EXPECT_EQ(talker.mode, unsigned{PLAYER_WIFI_MODE_ADHOC});
+  EXPECT_EQ(talker.freq, 2437U);
+  EXPECT_EQ(static_cast<std::int32_t>(talker.noise), -95);
+  // At 4 m: -40 - 30 log10(4) = -58 dBm; 4 deviations of 2 dB are allowed.
+  EXPECT_NEAR(static_cast<std::int32_t>(talker.level), -58, 8);
+  EXPECT_EQ(text(data.links[1].essid), "hall");
+  EXPECT_EQ(data.links[1].mode, unsigned{PLAYER_WIFI_MODE_MASTER});
 }
 
 // --- Acting
