@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "protocol/player_xdr.h"
 #include "session/player_values.h"
 #include "session/range_settings.h"
+#include "session/reading_as.h"
 #include "wire/player_device.h"
 
 /// Shared parts of the devices of Player's protocol.
@@ -94,12 +94,6 @@ class RobotDevice : public CommonDevice {
   const RobotInfo& robot_;
   const DeviceInfo& info_;
 };
-
-/// The reading as its own type; null if it is of another type.
-template <typename Reading>
-[[nodiscard]] const Reading* reading_as(const sim::Reading& reading) {
-  return typeid(reading) == typeid(Reading) ? static_cast<const Reading*>(&reading) : nullptr;
-}
 
 /// @name Values in Player's form
 /// @{

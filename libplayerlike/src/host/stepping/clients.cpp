@@ -85,8 +85,8 @@ void Clients::unsubscribe(Client& client, DeviceId device) {
   all.erase(all.begin() + (gone - all.data()));
   if (all.empty()) ++unsubscribed_;
   forget_subscriber(client, device);
-  client.has_data = std::any_of(all.begin(), all.end(),
-                                [](const auto& s) { return s.fresh || !s.queue.empty(); });
+  client.has_data =
+      std::any_of(all.begin(), all.end(), [](const auto& s) { return !s.unread.empty(); });
   begin_round(client);
 }
 
@@ -95,13 +95,7 @@ void Clients::set_replace(Client& client, std::optional<DeviceId> device, bool r
   for (Client::Subscription& s : client.subscriptions) {
     if (device && !(s.device == *device)) continue;
     s.replace = replace;
-    // Unread readings are kept, in the form that the new rule needs.
-    if (replace && !s.queue.empty()) {
-      s.queue.erase(s.queue.begin(), s.queue.end() - 1);
-    } else if (!replace && s.fresh) {
-      s.fresh = false;
-      s.queue.push_back(reading(s.device));
-    }
+    if (replace && !s.unread.empty()) s.unread.erase(s.unread.begin(), s.unread.end() - 1);
   }
 }
 
@@ -117,36 +111,20 @@ void Clients::distribute(const std::map<int, RunLog>& logs) {
   for (const auto& [port, log] : logs) {
     if (!log.replaying()) continue;
     replayed.push_back(port);
-    for (const RunLog::Entry* entry : log.due()) {
-      for (Client* client : subscribers(entry->device)) {
-        if (client->port != port) continue;
-        give(entry->reading, *find(*client, entry->device), *client);
-      }
-    }
+    const auto is_its = [number = port](const Client& client) { return client.port == number; };
+    for (const RunLog::Entry* entry : log.due()) give(entry->device, entry->reading, is_its);
   }
-  const auto is_replayed = [&](const Client& client) {
-    return std::find(replayed.begin(), replayed.end(), client.port) != replayed.end();
+  const auto is_live = [&](const Client& client) {
+    return std::find(replayed.begin(), replayed.end(), client.port) == replayed.end();
   };
   if (mirror_ != nullptr) {
-    for (const auto& [device, reading] : mirror_->readings()) {
-      for (Client* client : subscribers(device)) {
-        if (!is_replayed(*client)) give(reading, *find(*client, device), *client);
-      }
-    }
+    for (const auto& [device, reading] : mirror_->readings()) give(device, reading, is_live);
   }
   for (const DeviceId& updated : simulation_.updated()) {
     if (mirror_ != nullptr && mirror_->replaces(updated)) continue;
-    for (Client* client : subscribers(updated)) {
-      if (is_replayed(*client)) continue;
-      Client::Subscription& s = *find(*client, updated);
-      if (s.replace) {
-        client->has_data = true;
-        s.fresh = true;
-        s.queue.clear();
-        continue;
-      }
-      give(reading(updated), s, *client);
-    }
+    // The sensor of a shared reading makes its next one in another object.
+    if (subscribers(updated).empty()) continue;
+    give(updated, simulation_.device(updated.robot, updated.device).sensor()->share(), is_live);
   }
 }
 
@@ -180,9 +158,8 @@ std::vector<std::pair<DeviceId, sim::SharedReading>> Clients::take(Client& clien
   begin_round(client);
   taken.reserve(client.subscriptions.size());
   for (Client::Subscription& s : client.subscriptions) {
-    if (std::exchange(s.fresh, false)) taken.emplace_back(s.device, reading(s.device));
-    for (sim::SharedReading& queued : s.queue) taken.emplace_back(s.device, std::move(queued));
-    s.queue.clear();
+    for (sim::SharedReading& reading : s.unread) taken.emplace_back(s.device, std::move(reading));
+    s.unread.clear();
   }
   return taken;
 }
@@ -206,23 +183,20 @@ void Clients::begin_round(Client& client) const {
   client.empty_round_ns = simulation_.now_ns() + kEmptyRound_ns;
 }
 
-void Clients::give(const sim::SharedReading& reading, Client::Subscription& subscription,
-                   Client& client) {
-  client.has_data = true;
-  if (subscription.replace) {
-    subscription.fresh = false;
-    subscription.queue.clear();
-  } else if (subscription.queue.size() == kQueueLimit) {
-    subscription.queue.erase(subscription.queue.begin());
-    ++client.overflow;
+template <typename IsFor>
+void Clients::give(DeviceId device, const sim::SharedReading& reading, IsFor is_for) {
+  for (Client* const client : subscribers(device)) {
+    if (!is_for(*client)) continue;
+    Client::Subscription& s = *find(*client, device);
+    client->has_data = true;
+    if (s.replace) {
+      s.unread.clear();
+    } else if (s.unread.size() == kQueueLimit) {
+      s.unread.erase(s.unread.begin());
+      ++client->overflow;
+    }
+    s.unread.push_back(reading);
   }
-  subscription.queue.push_back(reading);
-}
-
-sim::SharedReading Clients::reading(DeviceId device) const {
-  // Only sensors can be subscribed to. A dynamic cast would cost as much as the rest of this
-  // function.
-  return simulation_.device(device.robot, device.device).sensor()->share();
 }
 
 }  // namespace playerlike

@@ -60,9 +60,9 @@ class Clients {
   [[nodiscard]] static Client::Subscription* find(Client& client, DeviceId device);
   void forget_subscriber(const Client& client, DeviceId device) noexcept;
   void begin_round(Client& client) const;
-  static void give(const sim::SharedReading& reading, Client::Subscription& subscription,
-                   Client& client);
-  [[nodiscard]] sim::SharedReading reading(DeviceId device) const;
+  /// Gives a reading to those subscribers of its device for which is_for(client) is true.
+  template <typename IsFor>
+  void give(DeviceId device, const sim::SharedReading& reading, IsFor is_for);
 
   const sim::Simulation& simulation_;
   const bool by_creator_;
