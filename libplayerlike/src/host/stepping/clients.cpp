@@ -24,7 +24,7 @@ bool subscribed_before(const Client::Subscription& s, DeviceId id) {
 Clients::Clients(const sim::Simulation& simulation, const std::vector<RobotInfo>& robots,
                  bool by_creator, const Mirror* mirror)
     : simulation_(simulation), by_creator_(by_creator), mirror_(mirror) {
-  for (const RobotInfo& robot : robots) subscribers_.emplace_back(robot.devices.size());
+  for (const RobotInfo& robot : robots) feeds_.emplace_back(robot.devices.size());
 }
 
 bool Clients::any_but_onlookers() const {
@@ -73,7 +73,7 @@ void Clients::subscribe(Client& client, DeviceId device) {
     it = all.emplace(it);
     it->device = device;
     it->replace = client.replace_by_default;
-    subscribers(device).push_back(&client);
+    feed(device).subscribers.push_back(&client);
   }
   ++it->count;
 }
@@ -112,19 +112,25 @@ void Clients::distribute(const std::map<int, RunLog>& logs) {
     if (!log.replaying()) continue;
     replayed.push_back(port);
     const auto is_its = [number = port](const Client& client) { return client.port == number; };
-    for (const RunLog::Entry* entry : log.due()) give(entry->device, entry->reading, is_its);
+    for (const RunLog::Entry* entry : log.due()) {
+      give(feed(entry->device), entry->device, entry->reading, is_its);
+    }
   }
   const auto is_live = [&](const Client& client) {
     return std::find(replayed.begin(), replayed.end(), client.port) == replayed.end();
   };
   if (mirror_ != nullptr) {
-    for (const auto& [device, reading] : mirror_->readings()) give(device, reading, is_live);
+    for (const auto& [device, reading] : mirror_->readings()) {
+      feed(device).count();
+      give(feed(device), device, reading, is_live);
+    }
   }
   for (const DeviceId& updated : simulation_.updated()) {
     if (mirror_ != nullptr && mirror_->replaces(updated)) continue;
-    // The sensor of a shared reading makes its next one in another object.
-    if (subscribers(updated).empty()) continue;
-    give(updated, simulation_.device(updated.robot, updated.device).sensor()->share(), is_live);
+    Feed& to = feed(updated);
+    to.count();
+    if (to.subscribers.empty()) continue;
+    give(to, updated, simulation_.device(updated.robot, updated.device).sensor()->share(), is_live);
   }
 }
 
@@ -164,9 +170,10 @@ std::vector<std::pair<DeviceId, sim::SharedReading>> Clients::take(Client& clien
   return taken;
 }
 
-std::vector<Client*>& Clients::subscribers(DeviceId device) {
-  return subscribers_[static_cast<std::size_t>(device.robot)]
-                     [static_cast<std::size_t>(device.device)];
+sim::SharedReading Clients::newest(DeviceId device) const {
+  if (mirror_ != nullptr && mirror_->replaces(device)) return mirror_->newest(device);
+  sim::SharedReading reading = simulation_.device(device.robot, device.device).sensor()->share();
+  return reading->sequence > 0 ? reading : nullptr;
 }
 
 Client::Subscription* Clients::find(Client& client, DeviceId device) {
@@ -176,7 +183,7 @@ Client::Subscription* Clients::find(Client& client, DeviceId device) {
 }
 
 void Clients::forget_subscriber(const Client& client, DeviceId device) noexcept {
-  std::erase(subscribers(device), &client);
+  std::erase(feed(device).subscribers, &client);
 }
 
 void Clients::begin_round(Client& client) const {
@@ -184,8 +191,9 @@ void Clients::begin_round(Client& client) const {
 }
 
 template <typename IsFor>
-void Clients::give(DeviceId device, const sim::SharedReading& reading, IsFor is_for) {
-  for (Client* const client : subscribers(device)) {
+void Clients::give(const Feed& feed, DeviceId device, const sim::SharedReading& reading,
+                   IsFor is_for) {
+  for (Client* const client : feed.subscribers) {
     if (!is_for(*client)) continue;
     Client::Subscription& s = *find(*client, device);
     client->has_data = true;
