@@ -84,11 +84,7 @@ void end_without(playerlike::Host& host, const playerlike::KeptRun& kept,
         return simulation.layers().cell_count() <= kSmallCanvas;
       });
       // The report of the last second exists, but it does not say the end.
-      const auto is_reported = [&kept] {
-        const playerlike::KeptRun::Phase phase = kept.phase();
-        return phase == playerlike::KeptRun::Phase::kReported ||
-               phase == playerlike::KeptRun::Phase::kDone;
-      };
+      const auto is_reported = [&kept] { return playerlike::KeptRun::has_reported(kept.phase()); };
       const auto end = Clock::now() + (is_small ? kPictureTime : kReportTime);
       while (!(is_reported() && (!is_small || has_pictures(request.settings))) &&
              Clock::now() < end) {

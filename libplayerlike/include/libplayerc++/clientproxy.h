@@ -16,6 +16,10 @@
 #include "libplayerc++/playerstructs.h"
 #include "libplayerc++/readsignal.h"
 
+namespace sim {
+struct Reading;
+}  // namespace sim
+
 namespace PlayerCc {
 
 /// Common base of all proxies. A proxy represents the device at an index of an interface on a
@@ -143,8 +147,9 @@ class ClientProxy {
   /// Returns a member of the newest reading; see above.
   template <typename Reading, typename T>
   T Look(T Reading::*aMember, const char* aFun = "ClientProxy") const;
-  /// Called for each new reading of the device.
-  virtual void HandleReading();
+  /// Called for each new reading of the device. The implementation of the base class lets the
+  /// getters return it.
+  virtual void HandleReading(const std::shared_ptr<const sim::Reading>& aReading);
   /// Calls HandlePoll() in each round from now on. For proxies of the world, which have no
   /// readings.
   void Poll();

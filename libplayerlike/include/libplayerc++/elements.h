@@ -74,10 +74,10 @@ class Elements {
   bool MayShow() const { return IsSoleUser(); }
   /// Sets the elements to be read from now on.
   /// @param aFirst, aStep  bearing of element 0, and between neighbours [rad].
-  void Show(const std::shared_ptr<const void>& aOwner, const double* aValues, std::uint32_t aCount,
+  void Show(std::shared_ptr<const void> aOwner, const double* aValues, std::uint32_t aCount,
             double aFirst = 0.0, double aStep = 0.0) {
     if (!IsSoleUser()) return;
-    mOwner = aOwner;
+    mOwner.swap(aOwner);
     mValues = aValues;
     if (aCount != mCount || aFirst != mFirst || aStep != mStep) mBearingCount = 0;
     mCount = aCount;

@@ -103,7 +103,7 @@ class Position2dProxy : public ClientProxy {
   bool GetStall() const { return Number(kStall) > 0.0; }
 
  protected:
-  void HandleReading() override;
+  void HandleReading(const std::shared_ptr<const sim::Reading>& aReading) override;
 
  private:
   struct Control;
@@ -117,6 +117,7 @@ class Position2dProxy : public ClientProxy {
   }
   // Locks the client's mutex.
   [[gnu::cold]] double LockedNumber(Numbers aNumber) const;
+  void ShowNumbers();
 
   std::unique_ptr<Control> mControl;
   double mNumbers[kNumberCount] = {};  // written and read by the client's sole user only

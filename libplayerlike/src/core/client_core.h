@@ -9,13 +9,13 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <typeinfo>
 #include <utility>
 #include <vector>
 
 #include "libplayerc++/elements.h"
 #include "libplayerc++/mutex.h"
 #include "playerlike/session/session.h"
+#include "session/reading_as.h"
 
 namespace playerlike {
 
@@ -196,8 +196,7 @@ struct Newest {
   /// The reading; null if there is none of that type.
   template <typename R>
   [[nodiscard]] const R* find() const noexcept {
-    const sim::Reading* const any = reading.get();
-    return any != nullptr && typeid(*any) == typeid(R) ? static_cast<const R*>(any) : nullptr;
+    return reading != nullptr ? reading_as<R>(*reading) : nullptr;
   }
 
   sim::SharedReading reading;

@@ -192,8 +192,8 @@ bool Host::Core::may_advance(bool all_known_waiting) {
          program_takes_part() && (all_known_waiting || lockstep_.all_wait());
 }
 
-bool Host::Core::wait_is_over(const Client& client) const {
-  return over() || (client.wants_data && client.has_data) || !client.lost_robot.empty() ||
+bool Host::Core::is_due(const Client& client) const {
+  return (client.wants_data && client.has_data) || !client.lost_robot.empty() ||
          (client.wake_ns && simulation_.now_ns() >= *client.wake_ns);
 }
 
@@ -471,8 +471,9 @@ bool Host::Core::release_waiters() {
   if (turns) clock_->make_ready();
   bool anybody = turns;
   bool released = false;
+  const bool all = over();
   for (const auto& client : clients_) {
-    if (!client->waiting || !wait_is_over(*client)) continue;
+    if (!client->waiting || !(all || is_due(*client))) continue;
     client->waiting = false;
     anybody = true;
     client->touch();
@@ -483,7 +484,7 @@ bool Host::Core::release_waiters() {
     }
   }
   if (released) changed_.notify_all();
-  alarms_.ring(simulation_, over());
+  alarms_.ring(simulation_, all);
   return anybody;
 }
 

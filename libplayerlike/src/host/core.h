@@ -181,7 +181,9 @@ class Host::Core {
   /// until the end of the run.
   void wait_until(Lock& lock, Client& client, bool wants_data, std::optional<sim::SimTime> wake_ns);
   /// Whether the client's wait is over.
-  [[nodiscard]] bool wait_is_over(const Client& client) const;
+  [[nodiscard]] bool wait_is_over(const Client& client) const { return over() || is_due(client); }
+  /// Whether it is over, also if the run is not.
+  [[nodiscard]] bool is_due(const Client& client) const;
   [[nodiscard]] bool program_takes_part() const;
   /// Whether lockstep time may advance by a step now.
   /// @param all_known_waiting  the caller knows that all clients wait.

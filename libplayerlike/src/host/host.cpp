@@ -70,6 +70,12 @@ bool Host::cancel_alarm(AlarmId alarm) {
 void Host::look_at_simulation(const std::function<void(const sim::Simulation&)>& look) const {
   core_->locked([&] { look(core_->simulation_); });
 }
+sim::SharedReading Host::newest_reading(DeviceId sensor) const {
+  return core_->locked([&] { return core_->clients_.newest(sensor); });
+}
+std::uint64_t Host::count_of_readings(DeviceId sensor) const noexcept {
+  return core_->clients_.count_of_readings(sensor);
+}
 void Host::set_step_credit(std::optional<std::uint64_t> steps) {
   core_->change_step_limit([&](Pace& pace) { pace.set_limit(steps); });
 }

@@ -23,13 +23,9 @@ using playerlike::translated;
 
 void ClientProxy::Link::on_reading(const sim::SharedReading& reading) {
   refresh(sim::to_seconds(reading->time_ns));
-  newest.reading = reading;
-  proxy.HandleReading();
-  show();
+  proxy.HandleReading(reading);
   proxy.mFresh = true;
 }
-
-void ClientProxy::Link::show() { playerlike::show_elements(proxy.mElements, newest); }
 
 ClientProxy::scoped_lock_t ClientProxy::Link::lock_anyway(int looks) const {
   playerlike::virtual_time::count_data_reads(looks);
@@ -124,8 +120,7 @@ ClientProxy::ClientProxy(const ClientProxy& aOther)
     mLink->binding = other.binding;
     mLink->attached = other.attached;
     mLink->has_readings = other.has_readings;
-    mLink->newest.reading = other.newest.reading;
-    mLink->measured = other.measured;
+    mLink->show(other.newest.reading, other.whole_scan);
     mLink->newest.valid = other.newest.valid;
     mLink->device = other.device;
     mLink->has_warned = other.has_warned;
@@ -179,7 +174,7 @@ ClientProxy::scoped_lock_t ClientProxy::LockData(const char* aFun) const {
   return mLink->lock(aFun);
 }
 
-void ClientProxy::HandleReading() {}
+void ClientProxy::HandleReading(const sim::SharedReading& aReading) { mLink->show(aReading); }
 
 void ClientProxy::HandleRound() {}
 

@@ -34,8 +34,7 @@ LaserProxy::LaserProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aI
   const scoped_lock_t lock(LockData(fun));
   const detail::ScannerSettings scanner = detail::scanner_settings(mLink->info().properties);
   mCount = mShown = scanner.count;
-  mLink->measured = detail::announced_scan(scanner);
-  mLink->show(mLink->measured);
+  mLink->show(detail::announced_scan(scanner));
   const playerlike::ScanDriverInfo* const driver = mLink->binding.scan_driver;
   if (driver == nullptr) return;
   if (const auto* stamps = std::get_if<playerlike::PoseInterpolatorSettings>(&driver->settings)) {
@@ -50,12 +49,9 @@ LaserProxy::LaserProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aI
 
 LaserProxy::~LaserProxy() { ClientProxy::Unsubscribe(); }
 
-void LaserProxy::HandleReading() {
-  const auto* scan = mLink->newest.find<LaserReading>();
-  if (scan == nullptr) return View();
-  const playerlike::ScanDriverInfo* const driver = mLink->binding.scan_driver;
-  mLink->measured = driver == nullptr ? mLink->newest.reading
-                                      : playerlike::made_scan(*driver, mLink->newest.reading);
+void LaserProxy::HandleReading(const sim::SharedReading& aReading) {
+  const auto* scan = playerlike::reading_as<LaserReading>(*aReading);
+  if (scan == nullptr) return;
   if (scan->ranges_m.size() != mCount) {
     // The scan differs from the announced geometry: expose all of it.
     mCount = scan->ranges_m.size();
@@ -63,21 +59,23 @@ void LaserProxy::HandleReading() {
     mStride = 1;
     mShown = mCount;
   }
-  View();
+  const playerlike::ScanDriverInfo* const driver = mLink->binding.scan_driver;
+  View(driver == nullptr ? aReading : playerlike::made_scan(*driver, aReading));
 }
 
-// Exposes the measured scan or a part of it.
-void LaserProxy::View() {
-  mLink->newest.reading = mLink->measured;
-  if (mStride == 1 && mShown == mCount && mRangeRes == 0.0) return;
-  const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
+// Shows a scan or a part of it.
+void LaserProxy::View(sim::SharedReading aMeasured) {
+  if (mStride == 1 && mShown == mCount && mRangeRes == 0.0) {
+    return mLink->show(std::move(aMeasured));
+  }
+  const auto& scan = static_cast<const LaserReading&>(*aMeasured);
   auto shown = detail::part_of(scan, {mFirst, mStride, mShown});
   if (mRangeRes > 0.0) {
     for (double& range : shown->ranges_m) {
       range = playerlike::limited_range_m(range, mRangeRes, 0.0, scan.range_max_m);
     }
   }
-  mLink->newest.reading = shown;
+  mLink->show(std::move(shown), std::move(aMeasured));
 }
 
 // The caller holds the client's mutex.
@@ -150,7 +148,7 @@ double LaserProxy::LockedBearing(uint32_t aIndex) const {
   static_cast<void>(CheckedRange(aIndex, fun));
   const auto& scan = mLink->newest.as<LaserReading>();
   if (aIndex >= scan.ranges_m.size()) return 0.0;
-  uint32_t shown = 0;  // a copy of a proxy shows no elements before its first reading
+  uint32_t shown = 0;  // there may be none before the first reading
   if (mElements.Count(shown)) {
     // The next calls need no lock.
     std::vector<double> bearings(scan.ranges_m.size());
@@ -183,7 +181,8 @@ void LaserProxy::Configure(double aMinAngle, double aMaxAngle, uint32_t aScanRes
   playerlike::require_finite(fun,
                              {{"the least angle", aMinAngle}, {"the greatest angle", aMaxAngle}});
   const scoped_lock_t lock(LockData(fun));
-  const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
+  const sim::SharedReading measured = mLink->measured();
+  const auto& scan = static_cast<const LaserReading&>(*measured);
   // Beams are numbered from the first measured one; the angles may extend beyond the scan.
   const detail::BeamWindow window =
       detail::window_of(fun, aMinAngle, aMaxAngle, aScanRes * 0.01 * M_PI / 180.0, mCount,
@@ -193,8 +192,7 @@ void LaserProxy::Configure(double aMinAngle, double aMaxAngle, uint32_t aScanRes
   mStride = window.stride;
   mShown = window.shown;
   mRangeRes = aRangeRes * 0.001;
-  View();
-  mLink->show();
+  View(measured);
 }
 
 void LaserProxy::RequestConfigure() {
@@ -213,7 +211,7 @@ player_pose3d_t LaserProxy::GetPose() {
 
 player_pose3d_t LaserProxy::GetRobotPose() {
   const scoped_lock_t lock(LockData("LaserProxy::GetRobotPose"));
-  const std::optional<sim::Pose> known = mPoses ? mPoses->poses().at(mLink->measured->time_ns)
+  const std::optional<sim::Pose> known = mPoses ? mPoses->poses().at(mLink->measured()->time_ns)
                                                 : mLink->core->last_pose(mLink->binding.robot);
   const sim::Pose pose = known.value_or(sim::Pose{});
   return detail::to_players<player_pose3d_t>(pose);

@@ -49,12 +49,17 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   [[nodiscard]] scoped_lock_t lock_element(const char* fun) const {
     return lock(fun, proxy.mElements.Looks());
   }
-  /// Publishes the elements of `newest`, which HandleReading() may have replaced. The client's
-  /// mutex is held, and begin_change() was called.
-  void show();
-  void show(sim::SharedReading reading) {
+  /// Lets the getters return a reading. The client's mutex is held, and begin_change() was called
+  /// if they could return another one before.
+  /// @param whole  of rangefinders: the whole scan, if `reading` is a part of it.
+  void show(sim::SharedReading reading, sim::SharedReading whole = nullptr) {
     newest.reading = std::move(reading);
-    show();
+    whole_scan = std::move(whole);
+    playerlike::show_elements(proxy.mElements, newest);
+  }
+  /// Of rangefinders: the whole scan of which a part may be shown.
+  [[nodiscard]] const sim::SharedReading& measured() const {
+    return whole_scan != nullptr ? whole_scan : newest.reading;
   }
   /// Notes new data with this time stamp [s]. The client's mutex is held.
   void refresh(double time_s);
@@ -103,9 +108,11 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   const std::shared_ptr<playerlike::ClientCore> core;
   playerlike::InterfaceBinding binding;
   bool attached = false;
-  bool has_readings = false;    ///< whether it is subscribed to a device that makes readings
-  playerlike::Newest newest;    ///< the exposed reading; who replaces it calls show()
-  sim::SharedReading measured;  ///< of rangefinders: the whole scan
+  bool has_readings = false;  ///< whether it is subscribed to a device that makes readings
+  /// What getters return. Elements has a handle of its own, which only the client's sole user
+  /// releases: while that thread reads numbers without the mutex, another one may replace this.
+  playerlike::Newest newest;
+  sim::SharedReading whole_scan;  ///< see show()
   playerc_device_t device = {};
   /// Copies share it, because programs pass proxies by value in loops.
   std::shared_ptr<bool> has_warned = std::make_shared<bool>(false);

@@ -75,15 +75,25 @@ Position2dProxy::Position2dProxy(PlayerClient* aPc, uint32_t aIndex)
 }
 
 Position2dProxy::Position2dProxy(const Position2dProxy& aOther)
-    : ClientProxy(aOther), mControl(std::make_unique<Control>(*aOther.mControl)) {}
+    : ClientProxy(aOther), mControl(std::make_unique<Control>(*aOther.mControl)) {
+  const scoped_lock_t lock(mLink->core->mutex());
+  ShowNumbers();
+}
 
 Position2dProxy::~Position2dProxy() { ClientProxy::Unsubscribe(); }
 
-void Position2dProxy::HandleReading() {
-  const auto* reading = mLink->newest.find<PoseReading>();
+void Position2dProxy::HandleReading(const sim::SharedReading& aReading) {
+  const auto* reading = playerlike::reading_as<PoseReading>(*aReading);
   if (reading == nullptr) return;
   mLink->core->note_pose(mLink->binding.robot, reading->pose, mLink->info().type == "pose");
-  if (!mElements.MayShow()) return;
+  mLink->newest.reading = aReading;
+  ShowNumbers();
+}
+
+// The caller holds the client's mutex.
+void Position2dProxy::ShowNumbers() {
+  const auto* reading = mLink->newest.find<PoseReading>();
+  if (reading == nullptr || !mElements.MayShow()) return;
   const auto numbers = numbers_of(*reading);
   static_assert(numbers.size() == kNumberCount);
   std::ranges::copy(numbers, mNumbers);

@@ -44,52 +44,48 @@ RangerProxy::RangerProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, 
     const detail::ScannerSettings scanner = detail::scanner_settings(mLink->info().properties);
     mCount = scanner.count;
     mPoses.resize(1);
-    mLink->measured = detail::announced_scan(scanner);
+    mLink->show(detail::announced_scan(scanner));
   } else {
     mPoses = detail::element_poses(mLink->info().properties);
     mCount = mPoses.size();
-    mLink->measured = std::make_shared<RangerReading>();
+    mLink->show(std::make_shared<RangerReading>());
   }
   mShown = mCount;
-  mLink->show(mLink->measured);
 }
 
 RangerProxy::~RangerProxy() { ClientProxy::Unsubscribe(); }
 
-void RangerProxy::HandleReading() {
-  const playerlike::Newest& newest = mLink->newest;
-  if (newest.find<LaserReading>() == nullptr && newest.find<RangerReading>() == nullptr) {
-    return View();
-  }
-  mLink->measured = newest.reading;
-  const std::size_t count = ranges_of(newest).size();
+void RangerProxy::HandleReading(const sim::SharedReading& aReading) {
+  const auto* scan = playerlike::reading_as<LaserReading>(*aReading);
+  const auto* round = playerlike::reading_as<RangerReading>(*aReading);
+  if (scan == nullptr && round == nullptr) return;
+  const std::size_t count = (scan != nullptr ? scan->ranges_m : round->ranges_m).size();
   if (count != mCount) {  // differs from the announced geometry: expose all of it
     mCount = count;
     mFirst = 0;
     mStride = 1;
     mShown = mCount;
   }
-  View();
+  View(aReading);
 }
 
-// Exposes the measured ranges or a part of them.
-void RangerProxy::View() {
-  mLink->newest.reading = mLink->measured;
-  if (mStride == 1 && mShown == mCount && !mLimits) return;
+// Shows measured ranges or a part of them.
+void RangerProxy::View(sim::SharedReading aMeasured) {
+  if (mStride == 1 && mShown == mCount && !mLimits) return mLink->show(std::move(aMeasured));
   const auto limit = [this](std::vector<double>& ranges) {
     if (!mLimits) return;
     for (double& range : ranges) {
       range = playerlike::limited_range_m(range, mRangeRes, mMinRange, mMaxRange);
     }
   };
-  if (const auto* scan = mLink->newest.find<LaserReading>()) {
-    const auto shown = detail::part_of(*scan, {mFirst, mStride, mShown});
+  const auto show = [&](const auto& shown) {
     limit(shown->ranges_m);
-    mLink->newest.reading = shown;
+    mLink->show(shown, std::move(aMeasured));
+  };
+  if (const auto* scan = playerlike::reading_as<LaserReading>(*aMeasured)) {
+    show(detail::part_of(*scan, {mFirst, mStride, mShown}));
   } else {
-    const auto shown = std::make_shared<RangerReading>(mLink->newest.as<RangerReading>());
-    limit(shown->ranges_m);
-    mLink->newest.reading = shown;
+    show(std::make_shared<RangerReading>(static_cast<const RangerReading&>(*aMeasured)));
   }
 }
 
@@ -208,10 +204,9 @@ void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularR
     return playerlike::range_limits({aMinRange, aMaxRange, aRangeRes},
                                     mLink->property("range_max", 0.0));
   });
-  if (mIsLaser) {
-    const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
+  if (const auto* scan = playerlike::reading_as<LaserReading>(*mLink->measured())) {
     const detail::BeamWindow window = detail::window_of(
-        fun, aMinAngle, aMaxAngle, aAngularRes, mCount, scan.angle_min_rad, scan.resolution_rad);
+        fun, aMinAngle, aMaxAngle, aAngularRes, mCount, scan->angle_min_rad, scan->resolution_rad);
     mFirst = window.first;
     mStride = window.stride;
     mShown = window.shown;
@@ -221,8 +216,7 @@ void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularR
   mMaxRange = limits.max_m;
   mRangeRes = limits.resolution_m;
   mLimits = limits.any;
-  View();
-  mLink->show();
+  View(mLink->measured());
 }
 
 void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularRes,

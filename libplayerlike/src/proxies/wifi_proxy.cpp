@@ -22,8 +22,8 @@ WiFiProxy::WiFiProxy(PlayerClient* aPc, uint32_t aIndex)
 
 WiFiProxy::~WiFiProxy() { ClientProxy::Unsubscribe(); }
 
-void WiFiProxy::HandleReading() {
-  const auto* reading = mLink->newest.find<sim::WifiReading>();
+void WiFiProxy::HandleReading(const sim::SharedReading& aReading) {
+  const auto* reading = playerlike::reading_as<sim::WifiReading>(*aReading);
   if (reading == nullptr) return;
   mLinks.clear();
   for (const auto& link : reading->links) {

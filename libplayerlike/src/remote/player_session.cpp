@@ -527,17 +527,19 @@ void PlayerSession::await_round(PlayerLink& link, std::optional<SocketClock::tim
 }
 
 void PlayerSession::wait() {
+  // A server may end a round without data, as Playpen's does when simulated time has advanced, or
+  // wait for data, as Player does.
   constexpr double kWithoutSubscription_s = 0.1;
   with_link([&](PlayerLink& link) {
     if (!subscribes_to_nothing()) return await_round(link, std::nullopt);
-    bool listens = false;
-    {
+    const auto rounds = [this] {
       const Lock lock(mutex_);
-      listens = world_->listens();
-    }
-    if (listens) link.request_round();  // of changes of the blackboard
+      return rounds_;
+    };
+    const std::uint64_t before = rounds();
+    link.request_round();
     static_cast<void>(link.wait(SocketClock::now() + wall_duration(kWithoutSubscription_s),
-                                [] { return false; }));
+                                [&] { return rounds() != before; }));
   });
 }
 

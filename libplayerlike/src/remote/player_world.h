@@ -45,8 +45,6 @@ class PlayerWorld {
   /// Takes a change of the blackboard. The caller holds the session's mutex.
   /// @throws protocol::ProtocolError.
   void on_update(std::string_view payload);
-  /// Whether changes of the blackboard may arrive. The caller holds the session's mutex.
-  [[nodiscard]] bool listens() const { return !groups_.empty(); }
   /// Subscribes again on a new connection.
   void resume(PlayerLink& link);
 

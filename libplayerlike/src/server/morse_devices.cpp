@@ -194,14 +194,12 @@ constexpr MorseService kLight[] = {
 json capture(MorseCall& call) {
   constexpr int kMostPictures = 1000000;
   const int wanted = call.arguments.integer(0, 1, kMostPictures);
-  const auto pictures_of = [](const sim::Device& device) {
-    return device.sensor()->reading().sequence;
+  const auto pictures = [&host = call.state.host(), camera = id_of(call)] {
+    return host.count_of_readings(camera);
   };
-  const std::uint64_t last =
-      ask<sim::Device>(call, pictures_of) + static_cast<std::uint64_t>(wanted);
-  call.state.answer_when(
-      call.from, call.id, id_of(call),
-      [pictures_of, last](const sim::Device& device) { return pictures_of(device) >= last; });
+  const std::uint64_t last = pictures() + static_cast<std::uint64_t>(wanted);
+  call.state.answer_when(call.from, call.id, id_of(call),
+                         [=](const sim::Device&) { return pictures() >= last; });
   return nullptr;
 }
 

@@ -153,14 +153,14 @@ json get_local_data(MorseCall& call) {
   if (!call.component->device) {
     return morse_properties_record(robot_of(call), call.state.host().time().sim_time_ns);
   }
-  return ask<sim::Device>(call, [&](const sim::Device& device, const sim::Simulation& all) {
-    const sim::Reading& reading = device.sensor()->reading();
-    if (reading.sequence == 0) {
-      throw MorseRefusal(call.component->name +
-                         " has no reading yet: its first measurement is later");
-    }
-    return morse_record(reading, stream_format(all, id_of(call)));
-  });
+  const sim::SharedReading reading = call.state.host().newest_reading(id_of(call));
+  if (reading == nullptr) {
+    throw MorseRefusal(call.component->name +
+                       " has no reading yet: its first measurement is later");
+  }
+  return morse_record(*reading, call.state.host().with_simulation([&](const sim::Simulation& all) {
+    return stream_format(all, id_of(call));
+  }));
 }
 
 constexpr MorseService kSensor[] = {

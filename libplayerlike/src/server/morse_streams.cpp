@@ -121,13 +121,12 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
     ++generation_;
     if (component_.device) {
       const DeviceId device = *component_.device;
+      count_ = state_.host().count_of_readings(device);
       client_ = state_.host().connect_events(kMorsePort, {});
       client_->session().request(ReplaceRequest{std::nullopt, false});
       client_->session().request(SubscribeRequest{device});
-      state_.host().with_simulation([&](const sim::Simulation& simulation) {
-        format_ = stream_format(simulation, device);
-        sequence_ = newest_of(simulation, device);
-      });
+      format_ = state_.host().with_simulation(
+          [&](const sim::Simulation& simulation) { return stream_format(simulation, device); });
     }
     set_alarm();
   }
@@ -141,9 +140,9 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   void set_alarm() {
     Alarm alarm;
     if (component_.device) {
-      alarm.condition = [device = *component_.device,
-                         sequence = sequence_](const sim::Simulation& simulation) {
-        return newest_of(simulation, device) > sequence;
+      alarm.condition = [&host = state_.host(), device = *component_.device,
+                         count = count_](const sim::Simulation&) {
+        return host.count_of_readings(device) > count;
       };
     } else {
       alarm.until_ns = state_.host().time().sim_time_ns + kPropertiesPeriod_ns;
@@ -160,11 +159,8 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   void ring() {
     alarm_.reset();
     if (component_.device) {
-      // Before the readings are taken, so that none is missed. Those of a real robot have numbers
-      // of their own.
-      sequence_ = state_.host().with_simulation([&](const sim::Simulation& simulation) {
-        return newest_of(simulation, *component_.device);
-      });
+      // Before the readings are taken, so that none is missed.
+      count_ = state_.host().count_of_readings(*component_.device);
       ReadingKeeper kept;
       static_cast<void>(client_->session().take(kept));
       for (const auto& reading : kept.readings) {
@@ -190,17 +186,12 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
     return line_of(morse_properties_record(robot, state_.host().time().sim_time_ns));
   }
 
-  /// The number of a sensor's newest measurement in the simulation.
-  static std::uint64_t newest_of(const sim::Simulation& simulation, DeviceId device) {
-    return simulation.device(device.robot, device.device).sensor()->reading().sequence;
-  }
-
   MorseState& state_;
   const MorseComponent& component_;
   std::vector<StreamConnection*> readers_;
   std::unique_ptr<EventClient> client_;
   StreamFormat format_;
-  std::uint64_t sequence_ = 0;  ///< number of the measurement after which the alarm is due
+  std::uint64_t count_ = 0;  ///< of readings after which the alarm is due
   std::optional<AlarmId> alarm_;
   std::uint64_t generation_ = 0;  ///< number of starts; tells a stale alarm from a current one
 };

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "session/player_values.h"
 #include "session/player_values/poses.h"
 #include "session/range_settings.h"
+#include "session/reading_as.h"
 #include "wire/player_device.h"
 
 /// Shared parts of the devices of Player's protocol.
@@ -95,12 +95,6 @@ class RobotDevice : public CommonDevice {
   const RobotInfo& robot_;
   const DeviceInfo& info_;
 };
-
-/// The reading as its own type; null if it is of another type.
-template <typename Reading>
-[[nodiscard]] const Reading* reading_as(const sim::Reading& reading) {
-  return typeid(reading) == typeid(Reading) ? static_cast<const Reading*>(&reading) : nullptr;
-}
 
 /// A device whose readings are one of Player's structs, see same_values().
 template <typename Reading, typename Data, std::uint8_t kSubtype>

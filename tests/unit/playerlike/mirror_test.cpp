@@ -25,6 +25,7 @@
 #include "raw_client.h"
 #include "sim/core/error.h"
 #include "sim/devices/amcl.h"
+#include "sim/devices/camera.h"
 #include "temporary_folder.h"
 
 namespace playerlike {
@@ -778,9 +779,18 @@ class MirroredMorse : public testing::Test {
     });
   }
 
-  std::shared_ptr<FakeWorld> real_ = make_real_robot();
+  static constexpr DeviceId kCamera{0, 5};
+  static std::shared_ptr<FakeWorld> real_robot_with_camera() {
+    auto real = make_real_robot();
+    real->robots[0].devices.push_back({kCamera, "camera", "camera", {}});
+    return real;
+  }
+
+  std::shared_ptr<FakeWorld> real_ = real_robot_with_camera();
   std::shared_ptr<Host> host_ =
-      Host::create(sim::load_world_text(world_text(R"(}, "devices": {"go": {"type": "waypoint"})")),
+      Host::create(sim::load_world_text(world_text(
+                       R"(}, "devices": {"go": {"type": "waypoint"}, "pose": {"frequency": 100},
+                            "camera": {"frequency": 100, "image": [4, 2]})")),
                    settings_for(real_));
   std::optional<Server> server_;
 };
@@ -844,6 +854,37 @@ TEST_F(MirroredMorse, StreamOfSensor_CarriesAllReadingsOfTheRealRobot) {
     line = stream.line();  // throws if the stream stands still
   } while (line.find("\"x\": 2.25") != std::string::npos);
   EXPECT_THAT(line, HasSubstr("\"x\": 2.5,"));
+}
+
+TEST_F(MirroredMorse, LocalData_NewestReadingOfTheRealRobot) {
+  auto client = connect();
+  ASSERT_TRUE(eventually([&] { return host_->time().sim_time_ns > sim::from_seconds(0.05); }));
+  EXPECT_THAT(ask(client, "r1.pose get_local_data"), HasSubstr("r1.pose has no reading yet"));
+  real_->add_round({{test::kPose, test::pose_reading(42.0, {2.25, 2.0, 0.0})}});
+  ASSERT_TRUE(eventually(
+      [&] { return ask(client, "r1.pose get_local_data").find("SUCCESS") != std::string::npos; }));
+  EXPECT_THAT(ask(client, "r1.pose get_local_data"),
+              AllOf(HasSubstr("\"x\": 2.25,"), HasSubstr("\"timestamp\": 42.0")));
+}
+
+TEST_F(MirroredMorse, Capture_WaitsForPicturesOfTheRealRobot) {
+  auto client = connect();
+  const auto add_picture = [this](double time_s) {
+    const auto picture = std::make_shared<sim::CameraReading>();
+    picture->time_ns = sim::from_seconds(time_s);
+    real_->add_round({{kCamera, picture}});
+  };
+  client.send("1 r1.camera capture [2]\n2 simulation list_robots\n");
+  EXPECT_THAT(client.line(), HasSubstr("2 SUCCESS"));
+  add_picture(42.0);
+  // Meanwhile the simulated camera takes ten.
+  const sim::SimTime begin_ns = host_->time().sim_time_ns;
+  ASSERT_TRUE(
+      eventually([&] { return host_->time().sim_time_ns > begin_ns + sim::from_seconds(0.1); }));
+  client.send("3 simulation list_robots\n");
+  EXPECT_THAT(client.line(), HasSubstr("3 SUCCESS"));
+  add_picture(42.1);
+  EXPECT_EQ(client.line(), "1 SUCCESS");
 }
 
 TEST_F(MirroredMorse, CommandStreamEnds_RealRobotStops) {

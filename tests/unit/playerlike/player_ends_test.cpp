@@ -32,6 +32,7 @@ class Ends {
     settings.player_port = 0;
     server_ = std::make_unique<Server>(host_, settings);
   }
+  [[nodiscard]] const Host& host() const { return *host_; }
   [[nodiscard]] std::string name(int robot_port = 6665) const {
     return "player://127.0.0.1:" + std::to_string(server_->player_ports().at(robot_port));
   }
@@ -246,19 +247,46 @@ TEST(PlayerEnds, Wifi_HearsOthers) {
   EXPECT_LT(wifi.GetLinkLevel(0), -40);
 }
 
-TEST(PlayerEnds, Robot_SpeaksAndDraws) {
+// Clients without readings let time pass, too, so their commands take effect.
+TEST(PlayerEnds, Robot_Speaks) {
   const Ends ends("devices/speech.json");
   PlayerClient client(ends.name(), 6665);
   PlayerCc::SpeechProxy speech(&client, 0);
   speech.Say("hello");
-  const Ends pens("devices/pen.json");
-  PlayerClient artist(pens.name(), 6665);
-  PlayerCc::Graphics2dProxy graphics(&artist, 0);
+  const auto said = [&] {
+    return ends.host().with_simulation(
+        [](const sim::Simulation& all) { return all.spoken_texts(); });
+  };
+  ASSERT_TRUE(read_until(client, [&] { return !said().empty(); }));
+  EXPECT_EQ(said()[0].text, "hello");
+  EXPECT_EQ(said()[0].robot, 0);
+}
+
+TEST(PlayerEnds, Robot_Draws) {
+  const Ends ends("devices/pen.json");
+  PlayerClient client(ends.name(), 6665);
+  PlayerCc::Graphics2dProxy graphics(&client, 0);
+  // Colours on the diagonal and beside it, on cells of 1 cm.
+  const auto drawn = [&] {
+    return ends.host().with_simulation([](const sim::Simulation& all) {
+      const auto colour = [&](int x) {
+        const int row = all.layers().description().height - 1 - 25;
+        for (const sim::LayerInfo& layer : all.layers().layers()) {
+          if (layer.id == sim::kBaseLayer) continue;
+          return all.layers().cell(layer.id, x, row).value().colour();
+        }
+        return sim::Colour{};
+      };
+      return std::pair(colour(25), colour(35));
+    });
+  };
   player_point_2d_t points[] = {{0.0, 0.0}, {0.5, 0.5}, {0.5, 0.0}};
   graphics.Color(255, 0, 0, 0);
   graphics.DrawPolyline(points, 3);
+  EXPECT_TRUE(read_until(client, [&] { return drawn().first == sim::Colour{255, 0, 0, 255}; }));
+  EXPECT_EQ(drawn().second.a, 0);
   graphics.Clear();
-  artist.Read();
+  EXPECT_TRUE(read_until(client, [&] { return drawn().first.a == 0; }));
 }
 
 TEST(PlayerEnds, Localisation_ReportsParticles) {

@@ -6,6 +6,7 @@
 #include <libplayerc++/playerc++.h>
 
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <thread>
@@ -101,6 +102,33 @@ TEST(SharedReading, QueuedReadings_Distinct) {
   const auto readings = next(*session);
   ASSERT_EQ(readings.size(), 10U);
   for (std::size_t i = 0; i < readings.size(); ++i) EXPECT_EQ(readings[i]->sequence, i + 1);
+}
+
+// A reading belongs to the step that made it, whatever happens before it is taken.
+TEST(SharedReading, ResetBeforeTake_ReadingKept) {
+  const auto host = Host::create(room());
+  const auto session = host->connect(6665);
+  session->request(SubscribeRequest{device_of(*session, "pose")});
+  session->wait();
+  session->request(ResetRequest{});
+  Keeper keeper;
+  ASSERT_EQ(session->take(keeper), 1);
+  EXPECT_EQ(keeper.readings[0]->sequence, 1U);
+  EXPECT_EQ(keeper.readings[0]->time_ns, sim::from_seconds(0.1));
+}
+
+// One handle for all threads, with the mutex, and one for the sole user, without.
+TEST(SharedReading, Proxy_HoldsTwoHandles) {
+  const auto world = test::make_fake_world();
+  const std::shared_ptr<sim::Reading> scan = test::scan(1, {1, 2, 3, 4, 5});
+  world->add_round({{test::kLaser, scan}});
+  world->add_round({{test::kLaser, test::scan(2, {1, 2, 3, 4, 5})}});
+  PlayerClient client(std::make_unique<FakeSession>(world));
+  const LaserProxy laser(&client, 0);
+  client.Read();
+  EXPECT_EQ(scan.use_count(), 3);
+  client.Read();
+  EXPECT_EQ(scan.use_count(), 1);
 }
 
 // --- Threads. Under ThreadSanitizer these tests prove that access without the mutex is free of
@@ -239,6 +267,43 @@ TEST_F(Looks, CopiesAndLateProxies_HaveOwnSnapshots) {
   for (const LaserProxy* proxy : {&laser, &copy, &late}) EXPECT_EQ((*proxy)[1], 0.002);
   std::thread([&] { client.Read(); }).join();
   for (const LaserProxy* proxy : {&laser, &copy, &late}) EXPECT_EQ((*proxy)[1], 0.003);
+}
+
+// Proxies whose elements the test reads without the mutex.
+struct OpenLaser : LaserProxy {
+  using LaserProxy::LaserProxy;
+  using LaserProxy::mElements;
+};
+struct OpenPosition : Position2dProxy {
+  using Position2dProxy::mElements;
+  using Position2dProxy::Position2dProxy;
+};
+
+TEST_F(Looks, Copies_ShowElementsAtOnce) {
+  add_scans(1);
+  const OpenLaser whole(&client, 0);
+  const OpenPosition there(&client, 0);
+  client.Read();
+  OpenLaser part(whole);
+  part.Configure(-0.6, 0.6, 0, 0, false, 10.0);
+  double value = 0.0;
+  const OpenLaser of_whole(whole);
+  ASSERT_TRUE(of_whole.mElements.Find(4, value));
+  EXPECT_EQ(value, 0.001);
+  OpenLaser of_part(part);
+  ASSERT_TRUE(of_part.mElements.Find(2, value));
+  EXPECT_FALSE(of_part.mElements.Find(4, value));  // beyond the window
+  of_part.Configure(-M_PI, M_PI, 0, 0, false, 10.0);
+  EXPECT_EQ(of_part.GetCount(), 5U);  // the copy knows the whole scan
+  const OpenPosition of_there(there);
+  ASSERT_TRUE(of_there.mElements.Find(1, value));
+  EXPECT_EQ(value, 0.001);
+  std::thread([&] {
+    const OpenLaser elsewhere(whole);  // not by the sole user
+    EXPECT_FALSE(elsewhere.mElements.Find(1, value));
+    EXPECT_EQ(elsewhere[1], 0.001);
+  }).join();
+  EXPECT_TRUE(whole.mElements.Find(1, value));  // it is the sole user still
 }
 
 TEST(LooksAtTheEnd, ClosedClient_Throws) {

@@ -105,6 +105,12 @@ class Host : public std::enable_shared_from_this<Host> {
     }
   }
 
+  /// The newest reading of a sensor: as its subscribers get it, so of the real robot if the device
+  /// mirrors one. @return null before the first.
+  [[nodiscard]] sim::SharedReading newest_reading(DeviceId sensor) const;
+  /// The number of its readings up to now. Needs no lock, so the condition of an alarm may call.
+  [[nodiscard]] std::uint64_t count_of_readings(DeviceId sensor) const noexcept;
+
   /// Limits the number of further steps, for clock synchronisation; nullopt (initially): no limit.
   /// With a limit, lockstep time also advances while no client takes part.
   void set_step_credit(std::optional<std::uint64_t> steps);

@@ -24,6 +24,21 @@ class KeptRun {
     kReported,  ///< report and trajectory are complete
     kDone,      ///< all possible results are complete
   };
+  /// @name What a phase means
+  /// @{
+  /// Whether the host is writing results, which may take any time.
+  [[nodiscard]] static constexpr bool writes_results(Phase phase) noexcept {
+    return phase == Phase::kEnded || phase == Phase::kReported;
+  }
+  /// Whether no report is written any more: it is complete, or cannot be.
+  [[nodiscard]] static constexpr bool has_reported(Phase phase) noexcept {
+    return phase >= Phase::kReported;
+  }
+  /// Whether there was a run, some of whose results are missing if its host is gone.
+  [[nodiscard]] static constexpr bool lacks_results(Phase phase) noexcept {
+    return phase != Phase::kNone && phase != Phase::kDone;
+  }
+  /// @}
 
   static constexpr std::size_t kSize = std::size_t{128} << 20U;  ///< [bytes]
   /// @param size  of the memory; the system allocates only what is used. Layers of the canvas that

@@ -406,9 +406,7 @@ ProgramEnd run_program(const std::vector<std::string>& command,
     const KeptRun::Phase now = watch.kept != nullptr ? watch.kept->phase() : KeptRun::Phase::kNone;
     if (now != phase) time_to_end.reset();
     phase = now;
-    // Writing results may take any time.
-    const bool goes_on =
-        noted != 0 && (now == KeptRun::Phase::kRunning || now == KeptRun::Phase::kDone);
+    const bool goes_on = noted != 0 && !KeptRun::writes_results(now);
     // The signal may have been sent to the program only.
     if (noted != 0 && !requests.first()) static_cast<void>(requests.note(noted));
     if (requests.first() && goes_on) {

@@ -89,6 +89,9 @@ class Mirror::Robot {
   [[nodiscard]] bool replaces(int device) const {
     return binding_.feeds[static_cast<std::size_t>(device)].has_value();
   }
+  [[nodiscard]] const sim::SharedReading& newest(int device) const {
+    return newest_[static_cast<std::size_t>(device)];
+  }
   [[nodiscard]] const std::string& loss() const noexcept { return loss_; }
   /// Whether the connection will not be made again.
   [[nodiscard]] bool lost_for_good() const noexcept {
@@ -139,6 +142,7 @@ class Mirror::Robot {
   const OpenRealRobot open_;
   const Warn warn_;
   Binding binding_;
+  std::vector<sim::SharedReading> newest_;  ///< by device; null: none from the real robot
   std::unique_ptr<RealLink> link_;
   std::unique_ptr<Reconnection> reconnection_;  ///< while the connection is lost
   std::uint64_t reconnections_ = 0;
@@ -183,6 +187,7 @@ Mirror::Robot::Robot(sim::Simulation& simulation, const std::vector<RobotInfo>& 
       warn_(warn) {
   std::unique_ptr<Session> session = open_({real_.server, port()});
   binding_ = bind(*session);
+  newest_.resize(binding_.feeds.size());
   link_ = link(std::move(session), real_.take_over);
   for (const DeviceInfo& device : robots[static_cast<std::size_t>(index)].devices) {
     if (device.type == "laser" && !laser_ && replaces(device.id.device)) {
@@ -424,6 +429,7 @@ void Mirror::Robot::before_step(std::vector<Given>& given) {
         if (auto pose = pose_in(reading)) reading = std::move(pose);
       }
       if (!fits(device, *reading)) continue;
+      newest_[i] = reading;
       given.emplace_back(DeviceId{index_, device}, reading);
       if (laser_ != device) continue;
       scan_ = std::dynamic_pointer_cast<const sim::LaserReading>(arrival.reading);
@@ -628,6 +634,10 @@ void Mirror::stop() noexcept {
 bool Mirror::has_lost(int robot) const {
   const Robot* const mirrored = robot_at(robot);
   return mirrored != nullptr && !mirrored->loss().empty();
+}
+
+sim::SharedReading Mirror::newest(DeviceId device) const {
+  return robot_at(device.robot)->newest(device.device);
 }
 
 bool Mirror::replaces(DeviceId device) const {

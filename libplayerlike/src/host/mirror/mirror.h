@@ -79,6 +79,8 @@ class Mirror {
   [[nodiscard]] bool replaces(DeviceId device) const;
   /// The readings that arrived before the last step, oldest first.
   [[nodiscard]] const std::vector<Given>& readings() const noexcept { return given_; }
+  /// The newest reading of a device; null before the first. @pre replaces(device)
+  [[nodiscard]] sim::SharedReading newest(DeviceId device) const;
   /// Whether the connection to the real robot of a robot is lost at present.
   [[nodiscard]] bool has_lost(int robot) const;
   /// Why there are no further readings of a device: the text of its Loss. Empty: there are, or the

@@ -284,7 +284,7 @@ void complete_pictures(const KeptMemory& memory, const KeptHeader& header, const
 bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
                       const RunSettings& settings, const ProgramEnd& end) {
   const KeptRun::Phase phase = kept.phase();
-  if (phase == KeptRun::Phase::kNone || phase == KeptRun::Phase::kDone) return false;
+  if (!KeptRun::lacks_results(phase)) return false;
   const FileLimitErrors limit_errors;
   if (!settings.film.empty()) std::remove(sim::part_file_name(settings.film).c_str());
   const KeptMemory memory(kept.descriptor());
@@ -302,7 +302,7 @@ bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
       problem += what + std::string(e.what());
     }
   };
-  if (phase != KeptRun::Phase::kReported) {
+  if (!KeptRun::has_reported(phase)) {
     attempt("no report: ", [&] {
       write_report(settings.output_folder,
                    completed_report(report_from(report), *last, end, header->conflict != 0));

@@ -29,6 +29,7 @@ class Alarms {
   /// Notifies and removes the alarms that are due, in order of their ids.
   /// @param all  the run is over: all alarms are due.
   void ring(const sim::Simulation& simulation, bool all) {
+    if (alarms_.empty()) return;
     std::erase_if(alarms_, [&](const auto& numbered) {
       const Alarm& alarm = numbered.second;
       const bool due = all || (alarm.until_ns && simulation.now_ns() >= *alarm.until_ns) ||

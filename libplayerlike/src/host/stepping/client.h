@@ -35,8 +35,7 @@ struct Client {
     DeviceId device{-1, -1};
     int count = 0;
     bool replace = true;
-    bool fresh = false;                     ///< if `replace`: the newest reading was not taken yet
-    std::vector<sim::SharedReading> queue;  ///< if not `replace`: readings not taken yet
+    std::vector<sim::SharedReading> unread;  ///< not taken yet; if `replace`, at most one
   };
 
   int number = 0;  ///< in order of connection; determines the order of commands

@@ -24,7 +24,7 @@ bool subscribed_before(const Client::Subscription& s, DeviceId id) {
 Clients::Clients(const sim::Simulation& simulation, const std::vector<RobotInfo>& robots,
                  bool by_creator, const Mirror* mirror)
     : simulation_(simulation), by_creator_(by_creator), mirror_(mirror) {
-  for (const RobotInfo& robot : robots) subscribers_.emplace_back(robot.devices.size());
+  for (const RobotInfo& robot : robots) feeds_.emplace_back(robot.devices.size());
 }
 
 bool Clients::any_but_onlookers() const {
@@ -73,7 +73,7 @@ void Clients::subscribe(Client& client, DeviceId device) {
     it = all.emplace(it);
     it->device = device;
     it->replace = client.replace_by_default;
-    subscribers(device).push_back(&client);
+    feed(device).subscribers.push_back(&client);
   }
   ++it->count;
 }
@@ -85,8 +85,8 @@ void Clients::unsubscribe(Client& client, DeviceId device) {
   all.erase(all.begin() + (gone - all.data()));
   if (all.empty()) ++unsubscribed_;
   forget_subscriber(client, device);
-  client.has_data = std::any_of(all.begin(), all.end(),
-                                [](const auto& s) { return s.fresh || !s.queue.empty(); });
+  client.has_data =
+      std::any_of(all.begin(), all.end(), [](const auto& s) { return !s.unread.empty(); });
   begin_round(client);
 }
 
@@ -95,13 +95,7 @@ void Clients::set_replace(Client& client, std::optional<DeviceId> device, bool r
   for (Client::Subscription& s : client.subscriptions) {
     if (device && !(s.device == *device)) continue;
     s.replace = replace;
-    // Unread readings are kept, in the form that the new rule needs.
-    if (replace && !s.queue.empty()) {
-      s.queue.erase(s.queue.begin(), s.queue.end() - 1);
-    } else if (!replace && s.fresh) {
-      s.fresh = false;
-      s.queue.push_back(reading(s.device));
-    }
+    if (replace && !s.unread.empty()) s.unread.erase(s.unread.begin(), s.unread.end() - 1);
   }
 }
 
@@ -117,36 +111,26 @@ void Clients::distribute(const std::map<int, RunLog>& logs) {
   for (const auto& [port, log] : logs) {
     if (!log.replaying()) continue;
     replayed.push_back(port);
+    const auto is_its = [number = port](const Client& client) { return client.port == number; };
     for (const RunLog::Entry* entry : log.due()) {
-      for (Client* client : subscribers(entry->device)) {
-        if (client->port != port) continue;
-        give(entry->reading, *find(*client, entry->device), *client);
-      }
+      give(feed(entry->device), entry->device, entry->reading, is_its);
     }
   }
-  const auto is_replayed = [&](const Client& client) {
-    return std::find(replayed.begin(), replayed.end(), client.port) != replayed.end();
+  const auto is_live = [&](const Client& client) {
+    return std::find(replayed.begin(), replayed.end(), client.port) == replayed.end();
   };
   if (mirror_ != nullptr) {
     for (const auto& [device, reading] : mirror_->readings()) {
-      for (Client* client : subscribers(device)) {
-        if (!is_replayed(*client)) give(reading, *find(*client, device), *client);
-      }
+      feed(device).count();
+      give(feed(device), device, reading, is_live);
     }
   }
   for (const DeviceId& updated : simulation_.updated()) {
     if (mirror_ != nullptr && mirror_->replaces(updated)) continue;
-    for (Client* client : subscribers(updated)) {
-      if (is_replayed(*client)) continue;
-      Client::Subscription& s = *find(*client, updated);
-      if (s.replace) {
-        client->has_data = true;
-        s.fresh = true;
-        s.queue.clear();
-        continue;
-      }
-      give(reading(updated), s, *client);
-    }
+    Feed& to = feed(updated);
+    to.count();
+    if (to.subscribers.empty()) continue;
+    give(to, updated, simulation_.device(updated.robot, updated.device).sensor()->share(), is_live);
   }
 }
 
@@ -180,16 +164,16 @@ std::vector<std::pair<DeviceId, sim::SharedReading>> Clients::take(Client& clien
   begin_round(client);
   taken.reserve(client.subscriptions.size());
   for (Client::Subscription& s : client.subscriptions) {
-    if (std::exchange(s.fresh, false)) taken.emplace_back(s.device, reading(s.device));
-    for (sim::SharedReading& queued : s.queue) taken.emplace_back(s.device, std::move(queued));
-    s.queue.clear();
+    for (sim::SharedReading& reading : s.unread) taken.emplace_back(s.device, std::move(reading));
+    s.unread.clear();
   }
   return taken;
 }
 
-std::vector<Client*>& Clients::subscribers(DeviceId device) {
-  return subscribers_[static_cast<std::size_t>(device.robot)]
-                     [static_cast<std::size_t>(device.device)];
+sim::SharedReading Clients::newest(DeviceId device) const {
+  if (mirror_ != nullptr && mirror_->replaces(device)) return mirror_->newest(device);
+  sim::SharedReading reading = simulation_.device(device.robot, device.device).sensor()->share();
+  return reading->sequence > 0 ? reading : nullptr;
 }
 
 Client::Subscription* Clients::find(Client& client, DeviceId device) {
@@ -199,30 +183,28 @@ Client::Subscription* Clients::find(Client& client, DeviceId device) {
 }
 
 void Clients::forget_subscriber(const Client& client, DeviceId device) noexcept {
-  std::erase(subscribers(device), &client);
+  std::erase(feed(device).subscribers, &client);
 }
 
 void Clients::begin_round(Client& client) const {
   client.empty_round_ns = simulation_.now_ns() + kEmptyRound_ns;
 }
 
-void Clients::give(const sim::SharedReading& reading, Client::Subscription& subscription,
-                   Client& client) {
-  client.has_data = true;
-  if (subscription.replace) {
-    subscription.fresh = false;
-    subscription.queue.clear();
-  } else if (subscription.queue.size() == kQueueLimit) {
-    subscription.queue.erase(subscription.queue.begin());
-    ++client.overflow;
+template <typename IsFor>
+void Clients::give(const Feed& feed, DeviceId device, const sim::SharedReading& reading,
+                   IsFor is_for) {
+  for (Client* const client : feed.subscribers) {
+    if (!is_for(*client)) continue;
+    Client::Subscription& s = *find(*client, device);
+    client->has_data = true;
+    if (s.replace) {
+      s.unread.clear();
+    } else if (s.unread.size() == kQueueLimit) {
+      s.unread.erase(s.unread.begin());
+      ++client->overflow;
+    }
+    s.unread.push_back(reading);
   }
-  subscription.queue.push_back(reading);
-}
-
-sim::SharedReading Clients::reading(DeviceId device) const {
-  // Only sensors can be subscribed to. A dynamic cast would cost as much as the rest of this
-  // function.
-  return simulation_.device(device.robot, device.device).sensor()->share();
 }
 
 }  // namespace playerlike
