@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -20,16 +21,21 @@ extern __thread std::uint64_t thread_number;
 /// Lock-free access to the elements (beams, coordinates) of the newest reading, which programs read
 /// one by one. Part of the proxies; for internal use.
 ///
-/// Only one thread, the sole user of the client, writes this object, and that thread reads it
-/// without a lock. Once another thread changes anything, the object is no longer updated, and all
+/// One thread at a time, the holder, may read without a lock: the thread that changed something
+/// last. Each of two threads has a view of its own, which no other thread reads or writes; so a
+/// thread that was the holder a moment ago still reads a snapshot that nobody changes. Other
 /// threads read under the client's mutex. See docs/architecture.md.
 class Elements {
  public:
-  /// Value of sole_user for a client with no user or with several users.
-  static constexpr std::uint64_t kNobody = ~std::uint64_t{0};
+  /// The holder, as in Bind(): in the lower half the thread's thread_number, above it the index of
+  /// its view, and above this a number that differs each time another thread becomes the holder.
+  typedef std::uint64_t Holder;
+  enum { kThreadBits = 32, kViews = 2 };
+  /// The holder if no thread may read without a lock.
+  static constexpr Holder kNobody = ~std::uint64_t{0};
 
   /// Reads an element. Returns false if the caller must read it under the mutex instead: the
-  /// element may not exist, the calling thread may not be the sole user, or accesses have to be
+  /// element may not exist, the calling thread may not be the holder, or accesses have to be
   /// reported.
   ///
   /// Counting every access would cost more than the access itself. Accesses in ascending order are
@@ -37,81 +43,112 @@ class Elements {
   /// by one. A pass over a whole scan is thus counted exactly, and a single access counts as eight
   /// at most.
   bool Find(std::uint32_t aIndex, double& aValue) {
-    if (!IsSoleUser() || aIndex >= mCount) return false;
-    if (aIndex <= mLast || aIndex % kCounted == 0) {
-      mLooksLeft -= aIndex % kCounted == 0 ? kCounted : 1;
-      if (mLooksLeft < 0) return false;
+    const void* owner = nullptr;
+    return Find(aIndex, aValue, owner);
+  }
+  /// As above; also reads the owner of the elements, as given to Show().
+  bool Find(std::uint32_t aIndex, double& aValue, const void*& aOwner) {
+    View* const own = Own();
+    if (own == nullptr || aIndex >= own->mCount) return false;
+    aOwner = own->mOwner.get();
+    if (aIndex <= own->mLast || aIndex % kCounted == 0) {
+      own->mLooksLeft -= aIndex % kCounted == 0 ? kCounted : 1;
+      if (own->mLooksLeft < 0) return false;
     }
-    mLast = aIndex;
-    aValue = mValues[aIndex];
+    own->mLast = aIndex;
+    aValue = own->mValues[aIndex];
     return true;
   }
   /// Reads the number of elements, as Find() reads an element, if there are any. Not counted: who
   /// polls asks for elements, too, because their number and bearings stay the same.
   bool Count(std::uint32_t& aCount) const {
-    if (!IsSoleUser() || mCount == 0) return false;
-    aCount = mCount;
+    const View* const own = Own();
+    if (own == nullptr || own->mCount == 0) return false;
+    aCount = own->mCount;
     return true;
   }
   /// Reads the bearing of an element, as Count() reads their number. Bearings come from a table,
   /// because programs may be compiled with fused multiplication and addition, which would change
   /// the last bit.
   bool Bearing(std::uint32_t aIndex, double& aBearing) const {
-    if (!IsSoleUser() || aIndex >= mBearingCount) return false;
-    aBearing = mBearings[aIndex];
+    const View* const own = Own();
+    if (own == nullptr || aIndex >= own->mBearingCount) return false;
+    aBearing = own->mBearings[aIndex];
     return true;
   }
-  /// The owner of the elements, as given to Show().
-  const void* Owner() const { return mOwner.get(); }
 
   // The following functions are called with the client's mutex locked.
 
   /// Must be called before all other functions.
-  /// @param aSoleUser  number of the thread that may read without a lock; must outlive this object.
-  void Bind(const std::atomic<std::uint64_t>* aSoleUser) { mSoleUser = aSoleUser; }
-  /// Whether the calling thread is the sole user, whose calls of Show() and ShowBearings() have an
-  /// effect.
-  bool MayShow() const { return IsSoleUser(); }
-  /// Sets the elements to be read from now on.
+  /// @param aHolder  must outlive this object.
+  void Bind(const std::atomic<Holder>* aHolder) { mHolder = aHolder; }
+  /// The index of the view that belongs to the calling thread, if it is the holder, so that its
+  /// calls of Show() and ShowBearings() have an effect; otherwise kViews.
+  std::size_t MayShow() const {
+    const Holder holder = mHolder->load(std::memory_order_relaxed);
+    return IsThisThread(holder) ? ViewOf(holder) : std::size_t{kViews};
+  }
+  /// Sets the elements that the calling thread reads from now on.
   /// @param aFirst, aStep  bearing of element 0, and between neighbours [rad].
   void Show(std::shared_ptr<const void> aOwner, const double* aValues, std::uint32_t aCount,
             double aFirst = 0.0, double aStep = 0.0) {
-    if (!IsSoleUser()) return;
-    mOwner.swap(aOwner);
-    mValues = aValues;
-    if (aCount != mCount || aFirst != mFirst || aStep != mStep) mBearingCount = 0;
-    mCount = aCount;
-    mFirst = aFirst;
-    mStep = aStep;
+    const std::size_t index = MayShow();
+    if (index == kViews) return;
+    View& own = mViews[index];
+    own.mHolder = *mHolder;
+    own.mOwner.swap(aOwner);
+    own.mValues = aValues;
+    if (aCount != own.mCount || aFirst != own.mFirst || aStep != own.mStep) own.mBearingCount = 0;
+    own.mCount = aCount;
+    own.mFirst = aFirst;
+    own.mStep = aStep;
   }
   /// Sets the table of the elements' bearings. It is used until the elements have others.
   void ShowBearings(std::vector<double> aBearings) {
-    if (!IsSoleUser() || aBearings.size() != mCount) return;
-    mBearings.swap(aBearings);
-    mBearingCount = mCount;
+    View* const own = Own();
+    if (own == nullptr || aBearings.size() != own->mCount) return;
+    own->mBearings.swap(aBearings);
+    own->mBearingCount = own->mCount;
   }
   /// Number of accesses to report after Find() has returned false.
   int Looks() {
-    if (!IsSoleUser() || mLooksLeft >= 0) return 1;
-    mLooksLeft += kNotedAtOnce;
+    View* const own = Own();
+    if (own == nullptr || own->mLooksLeft >= 0) return 1;
+    own->mLooksLeft += kNotedAtOnce;
     return kNotedAtOnce;
   }
 
  private:
   enum { kCounted = 8, kNotedAtOnce = 1024 };
 
-  bool IsSoleUser() const { return mSoleUser->load(std::memory_order_relaxed) == thread_number; }
+  /// What one thread reads without a lock.
+  struct View {
+    Holder mHolder = kNobody;  ///< when it was shown; it is out of date if that has changed
+    const double* mValues = nullptr;
+    std::uint32_t mCount = 0;
+    std::uint32_t mLast = 0;          ///< index of the last access
+    std::uint32_t mBearingCount = 0;  ///< 0: there is no table yet
+    int mLooksLeft = kNotedAtOnce;
+    std::shared_ptr<const void> mOwner;
+    std::vector<double> mBearings;
+    double mFirst = 0.0;  ///< see Show()
+    double mStep = 0.0;
+  };
 
-  const std::atomic<std::uint64_t>* mSoleUser = nullptr;
-  const double* mValues = nullptr;
-  std::uint32_t mCount = 0;
-  std::uint32_t mLast = 0;          // index of the last access
-  std::uint32_t mBearingCount = 0;  // 0: there is no table yet
-  int mLooksLeft = kNotedAtOnce;
-  std::shared_ptr<const void> mOwner;
-  std::vector<double> mBearings;
-  double mFirst = 0.0;  // see Show()
-  double mStep = 0.0;
+  static bool IsThisThread(Holder aHolder) {
+    return static_cast<std::uint32_t>(aHolder) == static_cast<std::uint32_t>(thread_number);
+  }
+  static std::size_t ViewOf(Holder aHolder) { return (aHolder >> kThreadBits) % kViews; }
+  /// The view of the calling thread; null if it may not read without the mutex.
+  View* Own() const {
+    const Holder holder = mHolder->load(std::memory_order_relaxed);
+    if (!IsThisThread(holder)) return nullptr;
+    View& own = mViews[ViewOf(holder)];
+    return own.mHolder == holder ? &own : nullptr;
+  }
+
+  const std::atomic<Holder>* mHolder = nullptr;
+  mutable View mViews[kViews];
 };
 
 }  // namespace detail

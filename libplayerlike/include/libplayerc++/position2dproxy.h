@@ -120,7 +120,7 @@ class Position2dProxy : public ClientProxy {
   void ShowNumbers();
 
   std::unique_ptr<Control> mControl;
-  double mNumbers[kNumberCount] = {};  // written and read by the client's sole user only
+  double mNumbers[detail::Elements::kViews][kNumberCount] = {};  // each read by one thread only
 };
 
 }  // namespace PlayerCc

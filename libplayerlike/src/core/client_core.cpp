@@ -153,18 +153,24 @@ bool ClientCore::read_pending() {
 void ClientCore::begin_change() noexcept {
   static constinit std::atomic<std::uint64_t> last{0};
   if (thread_number == 0) thread_number = ++last;
-  if (first_user_ == 0 && usable()) {
-    first_user_ = thread_number;
-    sole_user_.store(thread_number, std::memory_order_relaxed);
-  } else if (first_user_ != thread_number) {
-    first_user_ = Elements::kNobody;
-    sole_user_.store(Elements::kNobody, std::memory_order_relaxed);
+  const Holder now = holder_.load(std::memory_order_relaxed);
+  const auto own = static_cast<std::uint32_t>(thread_number);
+  if (static_cast<std::uint32_t>(now) == own || !usable()) return;
+  auto viewer = std::ranges::find(viewers_, thread_number);
+  if (viewer == viewers_.end()) viewer = std::ranges::find(viewers_, std::uint64_t{0});
+  Holder next = Elements::kNobody;  // a third thread has no view
+  constexpr std::uint64_t kMostHandovers = 1ULL << (63U - Elements::kThreadBits);
+  if (viewer != viewers_.end() && handovers_ + 1 < kMostHandovers) {
+    *viewer = thread_number;
+    const auto view = static_cast<std::uint64_t>(viewer - viewers_.begin());
+    next = (++handovers_ * viewers_.size() + view) << Elements::kThreadBits | own;
   }
+  holder_.store(next, std::memory_order_relaxed);
 }
 
 void ClientCore::set_run_is_over(bool over) {
   const std::lock_guard lock(mutex_);
-  if (over) sole_user_.store(Elements::kNobody, std::memory_order_relaxed);
+  if (over) holder_.store(Elements::kNobody, std::memory_order_relaxed);
   run_is_over_ = over;
 }
 
@@ -196,7 +202,7 @@ void ClientCore::close() noexcept {
   {
     const std::lock_guard lock(mutex_);
     if (closed_.exchange(true)) return;
-    sole_user_.store(Elements::kNobody, std::memory_order_relaxed);
+    holder_.store(Elements::kNobody, std::memory_order_relaxed);
     for (const Entry& entry : entries_) entry.listener->on_close();
   }
   session_->close();

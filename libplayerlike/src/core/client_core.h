@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -83,10 +84,10 @@ class ClientCore final : private ReadingSink {
   /// Locks the mutex.
   void set_run_is_over(bool over);
 
-  /// The only thread that has changed the exposed data so far, as PlayerCc::detail::thread_number.
-  /// While the client is usable, this thread may read its own snapshots without the mutex, see
-  /// PlayerCc::detail::Elements.
-  [[nodiscard]] const std::atomic<std::uint64_t>& sole_user() const noexcept { return sole_user_; }
+  using Holder = PlayerCc::detail::Elements::Holder;
+  /// The thread that has changed the exposed data last. While the client is usable, it may read its
+  /// own snapshots without the mutex, see PlayerCc::detail::Elements.
+  [[nodiscard]] const std::atomic<Holder>& holder() const noexcept { return holder_; }
   /// Must be called before any change of data that devices expose. The caller holds the mutex.
   void begin_change() noexcept;
 
@@ -179,8 +180,9 @@ class ClientCore final : private ReadingSink {
   int looks_ = 0;                                              // not reported to the session yet
   std::atomic<bool> closed_{false};
   std::atomic<bool> run_is_over_{false};
-  std::uint64_t first_user_ = 0;  // the first thread that changed exposed data
-  std::atomic<std::uint64_t> sole_user_{PlayerCc::detail::Elements::kNobody};
+  std::array<std::uint64_t, PlayerCc::detail::Elements::kViews> viewers_{};  // have a view; 0: free
+  std::uint64_t handovers_ = 0;  // how often another thread became the holder
+  std::atomic<Holder> holder_{PlayerCc::detail::Elements::kNobody};
 };
 
 /// The newest reading of a device, which its proxies and sensors expose. The core's mutex guards

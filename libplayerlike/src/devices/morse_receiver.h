@@ -11,7 +11,7 @@ namespace CCMorse {
 /// The session side of a sensor.
 struct MorseSensor::Receiver final : playerlike::ReadingListener {
   explicit Receiver(MorseSensor& owner) : sensor(owner) {
-    sensor.mElements.Bind(&sensor.Core()->sole_user());
+    sensor.mElements.Bind(&sensor.Core()->holder());
   }
 
   void on_reading(const sim::SharedReading& reading) override;

@@ -30,10 +30,4 @@ inline BeamWindow window_of(const char* fun, double min_rad, double max_rad, dou
   });
 }
 
-/// The reading to which the elements belong, as its own type.
-template <typename Reading>
-const Reading& owner_of(const Elements& elements) {
-  return static_cast<const Reading&>(*static_cast<const sim::Reading*>(elements.Owner()));
-}
-
 }  // namespace PlayerCc::detail

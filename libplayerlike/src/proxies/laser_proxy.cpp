@@ -129,8 +129,9 @@ player_point_2d_t LaserProxy::GetPoint(uint32_t aIndex) const {
     return {range * std::cos(bearing), range * std::sin(bearing)};
   };
   double range = 0.0;
-  if (mElements.Find(aIndex, range)) {
-    return point(detail::owner_of<LaserReading>(mElements), range);
+  const void* owner = nullptr;
+  if (mElements.Find(aIndex, range, owner)) {
+    return point(static_cast<const LaserReading&>(*static_cast<const sim::Reading*>(owner)), range);
   }
   const char* fun = "LaserProxy::GetPoint";
   const scoped_lock_t lock(mLink->lock_element(fun));

@@ -29,7 +29,7 @@ struct ElementWords {
 struct ClientProxy::Link final : playerlike::ReadingListener {
   Link(ClientProxy& owner, std::shared_ptr<playerlike::ClientCore> shared)
       : proxy(owner), core(std::move(shared)) {
-    proxy.mElements.Bind(&core->sole_user());
+    proxy.mElements.Bind(&core->holder());
   }
 
   void on_reading(const sim::SharedReading& reading) override;
@@ -109,7 +109,7 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   playerlike::InterfaceBinding binding;
   bool attached = false;
   bool has_readings = false;  ///< whether it is subscribed to a device that makes readings
-  /// What getters return. Elements has a handle of its own, which only the client's sole user
+  /// What getters return. Elements has a handle of its own, which only the client's holder
   /// releases: while that thread reads numbers without the mutex, another one may replace this.
   playerlike::Newest newest;
   sim::SharedReading whole_scan;  ///< see show()

@@ -93,11 +93,12 @@ void Position2dProxy::HandleReading(const sim::SharedReading& aReading) {
 // The caller holds the client's mutex.
 void Position2dProxy::ShowNumbers() {
   const auto* reading = mLink->newest.find<PoseReading>();
-  if (reading == nullptr || !mElements.MayShow()) return;
+  const std::size_t view = mElements.MayShow();
+  if (reading == nullptr || view == detail::Elements::kViews) return;
   const auto numbers = numbers_of(*reading);
   static_assert(numbers.size() == kNumberCount);
-  std::ranges::copy(numbers, mNumbers);
-  mElements.Show(nullptr, mNumbers, kNumberCount);
+  std::ranges::copy(numbers, mNumbers[view]);
+  mElements.Show(nullptr, mNumbers[view], kNumberCount);
 }
 
 void Position2dProxy::SetSpeed(double aXSpeed, double aYSpeed, double aYawSpeed) {

@@ -117,7 +117,7 @@ TEST(SharedReading, ResetBeforeTake_ReadingKept) {
   EXPECT_EQ(keeper.readings[0]->time_ns, sim::from_seconds(0.1));
 }
 
-// One handle for all threads, with the mutex, and one for the sole user, without.
+// One handle for all threads, with the mutex, and one for the holder, without.
 TEST(SharedReading, Proxy_HoldsTwoHandles) {
   const auto world = test::make_fake_world();
   const std::shared_ptr<sim::Reading> scan = test::scan(1, {1, 2, 3, 4, 5});
@@ -239,7 +239,7 @@ TEST_F(Looks, Configure_FromOtherThread) {
   EXPECT_EQ(laser[4], 0.0);  // beyond the window
 }
 
-TEST_F(Looks, SoleUserAndOthers_SameBearings) {
+TEST_F(Looks, HolderAndOthers_SameBearings) {
   add_scans(1);
   client.Read();
   const auto bearings = [this] {
@@ -299,11 +299,57 @@ TEST_F(Looks, Copies_ShowElementsAtOnce) {
   ASSERT_TRUE(of_there.mElements.Find(1, value));
   EXPECT_EQ(value, 0.001);
   std::thread([&] {
-    const OpenLaser elsewhere(whole);  // not by the sole user
+    const OpenLaser elsewhere(whole);  // not by the holder
     EXPECT_FALSE(elsewhere.mElements.Find(1, value));
     EXPECT_EQ(elsewhere[1], 0.001);
   }).join();
-  EXPECT_TRUE(whole.mElements.Find(1, value));  // it is the sole user still
+  EXPECT_TRUE(whole.mElements.Find(1, value));  // it is the holder still
+}
+
+TEST_F(Looks, ThreadThatReads_NeedsNoMutex) {
+  add_scans(4);
+  const OpenLaser whole(&client, 0);
+  const auto seen = [&](std::uint32_t beam) {
+    double value = 0.0;
+    return whole.mElements.Find(beam, value) ? value : -1.0;
+  };
+  client.Read();
+  EXPECT_EQ(seen(1), 0.001);
+  std::thread([&] {
+    EXPECT_EQ(seen(1), -1.0);
+    client.Read();
+    EXPECT_EQ(seen(1), 0.002);
+    client.Read();
+    EXPECT_EQ(seen(1), 0.003);
+  }).join();
+  EXPECT_EQ(seen(1), -1.0);
+  EXPECT_EQ(whole[1], 0.003);
+  client.Read();
+  EXPECT_EQ(seen(1), 0.004);
+}
+
+TEST_F(Looks, OldView_NotUsedWhenItsThreadIsHolderAgain) {
+  add_scans(2);
+  const OpenLaser whole(&client, 0);
+  client.Read();
+  std::thread([&] { client.Read(); }).join();
+  LaserProxy(&client, 0).Configure(-0.6, 0.6, 0, 0, false, 10.0);  // another proxy's data change
+  double value = 0.0;
+  EXPECT_FALSE(whole.mElements.Find(1, value));
+  EXPECT_EQ(whole[1], 0.002);
+}
+
+TEST_F(Looks, ThirdThread_TakesTurnsWithMutex) {
+  add_scans(4);
+  const OpenLaser whole(&client, 0);
+  for (int i = 1; i <= 3; ++i) {
+    std::thread([&] {
+      client.Read();
+      double value = 0.0;
+      EXPECT_EQ(whole.mElements.Find(1, value), i < 3);
+      EXPECT_EQ(whole[1], 0.001 * i);
+    }).join();
+  }
 }
 
 TEST(LooksAtTheEnd, ClosedClient_Throws) {
