@@ -81,8 +81,8 @@ class Alone {
     playerlike::DeviceId motion;
   };
   void command(std::size_t r, const Choice& choice) {
-    simulation_.apply(robots_[r].motion,
-                      TwistCommand{{choice.speed_mps, choice.turn_rate_radps, 0.0}});
+    simulation_.apply(robots_[r].motion, TwistCommand{{.v_mps = choice.speed_mps,
+                                                       .omega_radps = choice.turn_rate_radps}});
   }
   void step() {
     for (int i = 0; i < kStepsARound; ++i) simulation_.step();

@@ -39,7 +39,8 @@ void drive(sim::WorldDescription world) {
   sim::Simulation simulation(std::move(world));
   for (int robot = 0; robot < simulation.robot_count(); ++robot) {
     if (const auto motion = simulation.find_device(robot, "motion")) {
-      static_cast<void>(simulation.apply({robot, *motion}, sim::TwistCommand{{0.5, 1.0}}));
+      static_cast<void>(simulation.apply({robot, *motion},
+                                         sim::TwistCommand{{.v_mps = 0.5, .omega_radps = 1.0}}));
     }
   }
   for (int step = 0; step < kSteps; ++step) simulation.step();

@@ -18,7 +18,7 @@ namespace sim::test {
 /// Commands a robot to drive straight ahead.
 inline void drive(Simulation& simulation, double speed_mps, int robot = 0) {
   const int motion = simulation.find_device(robot, "motion").value();
-  ASSERT_FALSE(simulation.apply({robot, motion}, TwistCommand{{speed_mps, 0.0, 0.0}}));
+  ASSERT_FALSE(simulation.apply({robot, motion}, TwistCommand{{.v_mps = speed_mps}}));
 }
 
 inline void run(Simulation& simulation, double duration_s) {

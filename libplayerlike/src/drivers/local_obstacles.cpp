@@ -63,7 +63,7 @@ sim::Twist LocalObstacles::safe_twist(double speed_mps, double turn_radps, doubl
                                       double robot_radius_m) const {
   constexpr std::array kShares{1.0, 0.75, 0.5, 0.25, 0.1};
   for (const double share : kShares) {
-    const sim::Twist twist{share * speed_mps, turn_radps};
+    const sim::Twist twist{.v_mps = share * speed_mps, .omega_radps = turn_radps};
     if (is_safe(twist, period_s, robot_radius_m)) return twist;
   }
   return {0.0, turn_radps};

@@ -52,7 +52,7 @@ std::optional<sim::Twist> NearnessDiagram::drive(const Situation& now, const Nav
   const std::optional<Region> region = choose_region(now);
   if (!region) {  // looks around
     situation_.reset();
-    return sim::Twist{0.0, std::copysign(settings_.max_turnrate_radps, goal_rad)};
+    return sim::Twist{.omega_radps = std::copysign(settings_.max_turnrate_radps, goal_rad)};
   }
   const bool is_wide = region->width_rad >= kNdWide_rad;
   situation_ = is_wide ? Case::kHighSafetyWideRegion : Case::kHighSafetyNarrowRegion;

@@ -26,13 +26,15 @@ std::optional<sim::Twist> StraightDrive::drive(const Situation& now, const Navig
   if (turns_) {
     const double least_radps =
         std::min({settings_.min_angular_vel_radps, std::abs(error_rad) / now.period_s, most_radps});
-    return sim::Twist{0.0, std::copysign(std::max(std::abs(turn_radps), least_radps), error_rad)};
+    return sim::Twist{.omega_radps =
+                          std::copysign(std::max(std::abs(turn_radps), least_radps), error_rad)};
   }
   const double least_mps = std::min(settings_.min_vel_mps, settings_.max_vel_mps);
   const double speed_mps = std::clamp(settings_.max_vel_mps * now.goal_m / kFullSpeed_m, least_mps,
                                       settings_.max_vel_mps);
   // Not past the goal before the next step.
-  return sim::Twist{std::min(speed_mps, now.goal_m / now.period_s), turn_radps};
+  return sim::Twist{.v_mps = std::min(speed_mps, now.goal_m / now.period_s),
+                    .omega_radps = turn_radps};
 }
 
 }  // namespace playerlike

@@ -111,7 +111,7 @@ std::optional<sim::Twist> VectorFieldHistogram::drive(const Situation& now,
   const double most_radps = max_turn_rate_radps();
   if (best == nullptr) {  // brakes, and looks around
     speed_mps_ = 0.0;
-    return sim::Twist{0.0, std::copysign(most_radps, goal_rad)};
+    return sim::Twist{.omega_radps = std::copysign(most_radps, goal_rad)};
   }
   bearing_W_rad_ = sim::normalize_angle(best->bearing_rad + now.X_WB.yaw_rad);
   const double turn_radps = std::clamp(best->bearing_rad / kFullTurn_rad, -1.0, 1.0) * most_radps;

@@ -182,10 +182,10 @@ class HostCommanders : public testing::Test {
 TEST_F(HostCommanders, LeavingClient_CommandsExecutedBeforeStop) {
   auto session = host_->connect(6665);
   session->request(SubscribeRequest{position_.reading});
-  session->send(*position_.motion, sim::TwistCommand{{0.2, 0.0, 0.0}});
+  session->send(*position_.motion, sim::TwistCommand{{.v_mps = 0.2}});
   step();
   EXPECT_GT(speed(), 0.0);
-  session->send(*position_.motion, sim::TwistCommand{{0.3, 0.0, 0.0}});
+  session->send(*position_.motion, sim::TwistCommand{{.v_mps = 0.3}});
   session.reset();
   step();
   EXPECT_EQ(speed(), 0.0);
@@ -194,7 +194,7 @@ TEST_F(HostCommanders, LeavingClient_CommandsExecutedBeforeStop) {
 TEST_F(HostCommanders, ClosedPosition2d_RobotStops) {
   const auto session = host_->connect(6665);
   session->request(SubscribeRequest{position_.reading});
-  session->send(*position_.motion, sim::TwistCommand{{0.2, 0.0, 0.0}});
+  session->send(*position_.motion, sim::TwistCommand{{.v_mps = 0.2}});
   session->request(UnsubscribeRequest{position_.reading});
   session->request(SleepRequest{0.5});
   EXPECT_EQ(speed(), 0.0);
@@ -202,8 +202,7 @@ TEST_F(HostCommanders, ClosedPosition2d_RobotStops) {
 
 TEST_F(HostCommanders, Commander_CommandsAtOnceAndLeavesRobotDriving) {
   auto commander = std::make_unique<Commander>(host_);
-  EXPECT_EQ(commander->command(*position_.motion, sim::TwistCommand{{0.2, 0.0, 0.0}}),
-            std::nullopt);
+  EXPECT_EQ(commander->command(*position_.motion, sim::TwistCommand{{.v_mps = 0.2}}), std::nullopt);
   EXPECT_THAT(commander->command(*position_.motion, sim::GripCommand{}),
               Optional(HasSubstr("takes no such command")));
   step();

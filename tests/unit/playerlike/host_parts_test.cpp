@@ -267,10 +267,10 @@ TEST_F(InputsTest, RepeatedCommands_LastApplied) {
   Inputs inputs(simulation, describe_robots(simulation), warn);
   const auto client = clients.add(6665, EventRole::kParticipant, {});
   const DeviceId motion = device(0, "motion");
-  EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{0.1, 0.0, 0.0}}));
-  EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{0.3, 0.0, 0.0}}));
+  EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{.v_mps = 0.1}}));
+  EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{.v_mps = 0.3}}));
   EXPECT_FALSE(inputs.add(*client, motion, sim::MotorEnableCommand{true}));
-  EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{0.2, 0.0, 0.0}}));
+  EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{.v_mps = 0.2}}));
   EXPECT_EQ(client->commands.size(), 3U);
   inputs.before_step(clients);
   EXPECT_TRUE(client->commands.empty());

@@ -80,7 +80,7 @@ class HostTest : public testing::Test {
     return binding;
   }
   static void drive(Session& session, const InterfaceBinding& binding, double v) {
-    session.send(binding.motion.value(), sim::TwistCommand{{v, 0.0, 0.0}});
+    session.send(binding.motion.value(), sim::TwistCommand{{.v_mps = v}});
   }
   static std::optional<sim::Colour> colour_at(Session& session, int column, int row) {
     const auto value = session.request(CellRequest{sim::kBaseLayer, column, row});
@@ -214,8 +214,8 @@ std::uint64_t two_threads_run(const std::shared_ptr<ReachableHost>& host) {
         Collector round;
         session->wait();
         session->take(round);
-        session->send(*binding.motion,
-                      sim::TwistCommand{{0.2 + 0.1 * std::sin(round.x_m), 0.3 * (i % 7 - 3), 0.0}});
+        session->send(*binding.motion, sim::TwistCommand{{.v_mps = 0.2 + 0.1 * std::sin(round.x_m),
+                                                          .omega_radps = 0.3 * (i % 7 - 3)}});
       }
     } catch (const SessionError& e) {
       EXPECT_EQ(e.code(), SessionError::Code::kFinished);

@@ -127,7 +127,7 @@ TEST_F(MirrorTest, Robot_FollowsPoseOfRealRobot) {
   ASSERT_TRUE(mirror_->twist_of(0).has_value());
   EXPECT_EQ(mirror_->twist_of(0)->v_mps, 0.4);
   // It stays there: commands to the simulated motors do not move it.
-  ASSERT_EQ(simulation_->apply(device("motion"), sim::TwistCommand{{0.5, 0.0, 0.0}}), std::nullopt);
+  ASSERT_EQ(simulation_->apply(device("motion"), sim::TwistCommand{{.v_mps = 0.5}}), std::nullopt);
   step(50);
   EXPECT_NEAR(pose().x_m, 0.8, 1e-12);
   EXPECT_EQ(simulation_->statistics(0).path_length_m, 0.0) << "the first jump is no path";
@@ -222,7 +222,8 @@ TEST_F(MirrorTest, ReadingsOfOtherType_IgnoredWithWarning) {
 
 TEST_F(MirrorTest, Commands_SentToRealRobot) {
   open(world_text());
-  EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.25, 0.5, 0.0}}));
+  EXPECT_TRUE(mirror_->take_command(device("motion"),
+                                    sim::TwistCommand{{.v_mps = 0.25, .omega_radps = 0.5}}));
   EXPECT_TRUE(eventually([this] { return !sent().empty(); }));
   EXPECT_EQ(sent()[0].first, test::kMotion);
   EXPECT_EQ(std::get<sim::TwistCommand>(sent()[0].second).twist.v_mps, 0.25);
@@ -250,7 +251,7 @@ TEST_F(MirrorTest, EndOfRun_StopsRealRobot) {
 
 TEST_F(MirrorTest, Pause_StopsRealRobot) {
   open(world_text());
-  EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.25, 0.0, 0.0}}));
+  EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{.v_mps = 0.25}}));
   EXPECT_TRUE(eventually([this] { return !sent().empty(); }));
   mirror_->halt();
   EXPECT_TRUE(eventually([this] { return sent().size() == 2; }));
@@ -276,7 +277,7 @@ TEST_F(MirrorTest, LostConnection_ReportedOnceAndEndsCommands) {
                                          HasSubstr("the connection is closed"))));
   EXPECT_EQ(mirror_->loss_of(device("pose")), losses_[0]);
   EXPECT_EQ(mirror_->loss_of(device("pen")), "");
-  EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}));
+  EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{.v_mps = 0.2}}));
   mirror_->stop();
   EXPECT_THAT(sent(), IsEmpty());
   EXPECT_NEAR(pose().x_m, 2.0, 1e-12);
@@ -352,7 +353,7 @@ TEST_F(MirrorTest, LostConnection_ReconnectsIfWorldAllows) {
   }));
   EXPECT_TRUE(mirror_->has_lost(0));
   EXPECT_EQ(mirror_->loss_of(device("pose")), "") << "nobody waits in vain";
-  EXPECT_THAT(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}),
+  EXPECT_THAT(mirror_->take_command(device("motion"), sim::TwistCommand{{.v_mps = 0.2}}),
               testing::Optional(testing::Optional(HasSubstr("is lost"))));
   EXPECT_FALSE(report().connected);
   set_closed(false);
@@ -383,7 +384,7 @@ TEST_F(MirrorTest, DevicesMissingOnRealRobot_DoNotMoveIt) {
 TEST_F(MirrorTest, DisabledDevices_TakeNoCommandsAndGiveNoReadings) {
   open(world_text());
   simulation_->set_active(device("motion"), false);
-  EXPECT_THAT(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}),
+  EXPECT_THAT(mirror_->take_command(device("motion"), sim::TwistCommand{{.v_mps = 0.2}}),
               testing::Optional(testing::Optional(HasSubstr("switched off"))));
   simulation_->set_active(device("laser"), false);
   real_->add_round({{test::kLaser, test::scan(1.0, {1, 2, 3, 4, 5})}});
@@ -427,7 +428,7 @@ TEST_F(MirrorTest, Ghost_FollowsSameCommands) {
   open(world_text(R"(, "drive": "both")"));
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
   EXPECT_EQ(report().ghost.value().final_distance_m, 0.0) << "it starts at the real robot";
-  EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}));
+  EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{.v_mps = 0.2}}));
   step(100);
   measures({{test::kPose, test::pose_reading(2.0, {2.05, 2.0, 0.5})}});
   // Without ramps the ghost drives 0.2 m in a second; the real one says 0.05 m.
@@ -457,7 +458,7 @@ TEST(Ghost, CollidesWithArena) {
   EXPECT_FALSE(ghost.place({3.99, 2.0, 0.0}));
   ASSERT_TRUE(ghost.place({3.8, 2.0, 0.0}));
   sim::WorldDescription world = sim::load_world_text(world_text());
-  for (int device = 0; device < 5; ++device) ghost.apply(device, sim::TwistCommand{{0.5, 0, 0}});
+  for (int device = 0; device < 5; ++device) ghost.apply(device, sim::TwistCommand{{.v_mps = 0.5}});
   for (int i = 0; i < 200; ++i) ghost.step(world);
   // Its front, 0.087 m ahead, is at the border.
   EXPECT_NEAR(ghost.pose().x_m, 4.0 - 0.087, 2e-3);
@@ -472,7 +473,7 @@ TEST(Ghost, BlocksRiseAsInWorld) {
   Ghost ghost(world, 0);
   world.arena.obstacles[0].state = sim::ObstacleState::kExtended;
   ASSERT_TRUE(ghost.place({2.7, 2.0, 0.0}));
-  for (int device = 0; device < 5; ++device) ghost.apply(device, sim::TwistCommand{{0.5, 0, 0}});
+  for (int device = 0; device < 5; ++device) ghost.apply(device, sim::TwistCommand{{.v_mps = 0.5}});
   for (int i = 0; i < 200; ++i) ghost.step(world);
   EXPECT_LT(ghost.pose().x_m, 2.9);
 }
@@ -480,7 +481,7 @@ TEST(Ghost, BlocksRiseAsInWorld) {
 TEST_F(MirrorTest, LostConnection_StopsGhost) {
   open(world_text(R"(, "drive": "both")"));
   measures({{test::kPose, test::pose_reading(1.0, {2.0, 2.0, 0.0})}});
-  EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{0.2, 0.0, 0.0}}));
+  EXPECT_TRUE(mirror_->take_command(device("motion"), sim::TwistCommand{{.v_mps = 0.2}}));
   {
     const std::lock_guard lock(real_->mutex);
     real_->closed = true;
@@ -586,7 +587,7 @@ TEST(MirroredRun, Program_DrivesAndReadsRealRobot) {
   const auto session = host->connect(6665);
   const InterfaceBinding position = find_interface(session->robots(), 6665, "position2d", 0);
   session->request(SubscribeRequest{position.reading});
-  session->send(*position.motion, sim::TwistCommand{{0.125, 0.0, 0.0}});
+  session->send(*position.motion, sim::TwistCommand{{.v_mps = 0.125}});
   EXPECT_TRUE(eventually([&] {
     const std::lock_guard lock(real->mutex);
     return !real->sent.empty();

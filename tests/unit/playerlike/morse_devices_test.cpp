@@ -634,10 +634,11 @@ TEST(Commands, NonFiniteNumbers_RefusedBeforeSending) {
   const double good = 1.0;
   using playerlike::SessionError;
   for (const sim::Command& bad : std::initializer_list<sim::Command>{
-           sim::TwistCommand{{good, nan, 0.0}}, sim::SetPoseCommand{{nan, good, good}},
-           sim::GotoCommand{{good, nan}}, sim::GotoCommand{{good, good}, nan},
-           sim::GotoCommand{{good, good}, good, INFINITY}, sim::PlaceCommand{{good, good, nan}},
-           sim::TranslateCommand{{nan, good}}, sim::RotateCommand{-INFINITY}}) {
+           sim::TwistCommand{{.v_mps = good, .omega_radps = nan}},
+           sim::SetPoseCommand{{nan, good, good}}, sim::GotoCommand{{good, nan}},
+           sim::GotoCommand{{good, good}, nan}, sim::GotoCommand{{good, good}, good, INFINITY},
+           sim::PlaceCommand{{good, good, nan}}, sim::TranslateCommand{{nan, good}},
+           sim::RotateCommand{-INFINITY}}) {
     try {
       session->send({0, 0}, bad);
       ADD_FAILURE() << "command of kind " << bad.index() << " was sent";

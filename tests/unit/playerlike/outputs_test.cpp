@@ -171,7 +171,8 @@ std::map<std::string, std::string> all_texts_of_a_run() {
   {
     Recorder recorder(settings, simulation);
     const auto motion = simulation.find_device(0, "motion");
-    EXPECT_FALSE(simulation.apply({0, *motion}, sim::TwistCommand{{0.0625, 0.5}}));
+    EXPECT_FALSE(
+        simulation.apply({0, *motion}, sim::TwistCommand{{.v_mps = 0.0625, .omega_radps = 0.5}}));
     for (int step = 0; step < 20; ++step) {
       simulation.step();
       recorder.observe(simulation);

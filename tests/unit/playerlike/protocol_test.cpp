@@ -789,7 +789,7 @@ TEST(Commands, MatchReference) {
   const auto line = [](const sim::Command& command) {
     return encode(encode_command(command), Encoding::kJson);
   };
-  EXPECT_EQ(line(sim::TwistCommand{{0.3, -1.0, 0.0}}),
+  EXPECT_EQ(line(sim::TwistCommand{{.v_mps = 0.3, .omega_radps = -1.0}}),
             "{\"kind\":\"twist\",\"lateral\":0.0,\"omega\":-1.0,\"v\":0.3}\n");
   EXPECT_EQ(line(sim::MotorEnableCommand{true}), "{\"kind\":\"motors\",\"on\":true}\n");
   const sim::Command short_twist =

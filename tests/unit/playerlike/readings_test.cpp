@@ -61,7 +61,7 @@ TEST(SharedReading, ConstantAndSharedByAll) {
   const DeviceId laser = device_of(*one, "laser");
   one->request(SubscribeRequest{laser});
   other->request(SubscribeRequest{laser});
-  one->send(device_of(*one, "motion"), sim::TwistCommand{{0.4, 0.0, 0.0}});
+  one->send(device_of(*one, "motion"), sim::TwistCommand{{.v_mps = 0.4}});
 
   const auto first = next(*one);
   ASSERT_EQ(first.size(), 1U);

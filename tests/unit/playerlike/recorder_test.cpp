@@ -284,7 +284,7 @@ TEST(Recorder, Scene_ShowsCollisions) {
   sim::Simulation simulation(small_world());
   Recorder recorder(settings, simulation);
   ASSERT_FALSE(simulation.apply({0, simulation.find_device(0, "motion").value()},
-                                sim::TwistCommand{{0.5, 0.0, 0.0}}));
+                                sim::TwistCommand{{.v_mps = 0.5}}));
   for (int step = 0; step < 200; ++step) {
     simulation.step();
     recorder.observe(simulation);

@@ -243,13 +243,13 @@ TEST(SocketSessions, Tokens_OpenServersAndRobots) {
   const auto second = find_interface(session.robots(), kMorsePort, "position2d", 1);
   session.request(SubscribeRequest{second.reading});
   // A command has no answer: the next call with an answer reports its error.
-  session.send(*second.motion, sim::TwistCommand{{0.5, 0.0, 0.0}});
+  session.send(*second.motion, sim::TwistCommand{{.v_mps = 0.5}});
   EXPECT_THAT(error_of([&] { read(session); }).what(), HasSubstr("r2"));
   EXPECT_EQ(read(session).x_m, 1.0);
   with_token.tokens.emplace_back("second-robot");
   SocketSession holder(with_token);
   holder.request(SubscribeRequest{second.reading});
-  holder.send(*second.motion, sim::TwistCommand{{0.5, 0.0, 0.0}});
+  holder.send(*second.motion, sim::TwistCommand{{.v_mps = 0.5}});
   EXPECT_GT(read(holder).x_m, 1.0);
 }
 
@@ -399,7 +399,7 @@ TEST(SocketSessions, LostConnection_ReconnectsWithRetries) {
   EXPECT_TRUE(session->connected());
   session->request(SleepRequest{0.2});
   EXPECT_THAT(read(*session).times_ns, testing::ElementsAre(200'000'000, 300'000'000));
-  session->send(motion, sim::TwistCommand{{0.5, 0.0, 0.0}});
+  session->send(motion, sim::TwistCommand{{.v_mps = 0.5}});
   EXPECT_GT(read(*session).x_m, 1.0);
 }
 
@@ -465,7 +465,7 @@ TEST(SocketSessions, Threads_ShareSession) {
         const TimeStatistics time = session->request(TimeRequest{});
         EXPECT_GE(time.sim_time_ns, last_ns);
         last_ns = time.sim_time_ns;
-        session->send(motion, sim::TwistCommand{{0.1 * t, 0.0, 0.0}});
+        session->send(motion, sim::TwistCommand{{.v_mps = 0.1 * t}});
         EXPECT_TRUE(session->request(CellRequest{sim::kBaseLayer, t, t}).has_value());
         EXPECT_FALSE(session->request(CellRequest{sim::kBaseLayer, -1, t}).has_value());
       }
@@ -527,8 +527,8 @@ TEST(SocketSessions, CommandsOfSession_ArriveBeforeOtherAdvances) {
   double x_m = 1.0;
   for (int i = 0; i < 200; ++i) {
     const double v = i % 2 == 0 ? 0.3 : -0.3;
-    first->send(motion, sim::TwistCommand{{v, 0.0, 0.0}});
-    second->send(other_motion, sim::TwistCommand{{v, 0.0, 0.0}});
+    first->send(motion, sim::TwistCommand{{.v_mps = v}});
+    second->send(other_motion, sim::TwistCommand{{.v_mps = v}});
     x_m += 0.1 * v;
     ASSERT_NEAR(read(*second).x_m, x_m, 1e-9) << i;
     ASSERT_NEAR(read(*first).x_m, x_m, 1e-9) << i;

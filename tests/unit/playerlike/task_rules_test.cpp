@@ -93,7 +93,7 @@ TEST_F(PermissionsTest, NoRules_EverythingAllowed) {
   begin(Results::kReport);
   const auto session = host_->connect(kMorsePort);
   session->request(SubscribeRequest{device(1, "laser")});
-  session->send(device(1, "motion"), sim::TwistCommand{{0.1, 0.0}});
+  session->send(device(1, "motion"), sim::TwistCommand{{.v_mps = 0.1}});
   static_cast<void>(session->request(WorldMapRequest{0.1}));
   static_cast<void>(session->request(ObjectPoseRequest{"r2"}));
   static_cast<void>(session->request(ArenaRequest{}));
@@ -112,10 +112,9 @@ TEST_F(PermissionsTest, OtherRobots_RefusedOnEveryPort) {
     const auto session = host_->connect(port);
     EXPECT_THAT(error_of([&] { session->request(SubscribeRequest{device(1, "laser")}); }),
                 AllOf(HasSubstr("the device laser of robot r2"), HasSubstr("robots: r1")));
-    EXPECT_THAT(error_of([&] {
-                  session->send(device(1, "motion"), sim::TwistCommand{{0.1, 0.0}});
-                }),
-                HasSubstr("the device motion of robot r2"));
+    EXPECT_THAT(
+        error_of([&] { session->send(device(1, "motion"), sim::TwistCommand{{.v_mps = 0.1}}); }),
+        HasSubstr("the device motion of robot r2"));
     EXPECT_THAT(error_of([&] {
                   static_cast<void>(session->request(TakeChargeRequest{device(1, "motion")}));
                 }),
@@ -127,7 +126,7 @@ TEST_F(PermissionsTest, OtherRobots_RefusedOnEveryPort) {
   }
   const auto own = host_->connect(6665);
   own->request(SubscribeRequest{device(0, "laser")});
-  own->send(device(0, "motion"), sim::TwistCommand{{0.1, 0.0}});
+  own->send(device(0, "motion"), sim::TwistCommand{{.v_mps = 0.1}});
   own->wait();
   const json report = this->report();
   EXPECT_THAT(report.at("refused").dump(),

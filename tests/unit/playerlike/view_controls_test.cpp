@@ -75,7 +75,7 @@ class HandDriveTest : public testing::Test {
   }
   // A program's command between two steps.
   void command(int robot, double v_mps) {
-    const sim::Command twist = sim::TwistCommand{{v_mps, 0.0, 0.0}};
+    const sim::Command twist = sim::TwistCommand{{.v_mps = v_mps}};
     hand.note_command({robot, device(robot)}, twist);
     ASSERT_FALSE(simulation.apply({robot, device(robot)}, twist));
   }

@@ -173,7 +173,7 @@ TEST_F(ViewedHostTest, Speed_Bounded) {
 TEST_F(ViewedHostTest, Keys_DriveRobotAgainstProgram) {
   start(world("{}", 8.0));
   const auto stand_still = [&] {
-    session->send(position.motion.value(), sim::TwistCommand{{0.0, 0.0, 0.0}});
+    session->send(position.motion.value(), sim::TwistCommand{});
     return read();
   };
   const double x_m = stand_still().x_m;
@@ -302,7 +302,7 @@ class WatchedLockstep : public testing::Test {
     for (int i = 0; i < reads; ++i) {
       session->wait();
       static_cast<void>(session->take(newest));
-      session->send(motors, sim::TwistCommand{{0.2, 0.1 * i}});
+      session->send(motors, sim::TwistCommand{{.v_mps = 0.2, .omega_radps = 0.1 * i}});
     }
   }
   std::string shown_with(const std::string& words) const {

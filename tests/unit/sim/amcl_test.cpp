@@ -34,7 +34,7 @@ TEST(Amcl, NoisyOdometry_Tracked) {
       R"("odometry": {"noise": 0.005, "wheel_ratio": 1.02},
          "amcl": {"init_pose": {"x": 0.5, "y": 0.4, "yaw_deg": 90}, "init_pose_var": [0.1, 0.1],
                   "init_pose_var_yaw_deg": 5, "pf_max_samples": 2000})"));
-  command(simulation, "motion", TwistCommand{{0.25, 0.0, 0.0}});
+  command(simulation, "motion", TwistCommand{{.v_mps = 0.25}});
   for (int i = 0; i < 800; ++i) simulation.step();  // 2 m
   const AmclReading& reading = amcl_of(simulation).reading();
   EXPECT_EQ(reading.sequence, 80U);
@@ -57,7 +57,7 @@ TEST(Amcl, BetweenUpdates_FollowsOdometry) {
   for (int i = 0; i < 50; ++i) simulation.step();
   EXPECT_EQ(amcl_of(simulation).reading().updates, 1U);              // the first scan
   command(simulation, "odometry", SetPoseCommand{{7.0, 7.0, 1.0}});  // does not disturb it
-  command(simulation, "motion", TwistCommand{{0.2, 0.0, 0.0}});
+  command(simulation, "motion", TwistCommand{{.v_mps = 0.2}});
   for (int i = 0; i < 100; ++i) simulation.step();
   const AmclReading& reading = amcl_of(simulation).reading();
   EXPECT_EQ(reading.updates, 1U);

@@ -243,7 +243,7 @@ TEST_F(BodyPartsWorld, RobotStartsAroundObjectAndGripsIt) {
   ASSERT_FALSE(simulation.apply(gripper, GripCommand{GripCommand::Action::kClose}));
   for (int i = 0; i < 150; ++i) simulation.step();
   const int motion = simulation.find_device(0, "motion").value();
-  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.2, 0.0, 0.0}}));
+  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{.v_mps = 0.2}}));
   for (int i = 0; i < 200; ++i) simulation.step();
   // 0.4 m, less what the motors take to reach their speed; the can stays 0.32 m ahead.
   const double x_m = simulation.body(0).X_WB.x_m;
@@ -266,7 +266,7 @@ TEST_F(BodyPartsWorld, RestoredState_ContinuesExactly) {
   const WorldDescription world = read(kForkFile, R"({"x": 0.8, "y": 1})");
   const auto drive = [](Simulation& simulation, int steps) {
     const int motion = simulation.find_device(0, "motion").value();
-    ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.2, 0.3, 0.0}}));
+    ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{.v_mps = 0.2, .omega_radps = 0.3}}));
     for (int i = 0; i < steps; ++i) simulation.step();
   };
   Simulation whole(world);

@@ -220,7 +220,7 @@ void interfere(Simulation& simulation, int i) {
   std::mt19937 random(static_cast<unsigned>(i));
   const int motion = simulation.find_device(1, "motion").value();
   const double turn = static_cast<double>(random() % 100) * 0.02 - 1.0;
-  ASSERT_FALSE(simulation.apply({1, motion}, TwistCommand{{0.4, turn, 0.0}}));
+  ASSERT_FALSE(simulation.apply({1, motion}, TwistCommand{{.v_mps = 0.4, .omega_radps = turn}}));
 }
 
 void go(Simulation& simulation, int from, int to) {

@@ -150,7 +150,7 @@ TEST(Destination, Remain_Returns) {
   step(simulation, 100);
   EXPECT_LE(std::abs(simulation.body(0).X_WB.x_m - 10.2), 0.1);
   // Another command to the motors ends its control.
-  EXPECT_EQ(send(simulation, "motion", TwistCommand{{0.3, 0.0, 0.0}}), std::nullopt);
+  EXPECT_EQ(send(simulation, "motion", TwistCommand{{.v_mps = 0.3}}), std::nullopt);
   step(simulation, 100);
   EXPECT_GT(simulation.body(0).X_WB.x_m, 10.5);
 }
@@ -170,12 +170,14 @@ TEST(Destination, InvalidGoals_Refused) {
 TEST(SpeedLoss, SlowsRobotByConstant) {
   Simulation simulation(
       room_with(motors_with(R"(, "speed_loss": 0.1, "turn_loss_deg": 18)") + R"("pose": {})"));
-  EXPECT_EQ(send(simulation, "motion", TwistCommand{{0.3, 0.0, 0.4}}), std::nullopt);
+  EXPECT_EQ(send(simulation, "motion", TwistCommand{{.v_mps = 0.3, .lateral_mps = 0.4}}),
+            std::nullopt);
   step(simulation, 2);
   // The speed is 0.5 - 0.1, in the same direction.
   EXPECT_NEAR(simulation.body(0).twist.v_mps, 0.24, 1e-6);
   EXPECT_NEAR(simulation.body(0).twist.lateral_mps, 0.32, 1e-6);
-  EXPECT_EQ(send(simulation, "motion", TwistCommand{{-0.05, 1.0, 0.0}}), std::nullopt);
+  EXPECT_EQ(send(simulation, "motion", TwistCommand{{.v_mps = -0.05, .omega_radps = 1.0}}),
+            std::nullopt);
   step(simulation, 2);
   EXPECT_EQ(simulation.body(0).twist.v_mps, 0.0);
   EXPECT_NEAR(simulation.body(0).twist.omega_radps, 1.0 - 0.1 * kPi, 1e-6);
@@ -202,7 +204,7 @@ TEST(Hand, NearestInCone_Gripped) {
   EXPECT_EQ(hand.reading().held, "near");
   EXPECT_EQ(hand.held(simulation.world(), 0), "near");
   // It goes with the robot.
-  EXPECT_EQ(send(simulation, "motion", TwistCommand{{-0.4, 0.0, 0.0}}), std::nullopt);
+  EXPECT_EQ(send(simulation, "motion", TwistCommand{{.v_mps = -0.4}}), std::nullopt);
   step(simulation, 50);
   EXPECT_NEAR(simulation.world().arena.obstacles[0].center.x(), 10.2, 0.02);
   EXPECT_EQ(send(simulation, "hand", GripCommand{GripCommand::Action::kOpen}), std::nullopt);

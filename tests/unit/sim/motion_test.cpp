@@ -77,7 +77,7 @@ void expect_near(const Pose& pose, const Pose& expected, double tolerance) {
 
 TEST(OmnidirectionalDrive, SideSpeed_StraightToSide) {
   Simulation simulation(room(drive_of(DriveKind::kOmnidirectional), {10.0, 10.0, 0.0}));
-  command(simulation, TwistCommand{{0.0, 0.0, 0.5}});
+  command(simulation, TwistCommand{{.lateral_mps = 0.5}});
   run(simulation, 2.0);
   expect_near(pose_of(simulation), {10.0, 11.0, 0.0}, 1e-9);
   EXPECT_DOUBLE_EQ(simulation.body(0).twist.lateral_mps, 0.5);
@@ -86,7 +86,7 @@ TEST(OmnidirectionalDrive, SideSpeed_StraightToSide) {
 
 TEST(OmnidirectionalDrive, WholeTwist_FollowsArc) {
   Simulation simulation(room(drive_of(DriveKind::kOmnidirectional), {10.0, 10.0, 0.0}));
-  command(simulation, TwistCommand{{0.3, 1.0, 0.4}});
+  command(simulation, TwistCommand{{.v_mps = 0.3, .omega_radps = 1.0, .lateral_mps = 0.4}});
   run(simulation, 2.0);
   // The integral of (0.3, 0.4) rotated by t from 0 to 2:
   // x = 0.3 sin 2 - 0.4 (1 - cos 2), y = 0.3 (1 - cos 2) + 0.4 sin 2.
@@ -102,7 +102,7 @@ TEST(OmnidirectionalDrive, WholeTwist_FollowsArc) {
 TEST(OmnidirectionalDrive, Wall_SlidesAlong) {
   // It extends 0.1 m to its left, so it reaches the wall y = 20 at y = 19.9, after 0.25 s.
   Simulation simulation(room(drive_of(DriveKind::kOmnidirectional), {10.0, 19.8, 0.0}));
-  command(simulation, TwistCommand{{0.3, 0.0, 0.4}});
+  command(simulation, TwistCommand{{.v_mps = 0.3, .lateral_mps = 0.4}});
   run(simulation, 2.0);
   EXPECT_NEAR(pose_of(simulation).x_m, 10.6, 0.005);
   EXPECT_NEAR(pose_of(simulation).y_m, 19.9, 0.002);
@@ -172,7 +172,8 @@ TEST(CarDrive, SteeringCommands_AngleAndFrontWheelSpeed) {
   DriveDescription drive = car();
   drive.steering_commands = true;
   Simulation simulation(room(drive, {10.0, 10.0, 0.0}));
-  const std::vector<Command> commands = {TwistCommand{{0.8, 0.4, 0.0}}, CarCommand{0.8, 0.4}};
+  const std::vector<Command> commands = {TwistCommand{{.v_mps = 0.8, .omega_radps = 0.4}},
+                                         CarCommand{0.8, 0.4}};
   for (const Command& one : commands) {
     command(simulation, one);
     run(simulation, 0.5);
@@ -189,16 +190,18 @@ TEST(CarDrive, SteeringCommands_AngleAndFrontWheelSpeed) {
 
 TEST(CarDrive, TurnRate_BySteering) {
   Simulation simulation(room(car(), {10.0, 10.0, 0.0}));
-  command(simulation, TwistCommand{{1.0, 0.8, 0.7}});  // it cannot move sideways
+  command(simulation,
+          TwistCommand{
+              {.v_mps = 1.0, .omega_radps = 0.8, .lateral_mps = 0.7}});  // it cannot move sideways
   run(simulation, 1.0);
   EXPECT_NEAR(simulation.body(0).twist.v_mps, 1.0, 1e-9);
   EXPECT_NEAR(simulation.body(0).twist.omega_radps, 0.8, 1e-9);
   EXPECT_NEAR(simulation.body(0).twist.lateral_mps, 0.0, 1e-9);
-  command(simulation, TwistCommand{{0.0, 0.8, 0.0}});  // it cannot turn on the spot either
+  command(simulation, TwistCommand{{.omega_radps = 0.8}});  // it cannot turn on the spot either
   run(simulation, 1.0);
   EXPECT_EQ(simulation.body(0).twist, Twist{});
   // the maximum turn rate is 0.1 tan(0.5) / 0.5
-  command(simulation, TwistCommand{{0.1, 3.0, 0.0}});
+  command(simulation, TwistCommand{{.v_mps = 0.1, .omega_radps = 3.0}});
   run(simulation, 1.0);
   EXPECT_NEAR(simulation.body(0).twist.omega_radps, 0.1 * std::tan(0.5) / 0.5, 1e-9);
 }
@@ -239,10 +242,10 @@ TEST(DifferentialDrive, OffsetAxle_TurnsAboutAxle) {
       ASSERT_FALSE(simulation.set_robot_dynamics(0, false).has_value());
       ASSERT_FALSE(simulation.set_robot_dynamics(0, true).has_value());
     }
-    command(simulation, TwistCommand{{0.0, 1.0}});
+    command(simulation, TwistCommand{{.omega_radps = 1.0}});
     run(simulation, 2.0);
     expect_near(pose_of(simulation), {10.0, 10.0, 2.0}, 1e-5);
-    command(simulation, TwistCommand{{0.5, 1.0}});  // a circle of 0.5 m
+    command(simulation, TwistCommand{{.v_mps = 0.5, .omega_radps = 1.0}});  // a circle of 0.5 m
     run(simulation, 2.0);
     expect_near(pose_of(simulation),
                 {10.0 + 0.5 * (std::sin(4.0) - std::sin(2.0)),
@@ -255,7 +258,7 @@ TEST(DifferentialDrive, SideSpeed_IgnoredAndSteeringUsesLength) {
   Simulation simulation(load_world_text(
       R"({"arena": {"size": [4, 4]}, "robots": [{"pose": {"x": 2, "y": 2, "yaw_deg": 0}}]})"));
   const int motion = simulation.find_device(0, "motion").value();
-  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.1, 0.0, 0.5}}));
+  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{.v_mps = 0.1, .lateral_mps = 0.5}}));
   run(simulation, 1.0);
   expect_near(pose_of(simulation), {2.1, 2.0, 0.0}, 1e-9);
   ASSERT_FALSE(simulation.apply({0, motion}, CarCommand{0.1, 0.3}));
@@ -409,7 +412,7 @@ TEST(PositionControl, OtherCommandMotorsAndPlacement_EndIt) {
   const PositionCommand far{{15.0, 10.0, 0.0}};
   command(simulation, far);
   run(simulation, 0.5);
-  command(simulation, TwistCommand{{0.0, 0.5}});
+  command(simulation, TwistCommand{{.omega_radps = 0.5}});
   run(simulation, 0.5);
   EXPECT_EQ(simulation.body(0).twist.v_mps, 0.0);
   EXPECT_NEAR(simulation.body(0).twist.omega_radps, 0.5, 1e-9);
@@ -442,8 +445,8 @@ TEST(PositionControl, State_Included) {
 // A robot that is told to continue its present command does not change its motion.
 TEST(Motion, PresentCommand_Continues) {
   for (const Command& what : std::initializer_list<Command>{
-           TwistCommand{{0.3, 0.2}}, HeadingCommand{0.3, 0.0, 2.0}, CarCommand{0.3, 0.2},
-           PositionCommand{{12.0, 11.0, 1.0}, 0.5, 1.0}}) {
+           TwistCommand{{.v_mps = 0.3, .omega_radps = 0.2}}, HeadingCommand{0.3, 0.0, 2.0},
+           CarCommand{0.3, 0.2}, PositionCommand{{12.0, 11.0, 1.0}, 0.5, 1.0}}) {
     for (const DriveKind kind : {DriveKind::kDifferential, DriveKind::kCar}) {
       Simulation one(room(kind == DriveKind::kCar ? car() : drive_of(kind), {10.0, 10.0, 0.0}));
       Simulation two(room(kind == DriveKind::kCar ? car() : drive_of(kind), {10.0, 10.0, 0.0}));

@@ -520,7 +520,8 @@ void interfere(Simulation& simulation, int step) {
   for (int i = 0; i < simulation.robot_count(); ++i) {
     const int motion = simulation.find_device(i, "motion").value();
     const double turn_radps = step % 900 == 800 ? 1.0 : 0.1 * i;
-    ASSERT_FALSE(simulation.apply({i, motion}, TwistCommand{{0.4, turn_radps, 0.0}}));
+    ASSERT_FALSE(
+        simulation.apply({i, motion}, TwistCommand{{.v_mps = 0.4, .omega_radps = turn_radps}}));
   }
 }
 

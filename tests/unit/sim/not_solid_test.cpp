@@ -37,7 +37,7 @@ double ghost_range_m(const Simulation& simulation) {
 
 void drive_ahead(Simulation& simulation, int steps) {
   const int motion = simulation.find_device(0, "motion").value();
-  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.5, 0.0, 0.0}}));
+  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{.v_mps = 0.5}}));
   for (int i = 0; i < steps; ++i) simulation.step();
 }
 

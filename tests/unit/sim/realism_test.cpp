@@ -228,7 +228,7 @@ TEST(OdometryErrors, WheelErrors_MatchUmbmark) {
   // Straight on for 2 m. Odometry assumes wheels of the mean diameter, so it measures the left path
   // times (E_d + 1) / 2 and the right path times (1 / E_d + 1) / 2.
   Simulation straight(open_world(devices));
-  send(straight, "motion", TwistCommand{{0.5, 0.0}});
+  send(straight, "motion", TwistCommand{{.v_mps = 0.5}});
   run(straight, 400);
   const double left = 2.0 * 0.5 * (kRatio + 1.0);
   const double right = 2.0 * 0.5 * (1.0 / kRatio + 1.0);
@@ -236,7 +236,7 @@ TEST(OdometryErrors, WheelErrors_MatchUmbmark) {
               1e-9);
   // On the spot by one radian, with equal wheels: odometry measures E_b as much.
   Simulation turn(open_world(R"("odometry": {"wheelbase_ratio": 1.05})"));
-  send(turn, "motion", TwistCommand{{0.0, 0.5}});
+  send(turn, "motion", TwistCommand{{.omega_radps = 0.5}});
   run(turn, 200);
   EXPECT_NEAR(odometry_of(turn).yaw_rad, 1.05, 1e-9);
 }
@@ -279,7 +279,7 @@ TEST(OdometryErrors, UmbmarkExperiment_RecoversThem) {
 
 TEST(OdometryErrors, ScaleAndDrift_MatchFormulas) {
   Simulation scaled(open_world(R"("odometry": {"scale": 1.05})"));
-  send(scaled, "motion", TwistCommand{{0.5, 0.0}});
+  send(scaled, "motion", TwistCommand{{.v_mps = 0.5}});
   run(scaled, 200);
   EXPECT_NEAR(odometry_of(scaled).x_m, 1.05, 1e-9);
   EXPECT_EQ(odometry_of(scaled).yaw_rad, 0.0);
@@ -305,7 +305,7 @@ TEST(OdometryErrors, RandomDrift_GrowsWithRootOfTime) {
 
 TEST(OdometryErrors, ScaleNoise_DrawnPerReading) {
   Simulation simulation(open_world(R"("odometry": {"scale": 1.1, "scale_noise": 0.05})"));
-  send(simulation, "motion", TwistCommand{{0.0005, 0.0}});
+  send(simulation, "motion", TwistCommand{{.v_mps = 0.0005}});
   std::vector<double> factors;
   for (int i = 0; i < 4000; ++i) {
     run(simulation, 10);  // 0.1 s: 50 um, one reading
@@ -342,7 +342,7 @@ TEST(Slip, GaussMarkovProcessPerWheel) {
   DriveDescription drive;
   Motion motion("motion", params, drive, RandomStream(7, "r1/motion"));
   ASSERT_TRUE(motion.slips());
-  ASSERT_FALSE(motion.apply(TwistCommand{{0.4, 0.5}}).has_value());
+  ASSERT_FALSE(motion.apply(TwistCommand{{.v_mps = 0.4, .omega_radps = 0.5}}).has_value());
   constexpr double kStep_s = 0.01;
   constexpr int kSteps = 100000;
   std::vector<double> left;
@@ -391,7 +391,7 @@ TEST(Slip, GaussMarkovProcessPerWheel) {
 TEST(Slip, RobotLeavesLineUnnoticedByOdometry) {
   Simulation simulation(
       open_world(R"("motion": {"slip": 0.05, "slip_time": 0.5}, "odometry": {})"));
-  send(simulation, "motion", TwistCommand{{0.5, 0.0}});
+  send(simulation, "motion", TwistCommand{{.v_mps = 0.5}});
   run(simulation, 2000);  // 10 m
   const Pose odometry = odometry_of(simulation);
   // The wheels turn as commanded, so odometry sees a straight line of 10 m.
@@ -417,7 +417,7 @@ TEST(Slip, HeadingError_MatchesFormula) {
   std::vector<double> headings;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     Motion motion("motion", params, {}, RandomStream(seed, "r1/motion"));
-    ASSERT_FALSE(motion.apply(TwistCommand{{0.4, 0.0}}).has_value());
+    ASSERT_FALSE(motion.apply(TwistCommand{{.v_mps = 0.4}}).has_value());
     double heading = 0.0;
     for (int i = 0; i < 1000; ++i) heading += motion.next_target(kStep_s).omega_radps * kStep_s;
     headings.push_back(heading);
@@ -450,7 +450,7 @@ TEST(SensorLatency, Reading_DeliveredLaterWithMeasurementTime) {
   Simulation late(open_world(R"("pose": {"latency": 0.25, "frequency": 20})"));
   Simulation exact(open_world(R"("pose": {"frequency": 20})"));
   for (Simulation* simulation : {&late, &exact}) {
-    send(*simulation, "motion", TwistCommand{{0.5, 0.0}});
+    send(*simulation, "motion", TwistCommand{{.v_mps = 0.5}});
   }
   std::vector<PoseReading> expected;
   for (int i = 1; i <= 200; ++i) {
@@ -500,9 +500,9 @@ TEST(SensorLatency, Reset_ContinuesSequence) {
 
 TEST(CommandLatency, Commands_DelayedInOrder) {
   Simulation simulation(open_world(R"("motion": {"latency": 0.05})"));
-  send(simulation, "motion", TwistCommand{{0.5, 0.0}});
+  send(simulation, "motion", TwistCommand{{.v_mps = 0.5}});
   run(simulation, 2);
-  send(simulation, "motion", TwistCommand{{0.1, 0.0}});
+  send(simulation, "motion", TwistCommand{{.v_mps = 0.1}});
   run(simulation, 3);
   EXPECT_EQ(simulation.body(0).X_WB.x_m, 20.0);  // five steps of 0.01 s
   simulation.step();
@@ -516,7 +516,7 @@ TEST(CommandLatency, Commands_DelayedInOrder) {
 TEST(CommandLatency, Placement_EndsDelay) {
   Simulation simulation(
       open_world(R"("motion": {"latency": 0.05}, "teleport": {"type": "teleport"})"));
-  send(simulation, "motion", TwistCommand{{0.5, 0.0}});
+  send(simulation, "motion", TwistCommand{{.v_mps = 0.5}});
   send(simulation, "teleport", PlaceCommand{{5, 5, 0}});
   run(simulation, 20);
   EXPECT_EQ(simulation.body(0).X_WB, (Pose{5, 5, 0}));
@@ -526,9 +526,9 @@ TEST(CommandLatency, FullQueue_RefusesCommands) {
   Simulation simulation(open_world(R"("motion": {"latency": 10})"));
   const Simulation::DeviceId motion{0, simulation.find_device(0, "motion").value()};
   for (int i = 0; i < 1000; ++i) {
-    ASSERT_FALSE(simulation.apply(motion, TwistCommand{{0.1, 0.0}}).has_value());
+    ASSERT_FALSE(simulation.apply(motion, TwistCommand{{.v_mps = 0.1}}).has_value());
   }
-  EXPECT_THAT(simulation.apply(motion, TwistCommand{{0.1, 0.0}}).value(), HasSubstr("1000"));
+  EXPECT_THAT(simulation.apply(motion, TwistCommand{{.v_mps = 0.1}}).value(), HasSubstr("1000"));
   EXPECT_TRUE(simulation.apply(motion, StopCommand{}).has_value());  // not a command of motors
 }
 
@@ -700,7 +700,8 @@ TEST(Realism, NoiseSettings_HaveFiguresInRange) {
 TEST(Realism, Ideal_ExactAfterLongDrive) {
   Simulation simulation(rich_world(Realism::kIdeal));
   for (int i = 0; i < 200; ++i) {
-    send(simulation, "motion", TwistCommand{{0.1 + 0.002 * (i % 100), 1.5 * std::sin(0.3 * i)}});
+    send(simulation, "motion",
+         TwistCommand{{.v_mps = 0.1 + 0.002 * (i % 100), .omega_radps = 1.5 * std::sin(0.3 * i)}});
     run(simulation, 50);
   }
   EXPECT_GT(simulation.statistics(0).path_length_m, 15.0);
@@ -772,7 +773,7 @@ std::uint64_t hash_after_a_drive(Realism level, std::uint64_t seed) {
   WorldDescription world = rich_world(level);
   world.simulation.seed = seed;
   Simulation simulation(std::move(world));
-  send(simulation, "motion", TwistCommand{{0.4, 0.3}});
+  send(simulation, "motion", TwistCommand{{.v_mps = 0.4, .omega_radps = 0.3}});
   run(simulation, 300);
   return simulation.state_hash();
 }
@@ -787,7 +788,8 @@ TEST(Realism, Real_SnapshotContinuesExactly) {
   // Delayed readings, delayed commands, slip and random streams are in transit at each moment.
   Simulation simulation(rich_world(Realism::kReal));
   for (int i = 0; i < 12; ++i) {
-    send(simulation, "motion", TwistCommand{{0.1 + 0.03 * i, 0.5 - 0.1 * i}});
+    send(simulation, "motion",
+         TwistCommand{{.v_mps = 0.1 + 0.03 * i, .omega_radps = 0.5 - 0.1 * i}});
     run(simulation, 7);
     Simulation fork = simulation.fork();
     ASSERT_EQ(fork.state_hash(), simulation.state_hash()) << i;
@@ -807,7 +809,7 @@ TEST(Realism, Real_SnapshotContinuesExactly) {
 TEST(Realism, RestoredWorld_ContinuesAtLaterTime) {
   Simulation simulation(rich_world(Realism::kReal));
   run(simulation, 57);
-  send(simulation, "motion", TwistCommand{{0.4, 0.0}});
+  send(simulation, "motion", TwistCommand{{.v_mps = 0.4}});
   const Snapshot snapshot = simulation.save();
   run(simulation, 100);
   const std::uint64_t sequence = device<Laser>(simulation, "laser").reading().sequence;

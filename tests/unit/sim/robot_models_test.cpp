@@ -86,13 +86,13 @@ TEST(ShippedModels, TurnAndArcAboutAxles) {
     SCOPED_TRACE(name);
     Simulation simulation(world_with(name));
     const int motion = simulation.find_device(0, "motion").value();
-    ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.0, 2.0}}));
+    ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{.omega_radps = 2.0}}));
     for (int i = 0; i < 300; ++i) simulation.step();
     EXPECT_NEAR(simulation.body(0).X_WB.x_m, 3.0, 1e-9);
     EXPECT_NEAR(simulation.body(0).X_WB.y_m, 3.0, 1e-9);
     ASSERT_FALSE(simulation.set_robot_dynamics(0, false));
     ASSERT_FALSE(simulation.set_robot_dynamics(0, true));
-    ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.1, 0.5}}));
+    ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{.v_mps = 0.1, .omega_radps = 0.5}}));
     for (int i = 0; i < 300; ++i) simulation.step();
     const int odometry = simulation.find_device(0, "odometry").value();
     const auto believed = simulation.device(0, odometry).pose_estimate().value();
@@ -157,8 +157,8 @@ std::vector<std::uint8_t> pressed_by_wall_ahead(const std::string& yaw_deg) {
       R"({"arena": {"size": [2, 6], "border_height": 1}, "robots": [
           {"model": "roomba", "pose": {"x": 1.5, "y": 3, "yaw_deg": )" +
       yaw_deg + "}}]}"));
-  static_cast<void>(
-      simulation.apply({0, simulation.find_device(0, "motion").value()}, TwistCommand{{0.5, 0.0}}));
+  static_cast<void>(simulation.apply({0, simulation.find_device(0, "motion").value()},
+                                     TwistCommand{{.v_mps = 0.5}}));
   const int bumper = simulation.find_device(0, "bumper").value();
   for (int i = 0; i < 300; ++i) {
     simulation.step();

@@ -53,7 +53,7 @@ const ReadingType& reading(const Simulation& simulation, const std::string& devi
 
 void drive(Simulation& simulation, double v, double omega = 0.0, int robot = 0) {
   const auto refusal = simulation.apply({robot, simulation.find_device(robot, "motion").value()},
-                                        TwistCommand{{v, omega, 0.0}});
+                                        TwistCommand{{.v_mps = v, .omega_radps = omega}});
   ASSERT_FALSE(refusal.has_value()) << *refusal;
 }
 

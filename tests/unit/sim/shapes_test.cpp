@@ -396,7 +396,7 @@ TEST(Shapes, Size_ScalesCirclesAndPolygons) {
 TEST(Shapes, BumperAndCollisionSensor_FeelCircle) {
   Simulation simulation(three_shapes(R"({"bumper": {}, "collision": {}})"));
   const int motion = simulation.find_device(0, "motion").value();
-  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.4, 0.0, 0.0}}));
+  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{.v_mps = 0.4}}));
   run(simulation, 600);
   const auto& bumper = device<Bumper>(simulation, 0, "bumper");
   int pressed = 0;
@@ -425,7 +425,7 @@ TEST(Shapes, GrippedPuck_VisibleToOthers) {
   EXPECT_NEAR(reading.gap_m, 0.04, 0.0013);
   EXPECT_TRUE(reading.outer_beam || reading.inner_beam);
   const int motion = simulation.find_device(0, "motion").value();
-  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.2, 0.0, 0.0}}));
+  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{.v_mps = 0.2}}));
   run(simulation, 185);
   ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{}));
   run(simulation, 15);
@@ -507,7 +507,7 @@ TEST(Shapes, Snapshots_RestoreShapes) {
   };
   Simulation simulation = make();
   const int motion = simulation.find_device(0, "motion").value();
-  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.5, 0.3, 0.0}}));
+  ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{.v_mps = 0.5, .omega_radps = 0.3}}));
   run(simulation, 350);  // against the pillar
   ASSERT_FALSE(simulation.place_object("notch", {3.2, 3.4, 0.7}));
   ASSERT_FALSE(simulation.set_block_size("wedge", {0.8, 1.3}, 0.2));

@@ -72,7 +72,7 @@ TEST(Dio, ConstantsAndRobotState_Read) {
   run(simulation, 10);
   EXPECT_EQ(dio.reading().inputs, 0b0101U);
   // It drives into the right border and touches it.
-  ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{0.5, 0.0}}));
+  ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{.v_mps = 0.5}}));
   run(simulation, 200);
   EXPECT_EQ(dio.reading().inputs & 0b1000U, 0b1000U);
 }
@@ -146,7 +146,8 @@ TEST(Aio, ConstantsSpeedsBatteryRangesAndOutputs_Read) {
   EXPECT_EQ(volts[6], 0.0);
   EXPECT_THAT(simulation.apply(id_of(simulation, 1, "aio"), AnalogOutputCommand{2, 0.0}).value(),
               HasSubstr("no output 2"));
-  ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{0.2, 0.5}}));
+  ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"),
+                                TwistCommand{{.v_mps = 0.2, .omega_radps = 0.5}}));
   run(simulation, 10);
   EXPECT_NEAR(device<Aio>(simulation, 0, "abc").reading().inputs_v[1], 0.2, 1e-9);
   EXPECT_NEAR(device<Aio>(simulation, 0, "abc").reading().inputs_v[6], 0.5, 1e-9);
@@ -323,7 +324,7 @@ TEST(PlaceObject, MovedBlock_AffectsSensorsAndWheels) {
   // A block stops robots at its new place, and not at its old place.
   ASSERT_FALSE(simulation.place_object("r2", {3.5, 1.5, 0.0}));
   ASSERT_FALSE(simulation.place_object("b", {2.0, 1.0, 0.0}));
-  ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{0.5, 0.0}}));
+  ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{.v_mps = 0.5}}));
   run(simulation, 400);
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.8 - 0.087, 2e-3);
   EXPECT_EQ(simulation.collisions().back().partner, "b");
@@ -376,7 +377,7 @@ TEST(Fiducials, Reset_RestoresNumbers) {
 
 TEST(PlaceObject, Motors_KeepDriving) {
   Simulation simulation = two_robots("");
-  ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{0.2, 0.0}}));
+  ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{.v_mps = 0.2}}));
   run(simulation, 10);
   ASSERT_FALSE(simulation.place_object("r1", {0.5, 0.5, 0.0}));
   EXPECT_EQ(simulation.body(0).X_WB, (Pose{0.5, 0.5, 0.0}));

@@ -59,7 +59,7 @@ std::string refusal(Simulation& simulation, const std::string& device, const Com
 }
 
 void drive(Simulation& simulation, double v, double omega, int robot = 0) {
-  command(simulation, "motion", TwistCommand{{v, omega, 0.0}}, robot);
+  command(simulation, "motion", TwistCommand{{.v_mps = v, .omega_radps = omega}}, robot);
 }
 
 void run(Simulation& simulation, int steps) {
@@ -667,7 +667,7 @@ TEST(SetActive, InactiveActuator_StopsAndRefusesCommands) {
   drive(simulation, 0.4, 0.0);
   run(simulation, 10);
   simulation.set_active(motion, false);
-  EXPECT_EQ(refusal(simulation, "motion", TwistCommand{{0.4, 0.0, 0.0}}),
+  EXPECT_EQ(refusal(simulation, "motion", TwistCommand{{.v_mps = 0.4}}),
             "device r1.motion is switched off: it takes no commands until it is on again");
   run(simulation, 10);
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.04, 1e-9);

@@ -43,7 +43,7 @@ void command(Simulation& simulation, const std::string& device, const Command& w
 }
 
 void drive(Simulation& simulation, double v, double omega, int robot = 0) {
-  command(simulation, "motion", TwistCommand{{v, omega, 0.0}}, robot);
+  command(simulation, "motion", TwistCommand{{.v_mps = v, .omega_radps = omega}}, robot);
 }
 
 void run(Simulation& simulation, int steps) {
@@ -150,8 +150,8 @@ TEST(Simulation, AccelerationLimit_RampsSpeed) {
 
 TEST(Simulation, Actuator_RefusesForeignCommands) {
   Simulation simulation(room());
-  const auto refusal = simulation.apply({0, simulation.find_device(0, "pen").value()},
-                                        TwistCommand{{0.1, 0.0, 0.0}});
+  const auto refusal =
+      simulation.apply({0, simulation.find_device(0, "pen").value()}, TwistCommand{{.v_mps = 0.1}});
   ASSERT_TRUE(refusal.has_value());
   EXPECT_THAT(*refusal, HasSubstr("pen"));
 }

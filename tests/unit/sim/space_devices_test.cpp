@@ -120,7 +120,7 @@ TEST(Gyroscope, TurnsWithItsCarrier) {
 
 TEST(Velocity, AxesOfSensor_Used) {
   Simulation simulation(room_with(R"("velocity": {"yaw_deg": 90, "pitch_deg": 90})"));
-  send(simulation, "motion", TwistCommand{{0.5, 0.3, 0.0}});
+  send(simulation, "motion", TwistCommand{{.v_mps = 0.5, .omega_radps = 0.3}});
   step(simulation, 200);
   // The sensor's x axis points down, its y axis backwards, its z axis to the left.
   const auto& reading = device<Velocity>(simulation, "velocity").reading();
@@ -134,7 +134,7 @@ TEST(Velocity, AxesOfSensor_Used) {
 TEST(Accelerometer, MeanSinceLastReading) {
   Simulation simulation(
       room_with(R"("accelerometer": {}, "motion": {"max_acceleration": 2, "max_speed": 1})"));
-  send(simulation, "motion", TwistCommand{{1.0, 0.0, 0.0}});
+  send(simulation, "motion", TwistCommand{{.v_mps = 1.0}});
   step(simulation, 30);  // 0.3 s: still 2 m/s^2
   const auto& reading = device<Accelerometer>(simulation, "accelerometer").reading();
   EXPECT_NEAR(reading.acceleration_mps2[0], 2.0, 1e-9);
@@ -189,7 +189,7 @@ TEST(Barometer, MatchesStandardAtmosphere) {
 
 TEST(Airspeed, HalfDensityTimesSquaredSpeed) {
   Simulation simulation(room_with(R"("airspeed": {"yaw_deg": 60})"));
-  send(simulation, "motion", TwistCommand{{1.0, 0.0, 0.0}});
+  send(simulation, "motion", TwistCommand{{.v_mps = 1.0}});
   step(simulation, 200);
   // cos(60 degrees) of 1 m/s: 0.5 * 1.225 * 0.25.
   EXPECT_NEAR(device<Airspeed>(simulation, "airspeed").reading().pressure_pa, 0.153125, 1e-9);

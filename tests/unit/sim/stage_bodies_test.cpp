@@ -148,7 +148,7 @@ TEST(StageBodies, Bigbob_HoldsOrangeBetweenTeeth) {
   };
   const auto drive = [&](double speed_mps, int steps) {
     const int motion = simulation.find_device(0, "motion").value();
-    ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{speed_mps, 0.0, 0.0}}));
+    ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{.v_mps = speed_mps}}));
     for (int i = 0; i < steps; ++i) simulation.step();
   };
   for (int i = 0; i < 20; ++i) simulation.step();

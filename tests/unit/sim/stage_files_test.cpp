@@ -307,7 +307,7 @@ TEST_F(StageFiles, Cars_SteeredBySecondNumberOfSpeed) {
   Simulation simulation(world);
   const auto motion = simulation.find_device(0, "motion");
   ASSERT_TRUE(motion);
-  ASSERT_FALSE(simulation.apply({0, *motion}, TwistCommand{{0.8, 0.4, 0.0}}));
+  ASSERT_FALSE(simulation.apply({0, *motion}, TwistCommand{{.v_mps = 0.8, .omega_radps = 0.4}}));
   for (int i = 0; i < 100; ++i) simulation.step();
   // libstage/model_position.cc of Stage 4: v cos(angle), v sin(angle) / wheelbase.
   EXPECT_NEAR(simulation.body(0).twist.v_mps, 0.8 * std::cos(0.4), 1e-9);

@@ -495,7 +495,7 @@ position ( name "r0" size [0.3 0.3 0.2] ctrl "wander"
   EXPECT_GT(path_m, 1.0);  // of 8 m with free way
   const auto motion = simulation.find_device(0, "motion");
   ASSERT_TRUE(motion);
-  ASSERT_FALSE(simulation.apply({0, *motion}, TwistCommand{{0.0, 0.0}}));
+  ASSERT_FALSE(simulation.apply({0, *motion}, TwistCommand{}));
   simulation.step();
   last = simulation.body(0).X_WB;
   for (int i = 0; i < 500; ++i) simulation.step();

@@ -146,7 +146,7 @@ Command random_command(std::mt19937& random) {
     case 0:
     case 1:
     case 2:
-      return TwistCommand{{0.5 * a, 3.0 * b}};
+      return TwistCommand{{.v_mps = 0.5 * a, .omega_radps = 3.0 * b}};
     case 3:
       return MotorEnableCommand{a > -0.8};
     case 4:

@@ -46,7 +46,7 @@ const ReadingType& reading(const Simulation& simulation, const std::string& devi
 
 void drive(Simulation& simulation, double v, double omega) {
   const auto refusal = simulation.apply({0, simulation.find_device(0, "motion").value()},
-                                        TwistCommand{{v, omega, 0.0}});
+                                        TwistCommand{{.v_mps = v, .omega_radps = omega}});
   ASSERT_FALSE(refusal.has_value()) << *refusal;
 }
 
