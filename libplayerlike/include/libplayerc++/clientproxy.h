@@ -16,9 +16,9 @@
 #include "libplayerc++/playerstructs.h"
 #include "libplayerc++/readsignal.h"
 
-namespace sim {
-struct Reading;
-}  // namespace sim
+namespace playerlike {
+struct NewReading;
+}  // namespace playerlike
 
 namespace PlayerCc {
 
@@ -149,7 +149,7 @@ class ClientProxy {
   T Look(T Reading::*aMember, const char* aFun = "ClientProxy") const;
   /// Called for each new reading of the device. The implementation of the base class lets the
   /// getters return it.
-  virtual void HandleReading(const std::shared_ptr<const sim::Reading>& aReading);
+  virtual void HandleReading(const playerlike::NewReading& aNew);
   /// Calls HandlePoll() in each round from now on. For proxies of the world, which have no
   /// readings.
   void Poll();

@@ -104,7 +104,7 @@ class LaserProxy : public ClientProxy {
   }
 
  protected:
-  void HandleReading(const std::shared_ptr<const sim::Reading>& aReading) override;
+  void HandleReading(const playerlike::NewReading& aNew) override;
 
  private:
   // The following members are guarded by the client's mutex.
@@ -115,7 +115,7 @@ class LaserProxy : public ClientProxy {
   [[gnu::cold]] double LockedBearing(uint32_t aIndex) const;
   [[gnu::cold]] uint32_t LockedCount() const;
   double LeastRange(bool aLeft) const;
-  void View(std::shared_ptr<const sim::Reading> aMeasured);
+  void View(const playerlike::NewReading& aMeasured);
 
   std::size_t mCount = 0;  // number of measured beams
   std::size_t mFirst = 0;  // index of the first shown beam among the measured ones

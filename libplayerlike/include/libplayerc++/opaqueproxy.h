@@ -34,7 +34,7 @@ class OpaqueProxy : public ClientProxy {
   int SendReq(player_opaque_data_t* aRequest);
 
  protected:
-  void HandleReading(const std::shared_ptr<const sim::Reading>& aReading) override;
+  void HandleReading(const playerlike::NewReading& aNew) override;
   void HandleRound() override;
 
  private:

@@ -77,7 +77,7 @@ class PlannerProxy : public ClientProxy {
   player_pose2d_t operator[](uint32_t aIndex) const { return GetWaypoint(aIndex); }
 
  protected:
-  void HandleReading(const std::shared_ptr<const sim::Reading>& aReading) override;
+  void HandleReading(const playerlike::NewReading& aNew) override;
 
  private:
   std::shared_ptr<const playerlike::PlannerState> State(const char* aFun) const;

@@ -103,7 +103,7 @@ class Position2dProxy : public ClientProxy {
   bool GetStall() const { return Number(kStall) > 0.0; }
 
  protected:
-  void HandleReading(const std::shared_ptr<const sim::Reading>& aReading) override;
+  void HandleReading(const playerlike::NewReading& aNew) override;
 
  private:
   struct Control;

@@ -96,12 +96,12 @@ class RangerProxy : public ClientProxy {
   player_bbox3d_t GetSensorSize(uint32_t aIndex) const { return GetElementSize(aIndex); }
 
  protected:
-  void HandleReading(const std::shared_ptr<const sim::Reading>& aReading) override;
+  void HandleReading(const playerlike::NewReading& aNew) override;
 
  private:
   // The following members are guarded by the client's mutex.
   [[gnu::cold]] double LockedRange(uint32_t aIndex) const;  // locks the mutex
-  void View(std::shared_ptr<const sim::Reading> aMeasured);
+  void View(const playerlike::NewReading& aMeasured);
 
   bool mIsLaser = false;
   std::size_t mCount = 0;  // number of measured ranges

@@ -36,7 +36,7 @@ class WiFiProxy : public ClientProxy {
   int GetLinkNoise(int index) const;              ///< [dBm], rounded
 
  protected:
-  void HandleReading(const std::shared_ptr<const sim::Reading>& aReading) override;
+  void HandleReading(const playerlike::NewReading& aNew) override;
 
  private:
   playerc_wifi_link_t& Link(int aIndex, const char* aFun) const;

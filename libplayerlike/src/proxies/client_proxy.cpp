@@ -23,7 +23,7 @@ using playerlike::translated;
 
 void ClientProxy::Link::on_reading(const sim::SharedReading& reading) {
   refresh(sim::to_seconds(reading->time_ns));
-  proxy.HandleReading(reading);
+  proxy.HandleReading({reading});
   proxy.mFresh = true;
 }
 
@@ -174,7 +174,7 @@ ClientProxy::scoped_lock_t ClientProxy::LockData(const char* aFun) const {
   return mLink->lock(aFun);
 }
 
-void ClientProxy::HandleReading(const sim::SharedReading& aReading) { mLink->show(aReading); }
+void ClientProxy::HandleReading(const playerlike::NewReading& aNew) { mLink->show(aNew.reading); }
 
 void ClientProxy::HandleRound() {}
 

@@ -49,8 +49,8 @@ LaserProxy::LaserProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aI
 
 LaserProxy::~LaserProxy() { ClientProxy::Unsubscribe(); }
 
-void LaserProxy::HandleReading(const sim::SharedReading& aReading) {
-  const auto* scan = playerlike::reading_as<LaserReading>(*aReading);
+void LaserProxy::HandleReading(const playerlike::NewReading& aNew) {
+  const auto* scan = playerlike::reading_as<LaserReading>(*aNew.reading);
   if (scan == nullptr) return;
   if (scan->ranges_m.size() != mCount) {
     // The scan differs from the announced geometry: expose all of it.
@@ -60,22 +60,23 @@ void LaserProxy::HandleReading(const sim::SharedReading& aReading) {
     mShown = mCount;
   }
   const playerlike::ScanDriverInfo* const driver = mLink->binding.scan_driver;
-  View(driver == nullptr ? aReading : playerlike::made_scan(*driver, aReading));
+  if (driver == nullptr) return View(aNew);
+  View({playerlike::made_scan(*driver, aNew.reading)});
 }
 
 // Shows a scan or a part of it.
-void LaserProxy::View(sim::SharedReading aMeasured) {
+void LaserProxy::View(const playerlike::NewReading& aMeasured) {
   if (mStride == 1 && mShown == mCount && mRangeRes == 0.0) {
-    return mLink->show(std::move(aMeasured));
+    return mLink->show(aMeasured.reading);
   }
-  const auto& scan = static_cast<const LaserReading&>(*aMeasured);
+  const auto& scan = static_cast<const LaserReading&>(*aMeasured.reading);
   auto shown = detail::part_of(scan, {mFirst, mStride, mShown});
   if (mRangeRes > 0.0) {
     for (double& range : shown->ranges_m) {
       range = playerlike::limited_range_m(range, mRangeRes, 0.0, scan.range_max_m);
     }
   }
-  mLink->show(std::move(shown), std::move(aMeasured));
+  mLink->show(std::move(shown), aMeasured.reading);
 }
 
 // The caller holds the client's mutex.
@@ -193,7 +194,7 @@ void LaserProxy::Configure(double aMinAngle, double aMaxAngle, uint32_t aScanRes
   mStride = window.stride;
   mShown = window.shown;
   mRangeRes = aRangeRes * 0.001;
-  View(measured);
+  View({measured});
 }
 
 void LaserProxy::RequestConfigure() {

@@ -18,8 +18,8 @@ OpaqueProxy::OpaqueProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, 
 
 OpaqueProxy::~OpaqueProxy() { ClientProxy::Unsubscribe(); }
 
-void OpaqueProxy::HandleReading(const sim::SharedReading& aReading) {
-  const auto* reading = playerlike::reading_as<sim::OpaqueReading>(*aReading);
+void OpaqueProxy::HandleReading(const playerlike::NewReading& aNew) {
+  const auto* reading = playerlike::reading_as<sim::OpaqueReading>(*aNew.reading);
   if (reading == nullptr) return;
   if (!mInRound) {
     mInRound = true;

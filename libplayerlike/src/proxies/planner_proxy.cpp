@@ -27,9 +27,9 @@ PlannerProxy::PlannerProxy(PlayerClient* aPc, uint32_t aIndex)
 
 PlannerProxy::~PlannerProxy() { ClientProxy::Unsubscribe(); }
 
-void PlannerProxy::HandleReading(const sim::SharedReading& aReading) {
+void PlannerProxy::HandleReading(const playerlike::NewReading& aNew) {
   if (mPlanner == nullptr) return;  // a reading during the constructor
-  mPlanner->on_reading(*aReading);
+  mPlanner->on_reading(*aNew.reading);
   mState = std::make_shared<PlannerState>(mPlanner->state());
   mWaypointCount = static_cast<uint32_t>(mState->waypoint_count());
 }

@@ -82,11 +82,11 @@ Position2dProxy::Position2dProxy(const Position2dProxy& aOther)
 
 Position2dProxy::~Position2dProxy() { ClientProxy::Unsubscribe(); }
 
-void Position2dProxy::HandleReading(const sim::SharedReading& aReading) {
-  const auto* reading = playerlike::reading_as<PoseReading>(*aReading);
+void Position2dProxy::HandleReading(const playerlike::NewReading& aNew) {
+  const auto* reading = playerlike::reading_as<PoseReading>(*aNew.reading);
   if (reading == nullptr) return;
   mLink->core->note_pose(mLink->binding.robot, reading->pose, mLink->info().type == "pose");
-  mLink->newest.reading = aReading;
+  mLink->newest.reading = aNew.reading;
   ShowNumbers();
 }
 

@@ -55,9 +55,9 @@ RangerProxy::RangerProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, 
 
 RangerProxy::~RangerProxy() { ClientProxy::Unsubscribe(); }
 
-void RangerProxy::HandleReading(const sim::SharedReading& aReading) {
-  const auto* scan = playerlike::reading_as<LaserReading>(*aReading);
-  const auto* round = playerlike::reading_as<RangerReading>(*aReading);
+void RangerProxy::HandleReading(const playerlike::NewReading& aNew) {
+  const auto* scan = playerlike::reading_as<LaserReading>(*aNew.reading);
+  const auto* round = playerlike::reading_as<RangerReading>(*aNew.reading);
   if (scan == nullptr && round == nullptr) return;
   const std::size_t count = (scan != nullptr ? scan->ranges_m : round->ranges_m).size();
   if (count != mCount) {  // differs from the announced geometry: expose all of it
@@ -66,12 +66,12 @@ void RangerProxy::HandleReading(const sim::SharedReading& aReading) {
     mStride = 1;
     mShown = mCount;
   }
-  View(aReading);
+  View(aNew);
 }
 
 // Shows measured ranges or a part of them.
-void RangerProxy::View(sim::SharedReading aMeasured) {
-  if (mStride == 1 && mShown == mCount && !mLimits) return mLink->show(std::move(aMeasured));
+void RangerProxy::View(const playerlike::NewReading& aMeasured) {
+  if (mStride == 1 && mShown == mCount && !mLimits) return mLink->show(aMeasured.reading);
   const auto limit = [this](std::vector<double>& ranges) {
     if (!mLimits) return;
     for (double& range : ranges) {
@@ -80,12 +80,12 @@ void RangerProxy::View(sim::SharedReading aMeasured) {
   };
   const auto show = [&](const auto& shown) {
     limit(shown->ranges_m);
-    mLink->show(shown, std::move(aMeasured));
+    mLink->show(shown, aMeasured.reading);
   };
-  if (const auto* scan = playerlike::reading_as<LaserReading>(*aMeasured)) {
+  if (const auto* scan = playerlike::reading_as<LaserReading>(*aMeasured.reading)) {
     show(detail::part_of(*scan, {mFirst, mStride, mShown}));
   } else {
-    show(std::make_shared<RangerReading>(static_cast<const RangerReading&>(*aMeasured)));
+    show(std::make_shared<RangerReading>(static_cast<const RangerReading&>(*aMeasured.reading)));
   }
 }
 
@@ -216,7 +216,8 @@ void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularR
   mMaxRange = limits.max_m;
   mRangeRes = limits.resolution_m;
   mLimits = limits.any;
-  View(mLink->measured());
+  const sim::SharedReading measured = mLink->measured();  // show() replaces it
+  View({measured});
 }
 
 void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularRes,

@@ -22,8 +22,8 @@ WiFiProxy::WiFiProxy(PlayerClient* aPc, uint32_t aIndex)
 
 WiFiProxy::~WiFiProxy() { ClientProxy::Unsubscribe(); }
 
-void WiFiProxy::HandleReading(const sim::SharedReading& aReading) {
-  const auto* reading = playerlike::reading_as<sim::WifiReading>(*aReading);
+void WiFiProxy::HandleReading(const playerlike::NewReading& aNew) {
+  const auto* reading = playerlike::reading_as<sim::WifiReading>(*aNew.reading);
   if (reading == nullptr) return;
   mLinks.clear();
   for (const auto& link : reading->links) {

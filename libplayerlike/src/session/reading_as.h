@@ -13,4 +13,10 @@ template <typename Reading>
   return typeid(reading) == typeid(Reading) ? static_cast<const Reading*>(&reading) : nullptr;
 }
 
+/// A reading that a proxy gets. The headers of clients can name this type, but not one of `sim`:
+/// programs have variables with that name.
+struct NewReading {
+  const sim::SharedReading& reading;
+};
+
 }  // namespace playerlike
