@@ -22,9 +22,9 @@ namespace playerlike {
 /// texts are cut.
 template <typename Bytes>
 void set_text(std::string_view text, Bytes& bytes) {
-  constexpr std::size_t kRoom = 32;
-  text = text.substr(0, kRoom - 1);
-  if constexpr (requires { bytes.resize(kRoom); }) bytes.resize(text.size() + 1);
+  constexpr std::size_t kTextRoom = 32;
+  text = text.substr(0, kTextRoom - 1);
+  if constexpr (requires { bytes.resize(kTextRoom); }) bytes.resize(text.size() + 1);
   *std::copy(text.begin(), text.end(), std::begin(bytes)) = 0;
 }
 /// The text up to the first zero byte.
