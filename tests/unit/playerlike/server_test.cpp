@@ -441,10 +441,12 @@ TEST_F(ServerTest, Lockstep_AwaitsEachConnectedClient) {
 TEST_F(ServerTest, EndOfRun_SentToWaitingClients) {
   start(make_host(R"({"duration": 0.25})"));
   RawClient client = connect();
-  client.send("join\nread\nread\nread\n");
+  client.send("join\nread\n");
   EXPECT_EQ(client.line(), "joined");
   EXPECT_EQ(client.line(), "100 ms, 1");
+  client.send("read\n");  // not earlier: a second read joins a wait that goes on
   EXPECT_EQ(client.line(), "200 ms, 1");
+  client.send("read\n");
   EXPECT_EQ(client.line(), "finished");
   EXPECT_FALSE(hub->done());
   client.close();
