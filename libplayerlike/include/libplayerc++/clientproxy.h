@@ -161,12 +161,12 @@ class ClientProxy {
   /// The library's internal data about the proxy's device.
   struct Link;
 
-  PlayerClient* mPc;          ///< null once the client is gone
-  playerc_client_t* mClient;  ///< always null: this library is not built on the C library
-  playerc_device_t* mInfo;    ///< never null
-  bool mFresh;                ///< see IsFresh(); guarded by mMutex
+  PlayerClient* mPc;                   ///< null once the client is gone
+  playerc_client_t* mClient;           ///< always null: this library is not built on the C library
+  playerc_device_t* mInfo;             ///< never null
+  bool mFresh;                         ///< see IsFresh(); guarded by mMutex
+  mutable detail::Elements mElements;  ///< beams; for proxies of rangefinders; set by mLink
   std::unique_ptr<Link> mLink;
-  mutable detail::Elements mElements;  ///< beams; for proxies of rangefinders
 
  private:
   read_signal_t mReadSignal;

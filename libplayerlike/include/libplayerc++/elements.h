@@ -27,12 +27,14 @@ extern __thread std::uint64_t thread_number;
 /// threads read under the client's mutex. See docs/architecture.md.
 class Elements {
  public:
-  /// The holder, as in Bind(): in the lower half the thread's thread_number, above it the index of
-  /// its view, and above this a number that differs each time another thread becomes the holder.
-  typedef std::uint64_t Holder;
-  enum { kThreadBits = 32, kViews = 2 };
-  /// The holder if no thread may read without a lock.
-  static constexpr Holder kNobody = ~std::uint64_t{0};
+  enum { kViews = 2 };
+  /// A thread_number that no thread has.
+  static constexpr std::uint64_t kNobody = ~std::uint64_t{0};
+  /// The holder of a client.
+  struct Holder {
+    std::uint64_t mThread = kNobody;  ///< its thread_number
+    std::size_t mView = kViews;       ///< index of its view
+  };
 
   /// Reads an element. Returns false if the caller must read it under the mutex instead: the
   /// element may not exist, the calling thread may not be the holder, or accesses have to be
@@ -81,12 +83,15 @@ class Elements {
 
   /// Must be called before all other functions.
   /// @param aHolder  must outlive this object.
-  void Bind(const std::atomic<Holder>* aHolder) { mHolder = aHolder; }
+  void Bind(const Holder* aHolder) { mHolder = aHolder; }
   /// The index of the view that belongs to the calling thread, if it is the holder, so that its
   /// calls of Show() and ShowBearings() have an effect; otherwise kViews.
   std::size_t MayShow() const {
-    const Holder holder = mHolder->load(std::memory_order_relaxed);
-    return IsThisThread(holder) ? ViewOf(holder) : std::size_t{kViews};
+    return mHolder->mThread == thread_number ? mHolder->mView : std::size_t{kViews};
+  }
+  /// From now on all threads must read under the mutex, until the next Show().
+  void Withdraw() {
+    for (View& view : mViews) view.mReader.store(kNobody, std::memory_order_relaxed);
   }
   /// Sets the elements that the calling thread reads from now on.
   /// @param aFirst, aStep  bearing of element 0, and between neighbours [rad].
@@ -95,13 +100,13 @@ class Elements {
     const std::size_t index = MayShow();
     if (index == kViews) return;
     View& own = mViews[index];
-    own.mHolder = *mHolder;
     own.mOwner.swap(aOwner);
     own.mValues = aValues;
     if (aCount != own.mCount || aFirst != own.mFirst || aStep != own.mStep) own.mBearingCount = 0;
     own.mCount = aCount;
     own.mFirst = aFirst;
     own.mStep = aStep;
+    own.mReader.store(thread_number, std::memory_order_relaxed);
   }
   /// Sets the table of the elements' bearings. It is used until the elements have others.
   void ShowBearings(std::vector<double> aBearings) {
@@ -123,7 +128,7 @@ class Elements {
 
   /// What one thread reads without a lock.
   struct View {
-    Holder mHolder = kNobody;  ///< when it was shown; it is out of date if that has changed
+    std::atomic<std::uint64_t> mReader{kNobody};  ///< thread_number of who may read it
     const double* mValues = nullptr;
     std::uint32_t mCount = 0;
     std::uint32_t mLast = 0;          ///< index of the last access
@@ -135,19 +140,15 @@ class Elements {
     double mStep = 0.0;
   };
 
-  static bool IsThisThread(Holder aHolder) {
-    return static_cast<std::uint32_t>(aHolder) == static_cast<std::uint32_t>(thread_number);
-  }
-  static std::size_t ViewOf(Holder aHolder) { return (aHolder >> kThreadBits) % kViews; }
   /// The view of the calling thread; null if it may not read without the mutex.
   View* Own() const {
-    const Holder holder = mHolder->load(std::memory_order_relaxed);
-    if (!IsThisThread(holder)) return nullptr;
-    View& own = mViews[ViewOf(holder)];
-    return own.mHolder == holder ? &own : nullptr;
+    for (View& view : mViews) {
+      if (view.mReader.load(std::memory_order_relaxed) == thread_number) return &view;
+    }
+    return nullptr;
   }
 
-  const std::atomic<Holder>* mHolder = nullptr;
+  const Holder* mHolder = nullptr;
   mutable View mViews[kViews];
 };
 

@@ -153,24 +153,34 @@ bool ClientCore::read_pending() {
 void ClientCore::begin_change() noexcept {
   static constinit std::atomic<std::uint64_t> last{0};
   if (thread_number == 0) thread_number = ++last;
-  const Holder now = holder_.load(std::memory_order_relaxed);
-  const auto own = static_cast<std::uint32_t>(thread_number);
-  if (static_cast<std::uint32_t>(now) == own || !usable()) return;
+  if (holder_.mThread == thread_number || !usable()) return;
+  withdraw_views();
   auto viewer = std::ranges::find(viewers_, thread_number);
   if (viewer == viewers_.end()) viewer = std::ranges::find(viewers_, std::uint64_t{0});
-  Holder next = Elements::kNobody;  // a third thread has no view
-  constexpr std::uint64_t kMostHandovers = 1ULL << (63U - Elements::kThreadBits);
-  if (viewer != viewers_.end() && handovers_ + 1 < kMostHandovers) {
-    *viewer = thread_number;
-    const auto view = static_cast<std::uint64_t>(viewer - viewers_.begin());
-    next = (++handovers_ * viewers_.size() + view) << Elements::kThreadBits | own;
-  }
-  holder_.store(next, std::memory_order_relaxed);
+  if (viewer == viewers_.end()) return;  // a third thread has no view
+  *viewer = thread_number;
+  holder_ = {thread_number, static_cast<std::size_t>(viewer - viewers_.begin())};
+}
+
+void ClientCore::withdraw_views() noexcept {
+  holder_ = {};
+  for (Elements* const elements : bound_) elements->Withdraw();
+}
+
+void ClientCore::bind(Elements& elements) {
+  const std::lock_guard lock(mutex_);
+  elements.Bind(&holder_);
+  bound_.push_back(&elements);
+}
+
+void ClientCore::unbind(Elements& elements) noexcept {
+  const std::lock_guard lock(mutex_);
+  std::erase(bound_, &elements);
 }
 
 void ClientCore::set_run_is_over(bool over) {
   const std::lock_guard lock(mutex_);
-  if (over) holder_.store(Elements::kNobody, std::memory_order_relaxed);
+  if (over) withdraw_views();
   run_is_over_ = over;
 }
 
@@ -202,7 +212,7 @@ void ClientCore::close() noexcept {
   {
     const std::lock_guard lock(mutex_);
     if (closed_.exchange(true)) return;
-    holder_.store(Elements::kNobody, std::memory_order_relaxed);
+    withdraw_views();
     for (const Entry& entry : entries_) entry.listener->on_close();
   }
   session_->close();

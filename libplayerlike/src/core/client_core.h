@@ -84,10 +84,11 @@ class ClientCore final : private ReadingSink {
   /// Locks the mutex.
   void set_run_is_over(bool over);
 
-  using Holder = PlayerCc::detail::Elements::Holder;
-  /// The thread that has changed the exposed data last. While the client is usable, it may read its
-  /// own snapshots without the mutex, see PlayerCc::detail::Elements.
-  [[nodiscard]] const std::atomic<Holder>& holder() const noexcept { return holder_; }
+  /// Lets the thread that has changed the exposed data last, the holder, read elements without the
+  /// mutex, while the client is usable. Locks the mutex.
+  void bind(PlayerCc::detail::Elements& elements);
+  /// Undoes bind(). Locks the mutex.
+  void unbind(PlayerCc::detail::Elements& elements) noexcept;
   /// Must be called before any change of data that devices expose. The caller holds the mutex.
   void begin_change() noexcept;
 
@@ -163,6 +164,8 @@ class ClientCore final : private ReadingSink {
 
   void on_reading(DeviceId device, const sim::SharedReading& reading) override;
   void warn_of_clamped_speed(const char* fun, DeviceId device, const sim::Command& command);
+  /// From now on all threads read under the mutex, which is held, until the holder's next change.
+  void withdraw_views() noexcept;
   /// Whether no listener has a device.
   [[nodiscard]] bool listens_to_nothing() const noexcept;
   /// Delivers the readings that have arrived. The mutex is held. @return the number of readings.
@@ -181,8 +184,8 @@ class ClientCore final : private ReadingSink {
   std::atomic<bool> closed_{false};
   std::atomic<bool> run_is_over_{false};
   std::array<std::uint64_t, PlayerCc::detail::Elements::kViews> viewers_{};  // have a view; 0: free
-  std::uint64_t handovers_ = 0;  // how often another thread became the holder
-  std::atomic<Holder> holder_{PlayerCc::detail::Elements::kNobody};
+  PlayerCc::detail::Elements::Holder holder_;
+  std::vector<PlayerCc::detail::Elements*> bound_;
 };
 
 /// The newest reading of a device, which its proxies and sensors expose. The core's mutex guards

@@ -10,9 +10,10 @@ namespace CCMorse {
 
 /// The session side of a sensor.
 struct MorseSensor::Receiver final : playerlike::ReadingListener {
-  explicit Receiver(MorseSensor& owner) : sensor(owner) {
-    sensor.mElements.Bind(&sensor.Core()->holder());
-  }
+  explicit Receiver(MorseSensor& owner) : sensor(owner) { sensor.Core()->bind(sensor.mElements); }
+  Receiver(const Receiver&) = delete;
+  Receiver& operator=(const Receiver&) = delete;
+  ~Receiver() override { sensor.Core()->unbind(sensor.mElements); }
 
   void on_reading(const sim::SharedReading& reading) override;
   void on_close() override { newest.valid = false; }

@@ -29,8 +29,11 @@ struct ElementWords {
 struct ClientProxy::Link final : playerlike::ReadingListener {
   Link(ClientProxy& owner, std::shared_ptr<playerlike::ClientCore> shared)
       : proxy(owner), core(std::move(shared)) {
-    proxy.mElements.Bind(&core->holder());
+    core->bind(proxy.mElements);
   }
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+  ~Link() override { core->unbind(proxy.mElements); }
 
   void on_reading(const sim::SharedReading& reading) override;
   void on_round() override;
