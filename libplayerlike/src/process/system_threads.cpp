@@ -2,6 +2,7 @@
 #include "process/system_threads.h"
 
 #include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -19,6 +20,15 @@ void leave_signals_to_program() noexcept {
 }
 
 pid_t this_thread() noexcept { return static_cast<pid_t>(syscall(SYS_gettid)); }
+
+std::optional<std::chrono::nanoseconds> processor_time(pid_t process) noexcept {
+  clockid_t clock{};
+  timespec time{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) {
+    return std::nullopt;
+  }
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
 
 std::optional<std::uint64_t> sleeps_since(pid_t thread) {
   std::ifstream status("/proc/self/task/" + std::to_string(thread) + "/status");

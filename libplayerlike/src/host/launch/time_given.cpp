@@ -1,6 +1,4 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <time.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +6,7 @@
 #include <system_error>
 
 #include "playerlike/host/program.h"
+#include "process/system_threads.h"
 
 namespace playerlike {
 namespace {
@@ -17,16 +16,6 @@ using std::chrono::nanoseconds;
 // Of the time between two looks, more than this passed without the process that looks.
 constexpr std::chrono::milliseconds kLongestLook(100);
 constexpr std::chrono::milliseconds kNextToNothing(5);
-
-/// Processor time of all threads of a process so far; 0 if there is no such process.
-nanoseconds cpu_time(pid_t process) {
-  clockid_t clock{};
-  timespec time{};
-  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) {
-    return nanoseconds::zero();
-  }
-  return std::chrono::seconds(time.tv_sec) + nanoseconds(time.tv_nsec);
-}
 
 /// Whether all threads of a process wait for an event or are stopped: none computes, or waits for a
 /// processor or a disk.
@@ -50,13 +39,15 @@ bool sleeps(pid_t process, pid_t without) {
 }  // namespace
 
 TimeGiven::TimeGiven(pid_t process, pid_t without) noexcept
-    : process_(process), without_(without), last_cpu_(cpu_time(process)) {}
+    : process_(process),
+      without_(without),
+      last_cpu_(processor_time(process).value_or(nanoseconds::zero())) {}
 
 void TimeGiven::look() {
   const auto now = std::chrono::steady_clock::now();
   const nanoseconds passed = std::min<nanoseconds>(now - last_look_, kLongestLook);
   last_look_ = now;
-  const nanoseconds cpu = cpu_time(process_);
+  const nanoseconds cpu = processor_time(process_).value_or(last_cpu_);
   const nanoseconds computed = std::max(cpu - last_cpu_, nanoseconds::zero());
   last_cpu_ = cpu;
   computed_ += computed;

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,7 +24,7 @@ class StandstillWatch {
  private:
   const double limit_s_;
   KeptRun::Progress last_{};
-  double last_cpu_s_ = 0.0;  ///< the program's processor time when last_ was new
+  std::chrono::nanoseconds last_cpu_{0};  ///< the program's processor time when last_ was new
   bool told_ = false;
 };
 
