@@ -18,12 +18,17 @@ extern "C" {
 namespace sim::render::modules {
 namespace {
 
-// Throws the reason if a call of FFmpeg has failed, which it says by a negative number.
-void require(int result, const std::string& what) {
-  if (result >= 0) return;
+// Why a call of FFmpeg has failed, which it says by a negative number; empty if it has not.
+std::string problem_of(int result, const std::string& what) {
+  if (result >= 0) return "";
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
   av_strerror(result, text.data(), text.size());
-  throw std::runtime_error(what + ": " + text.data());
+  return what + ": " + text.data();
+}
+
+void require(int result, const std::string& what) {
+  const std::string problem = problem_of(result, what);
+  if (!problem.empty()) throw std::runtime_error(problem);
 }
 
 template <typename T>
@@ -141,13 +146,9 @@ struct FilmEncoder {
       packet_->duration = 1;
       av_packet_rescale_ts(packet_.get(), encoder_->time_base, stream_->time_base);
       packet_->stream_index = stream_->index;
-      try {
-        require(av_interleaved_write_frame(file_.get(), packet_.get()),
-                "a frame cannot be written");
-      } catch (const std::runtime_error& error) {
-        problem_ = error.what();
-        return;
-      }
+      problem_ = problem_of(av_interleaved_write_frame(file_.get(), packet_.get()),
+                            "a frame cannot be written");
+      if (!problem_.empty()) return;
     }
   }
 
