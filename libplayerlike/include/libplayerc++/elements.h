@@ -86,7 +86,7 @@ class Elements {
   void Bind(const Holder* aHolder) { mHolder = aHolder; }
   /// The index of the view that belongs to the calling thread, if it is the holder, so that its
   /// calls of Show() and ShowBearings() have an effect; otherwise kViews.
-  std::size_t MayShow() const {
+  std::size_t ViewToShow() const {
     return mHolder->mThread == thread_number ? mHolder->mView : std::size_t{kViews};
   }
   /// From now on all threads must read under the mutex, until the next Show().
@@ -97,7 +97,7 @@ class Elements {
   /// @param aFirst, aStep  bearing of element 0, and between neighbours [rad].
   void Show(std::shared_ptr<const void> aOwner, const double* aValues, std::uint32_t aCount,
             double aFirst = 0.0, double aStep = 0.0) {
-    const std::size_t index = MayShow();
+    const std::size_t index = ViewToShow();
     if (index == kViews) return;
     View& own = mViews[index];
     own.mOwner.swap(aOwner);
@@ -107,6 +107,7 @@ class Elements {
     own.mFirst = aFirst;
     own.mStep = aStep;
     own.mReader.store(thread_number, std::memory_order_relaxed);
+    mNewest.store(&own, std::memory_order_relaxed);
   }
   /// Sets the table of the elements' bearings. It is used until the elements have others.
   void ShowBearings(std::vector<double> aBearings) {
@@ -140,16 +141,16 @@ class Elements {
     double mStep = 0.0;
   };
 
-  /// The view of the calling thread; null if it may not read without the mutex.
+  /// The view of the calling thread; null if it may not read without the mutex. The other view has
+  /// no reader: it was withdrawn before this one was shown.
   View* Own() const {
-    for (View& view : mViews) {
-      if (view.mReader.load(std::memory_order_relaxed) == thread_number) return &view;
-    }
-    return nullptr;
+    View* const newest = mNewest.load(std::memory_order_relaxed);
+    return newest->mReader.load(std::memory_order_relaxed) == thread_number ? newest : nullptr;
   }
 
   const Holder* mHolder = nullptr;
   mutable View mViews[kViews];
+  mutable std::atomic<View*> mNewest{mViews};  ///< the view of the last call of Show()
 };
 
 }  // namespace detail

@@ -93,7 +93,7 @@ void Position2dProxy::HandleReading(const playerlike::NewReading& aNew) {
 // The caller holds the client's mutex.
 void Position2dProxy::ShowNumbers() {
   const auto* reading = mLink->newest.find<PoseReading>();
-  const std::size_t view = mElements.MayShow();
+  const std::size_t view = mElements.ViewToShow();
   if (reading == nullptr || view == detail::Elements::kViews) return;
   const auto numbers = numbers_of(*reading);
   static_assert(numbers.size() == kNumberCount);
