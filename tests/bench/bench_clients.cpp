@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,139 +13,19 @@
 #include "figures.h"
 #include "playerlike/host/host.h"
 #include "realtime.h"
+#include "wanderers.h"
 
 namespace sim::bench {
 namespace {
 
 constexpr int kStepsARound = 10;  // lasers and localisation measure every ten steps
 
-struct Choice {
-  double speed_mps;
-  double turn_rate_radps;
-};
-
-// The wandering rule: look at each beam, turn away from near obstacles, otherwise drive on.
-template <typename Beams>
-Choice choose(const Beams& beams, std::uint32_t count, std::size_t robot) {
-  double least_m = 1e3;
-  std::uint32_t nearest = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double range_m = beams[i];
-    if (range_m < least_m) {
-      least_m = range_m;
-      nearest = i;
-    }
-  }
-  if (least_m < 0.25) return {0.0, nearest > count / 2 ? -1.5 : 1.5};
-  return {0.3, 0.1 * (static_cast<double>(robot % 13) - 6.0)};
-}
-
-// Processor time of a call [us].
-template <typename F>
-double used_us(F f) {
-  const std::clock_t begin = std::clock();
-  f();
-  return static_cast<double>(std::clock() - begin) * 1e6 / CLOCKS_PER_SEC;
-}
-
-// The simulation with the rule inside it: no client, no session.
-class Alone {
- public:
-  explicit Alone(const WorldDescription& world) : simulation_(world) {
-    for (int r = 0; r < simulation_.robot_count(); ++r) {
-      const int laser = simulation_.find_device(r, "laser").value();
-      robots_.push_back({dynamic_cast<const Laser*>(&simulation_.device(r, laser)),
-                         {r, simulation_.find_device(r, "motion").value()}});
-    }
-  }
-
-  // One round of ten steps.
-  void wander() {
-    for (std::size_t r = 0; r < robots_.size(); ++r) {
-      const LaserReading& scan = robots_[r].laser->reading();
-      const auto count = static_cast<std::uint32_t>(scan.sequence > 0 ? scan.ranges_m.size() : 0);
-      command(r, choose(scan.ranges_m, count, r));
-    }
-    step();
-  }
-  void drive_on() {
-    for (std::size_t r = 0; r < robots_.size(); ++r)
-      command(r, choose(std::vector<double>(), 0, r));
-    step();
-  }
-
- private:
-  struct Robot {
-    const Laser* laser;
-    playerlike::DeviceId motion;
-  };
-  void command(std::size_t r, const Choice& choice) {
-    simulation_.apply(robots_[r].motion, TwistCommand{{.v_mps = choice.speed_mps,
-                                                       .omega_radps = choice.turn_rate_radps}});
-  }
-  void step() {
-    for (int i = 0; i < kStepsARound; ++i) simulation_.step();
-  }
-
-  Simulation simulation_;
-  std::vector<Robot> robots_;
-};
-
-// The same rule in client programs, one per robot, in one thread.
-class Clients {
- public:
-  explicit Clients(const std::shared_ptr<playerlike::Host>& host) {
-    for (const playerlike::RobotInfo& robot : host->robots()) {
-      robots_.push_back(std::make_unique<Robot>(host->connect(robot.port)));
-    }
-  }
-
-  void wander() {
-    for (std::size_t r = 0; r < robots_.size(); ++r) {
-      Robot& robot = *robots_[r];
-      robot.client.Read();
-      const Choice choice = choose(robot.laser, robot.laser.GetCount(), r);
-      robot.position.SetSpeed(choice.speed_mps, choice.turn_rate_radps);
-    }
-  }
-  void drive_on() {
-    for (std::size_t r = 0; r < robots_.size(); ++r) {
-      robots_[r]->client.Read();
-      const Choice choice = choose(std::vector<double>(), 0, r);
-      robots_[r]->position.SetSpeed(choice.speed_mps, choice.turn_rate_radps);
-    }
-  }
-  void read() {
-    for (const auto& robot : robots_) robot->client.Read();
-  }
-  // So many turns of a program for each robot.
-  void drive(const auto& turn, int turns) {
-    for (int i = 0; i < turns; ++i, ++turn_) {
-      for (const auto& robot : robots_) {
-        robot->client.Read();
-        turn(robot->laser, robot->position, turn_);
-      }
-    }
-  }
-
- private:
-  struct Robot {
-    explicit Robot(std::unique_ptr<playerlike::Session> session)
-        : client(std::move(session)), position(&client, 0), laser(&client, 0) {}
-    PlayerCc::PlayerClient client;
-    PlayerCc::Position2dProxy position;
-    PlayerCc::LaserProxy laser;
-  };
-  std::vector<std::unique_ptr<Robot>> robots_;
-  int turn_ = 0;
-};
-
 // Compares the same robots without and with clients. The two take turns, so that a slow moment of
 // the machine affects both; the minimum of each counts. The names of the figures end with the
 // number of robots.
 void compare(const WorldDescription& world, int turns, int rounds, const auto& go,
              const std::string& robots) {
-  Alone alone(world);
+  Alone alone(world, kStepsARound);
   Clients clients(playerlike::Host::create(world));
   double alone_us = 1e30;
   double clients_us = 1e30;

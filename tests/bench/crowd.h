@@ -24,12 +24,11 @@ namespace sim::bench {
   return value;
 }
 
-// A world with the given number of robots: the first of those that the file names, then copies of
+// A world with the given number of robots: the first of those that the world has, then copies of
 // the last one, spread evenly over the floor. They keep only devices of `types`, or all if it is
 // empty.
-[[nodiscard]] inline WorldDescription crowded(const char* file, int robots,
-                                              const std::vector<std::string>& types) {
-  WorldDescription world = endless(file);
+[[nodiscard]] inline WorldDescription crowd_of(WorldDescription world, int robots,
+                                               const std::vector<std::string>& types) {
   if (world.robots.empty()) throw std::runtime_error("the world has no robot to copy");
   for (RobotDescription& robot : world.robots) {
     if (types.empty()) break;
@@ -63,6 +62,12 @@ namespace sim::bench {
     world.robots.back().pose = poses.back();
   }
   return world;
+}
+
+// The same for a world file.
+[[nodiscard]] inline WorldDescription crowded(const char* file, int robots,
+                                              const std::vector<std::string>& types) {
+  return crowd_of(endless(file), robots, types);
 }
 
 // Processor time of a step per robot [us], while the robots wander for 25 s after the first 5 s.

@@ -1,0 +1,72 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Simulated seconds a processor second in a hall of 16 x 16 m with 24 boxes. Each robot has a laser
+// with 682 beams at 10 Hz and wanders by the same rule, as in comparisons with other simulators.
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "crowd.h"
+#include "figures.h"
+#include "playerlike/host/host.h"
+#include "wanderers.h"
+
+namespace sim::bench {
+namespace {
+
+constexpr double kSide_m = 16.0;
+constexpr int kBoxes = 24;
+
+// @param step_s  length of a step; commands are given, and scans measured, every 0.1 s.
+WorldDescription hall(int robots, const std::string& step_s) {
+  std::string boxes;
+  for (int i = 1; i <= kBoxes; ++i) {
+    boxes += std::string(i == 1 ? "" : ", ") + R"({"center": [)" +
+             std::to_string(kSide_m * van_der_corput(i, 2)) + ", " +
+             std::to_string(kSide_m * van_der_corput(i, 3)) +
+             R"(], "size": [0.6, 0.6], "type": "static"})";
+  }
+  WorldDescription world =
+      load_world_text(R"({"simulation": {"step": )" + step_s + R"(}, "canvas": {"cell_size": 0.1},
+          "arena": {"size": [16, 16], "obstacles": [)" +
+                      boxes + R"(]},
+          "robots": [{"pose": {"x": 1, "y": 1},
+                      "devices": {"laser": {}, "pose": {}, "motion": {}}}]})");
+  return crowd_of(std::move(world), robots, {});
+}
+
+// The best of several rounds. The simulations take turns, so that a slow moment of the machine
+// affects all.
+void print_figures(int robots) {
+  constexpr int kTurns = 20;
+  const int rounds = std::max(20, 2000 / robots);  // of 0.1 s each
+  const WorldDescription world = hall(robots, "0.01");
+  Alone alone(world, 10);
+  Alone coarse(hall(robots, "0.1"), 1);
+  Clients clients(playerlike::Host::create(world));
+  Clients coarse_clients(playerlike::Host::create(hall(robots, "0.1")));
+  double best_us[] = {1e30, 1e30, 1e30, 1e30};
+  const auto measure = [rounds](auto& robots_of, double& best) {
+    best = std::min(best, used_us([&] {
+                      for (int i = 0; i < rounds; ++i) robots_of.wander();
+                    }));
+  };
+  for (int turn = 0; turn < kTurns; ++turn) {
+    measure(alone, best_us[0]);
+    measure(coarse, best_us[1]);
+    measure(clients, best_us[2]);
+    measure(coarse_clients, best_us[3]);
+  }
+  const char* const names[] = {"alone_10ms", "alone_100ms", "clients_10ms", "clients_100ms"};
+  for (std::size_t i = 0; i < std::size(names); ++i) {
+    figure(("field_" + std::string(names[i]) + "_" + std::to_string(robots)).c_str(),
+           0.1 * rounds * 1e6 / best_us[i]);
+  }
+}
+
+}  // namespace
+}  // namespace sim::bench
+
+int main() {
+  for (const int robots : {1, 13, 100}) sim::bench::print_figures(robots);
+}
