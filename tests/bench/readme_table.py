@@ -17,7 +17,8 @@ import sys
 from pathlib import Path
 
 README = Path(__file__).resolve().parents[2] / "README.md"
-BEGIN, END = "<!-- tables: tests/bench/readme_table.py -->\n", "<!-- end of the tables -->\n"
+# The tables are between these texts.
+BEGIN, END = "wrote these tables:\n", "\nThe arena is the one in the picture"
 # These have threads, or start programs that have.
 ALL_CORES = {"bench_socket", "bench_start"}
 # Figures of which less is better; of all others, more is.
@@ -128,10 +129,10 @@ def main():
         return
     text = README.read_text(encoding="utf-8")
     if text.count(BEGIN) != 1 or text.count(END) != 1:
-        sys.exit(f"readme_table.py: {README} has no lines {BEGIN.strip()} and {END.strip()}")
-    head, rest = text.split(BEGIN)
-    README.write_text(head + BEGIN + "\n" + made + "\n" + END + rest.split(END)[1],
-                      encoding="utf-8")
+        sys.exit(f"readme_table.py: {README} has no place for the tables, between {BEGIN!r} and "
+                 f"{END!r}")
+    before = text.index(BEGIN) + len(BEGIN)
+    README.write_text(text[:before] + "\n" + made + text[text.index(END):], encoding="utf-8")
 
 
 main()

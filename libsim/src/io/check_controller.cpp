@@ -111,34 +111,28 @@ class ControllerChecker {
     return names;
   }
 
-  /// @param key  of the robot's name; the object is at `pointer`.
-  /// @return the robot; nullptr if none is named.
-  const RobotDescription* need_robot(const std::string& pointer, const std::string& name,
-                                     bool of_timer) {
+  /// @param object  pointer of the condition's or action's object.
+  void need_robot(const std::string& object, const std::string& key, const std::string& name,
+                  bool of_timer) {
     if (name.empty()) {
-      if (of_timer) {
-        add("world/missing-key", pointer, "\"robot\": the name of a robot", "none",
-            "no robot springs a timer");
-      }
-      return nullptr;
+      if (!of_timer) return;
+      add("world/missing-key", object, "\"robot\": the name of a robot", "none",
+          "no robot springs a timer");
+    } else if (robots_trusted_ && !robots_.contains(name)) {
+      add_unknown("world/unknown-robot", key, "the name of a robot", name, robot_names());
     }
-    if (!robots_trusted_) return nullptr;
-    const auto found = robots_.find(name);
-    if (found != robots_.end()) return found->second;
-    add_unknown("world/unknown-robot", pointer + "/robot", "the name of a robot", name,
-                robot_names());
-    return nullptr;
   }
 
-  void need_device(const std::string& pointer, const RobotDescription* robot, const char* type) {
-    if (robot == nullptr) return;
-    const auto& devices = robot->devices;
+  void need_device(const std::string& pointer, const std::string& robot, const char* type) {
+    const auto found = robots_.find(robot);
+    if (!robots_trusted_ || found == robots_.end()) return;
+    const auto& devices = found->second->devices;
     if (std::any_of(devices.begin(), devices.end(),
                     [&](const DeviceDescription& device) { return device.type == type; })) {
       return;
     }
     add("world/missing-device", pointer, std::string("a robot with the device \"") + type + '"',
-        "robot " + robot->name + " without it");
+        "robot " + robot + " without it");
   }
 
   void need_limits(const std::string& pointer, const ArenaLimits& limits) {
@@ -152,19 +146,25 @@ class ControllerChecker {
     add_unknown("world/unknown-trap", pointer, "the name of a timer or trap", name, switches_);
   }
 
+  void need_configuration(const std::string& pointer, const std::string& name) {
+    if (configurations_.contains(name) || !trusted_("/controller/configurations")) return;
+    add_unknown("world/unknown-configuration", pointer, "the name of a configuration", name,
+                configurations_);
+  }
+
   void check_configurations() {
     for (const ArenaConfiguration& configuration : controller_.configurations) {
       const std::string pointer =
           "/controller/configurations/" + escape_pointer_part(configuration.name);
       if (!trusted_(pointer)) continue;
-      for (std::size_t i = 0; i < configuration.extended.size(); ++i) {
-        need_dynamic(at(pointer + "/extended", i), configuration.extended[i]);
+      for (const Field& field : fields_of<ArenaConfiguration>().fields) {
+        if (field.names == NamedPart::kNone) continue;
+        check_names(field, field.get(&configuration), pointer, pointer + '/' + field.name, false);
       }
       const std::set<std::string> extended(configuration.extended.begin(),
                                            configuration.extended.end());
       for (std::size_t i = 0; i < configuration.retracted.size(); ++i) {
         const std::string& name = configuration.retracted[i];
-        need_dynamic(at(pointer + "/retracted", i), name);
         if (!extended.contains(name)) continue;
         add("world/conflicting-state", at(pointer + "/retracted", i),
             "an obstacle in one of the two lists only", in_quotes(name) + " in \"extended\" too",
@@ -223,8 +223,9 @@ class ControllerChecker {
       add("world/out-of-range", pointer + "/within", "[from, to] with from not above to",
           '[' + number_text(timer.within_s->x()) + ", " + number_text(timer.within_s->y()) + ']');
     }
-    check_conditions(timer.conditions, pointer + "/if", true);
-    check_actions(timer.actions, pointer + "/do", true);
+    const FieldTable& fields = fields_of<TimerDescription>();
+    check_parts(field_named(fields, "if"), timer.conditions, pointer + "/if", true);
+    check_parts(field_named(fields, "do"), timer.actions, pointer + "/do", true);
   }
 
   void check_trap(const TrapDescription& trap, const std::string& pointer) {
@@ -242,8 +243,9 @@ class ControllerChecker {
                   trap.model, models);
     }
     if (const auto* near = std::get_if<NearRegion>(&trap.region)) check_near(*near, pointer);
-    check_conditions(trap.conditions, pointer + "/if", false);
-    check_actions(trap.actions, pointer + "/do", false);
+    const FieldTable& fields = fields_of<TrapDescription>();
+    check_parts(field_named(fields, "if"), trap.conditions, pointer + "/if", false);
+    check_parts(field_named(fields, "do"), trap.actions, pointer + "/do", false);
   }
 
   void check_near(const NearRegion& near, const std::string& pointer) {
@@ -255,84 +257,73 @@ class ControllerChecker {
                 "the name of a robot or an obstacle", near.object, names);
   }
 
-  /// Most conditions and actions name other parts of the world; the others need no check.
-  template <typename Simple>
-  static void check(const Simple&, const std::string&, bool) {}
+  // --- Conditions and actions
 
-  // --- Conditions
-
-  void check_conditions(const std::vector<ArenaCondition>& conditions, const std::string& pointer,
-                        bool of_timer) {
+  /// @param field    their field of a timer or trap.
+  /// @param pointer  of their list.
+  template <typename Part>
+  void check_parts(const Field& field, const std::vector<Part>& parts, const std::string& pointer,
+                   bool of_timer) {
     if (!trusted_(pointer)) return;
-    for (std::size_t i = 0; i < conditions.size(); ++i) {
-      std::visit([&](const auto& kind) { check(kind, at(pointer, i), of_timer); }, conditions[i]);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const auto is_kind = [&](const Kind& kind) { return kind.find(&parts[i]) != nullptr; };
+      const Kind& kind = *std::find_if(field.kinds.begin(), field.kinds.end(), is_kind);
+      const std::string object = at(pointer, i) + '/' + kind.word;
+      for (const Field& part : kind.table().fields) {
+        if (part.names == NamedPart::kNone) continue;
+        const std::string key = kind.is_bare ? object : object + '/' + part.name;
+        check_names(part, part.get(kind.find(&parts[i])), object, key, of_timer);
+      }
+      std::visit([&](const auto& part) { check(part, object); }, parts[i]);
     }
   }
 
-  void check(const TimeCondition& condition, const std::string& pointer, bool) {
+  /// Checks that what a field names exists.
+  void check_names(const Field& field, const void* value, const std::string& object,
+                   const std::string& key, bool of_timer) {
+    const auto need = [&](const std::string& pointer, const std::string& name) {
+      switch (field.names) {
+        case NamedPart::kNone:
+          return;
+        case NamedPart::kObstacle:
+          return need_obstacle(pointer, name);
+        case NamedPart::kDynamicObstacle:
+          return need_dynamic(pointer, name);
+        case NamedPart::kRobot:
+          return need_robot(object, pointer, name, of_timer);
+        case NamedPart::kConfiguration:
+          return need_configuration(pointer, name);
+        case NamedPart::kSwitch:
+          return need_switch(pointer, name);
+      }
+    };
+    if (field.type != FieldType::kTexts) return need(key, *static_cast<const std::string*>(value));
+    const auto& names = *static_cast<const std::vector<std::string>*>(value);
+    for (std::size_t i = 0; i < names.size(); ++i) need(at(key, i), names[i]);
+  }
+
+  /// The names of most are all that has to be checked.
+  template <typename Simple>
+  static void check(const Simple&, const std::string&) {}
+
+  void check(const TimeCondition& condition, const std::string& object) {
     if (condition.from_s < condition.to_s) return;
-    add("world/out-of-range", pointer + "/time", "\"from\" less than \"to\"",
+    add("world/out-of-range", object, "\"from\" less than \"to\"",
         number_text(condition.from_s) + " and " + number_text(condition.to_s));
   }
-  void check(const CountCondition& condition, const std::string& pointer, bool) {
-    need_switch(pointer + "/count/of", condition.of);
-    need_limits(pointer + "/count", condition.limits);
+  void check(const CountCondition& condition, const std::string& object) {
+    need_limits(object, condition.limits);
   }
-  void check(const BlockCondition& condition, const std::string& pointer, bool) {
-    need_dynamic(pointer + "/block/name", condition.block);
-  }
-  void check(const QuantityCondition& condition, const std::string& pointer, bool of_timer) {
-    static constexpr const char* kKeys[] = {"/collisions", "/speed", "/battery", "/score"};
-    const std::string place = pointer + kKeys[static_cast<std::size_t>(condition.quantity)];
-    const RobotDescription* robot = need_robot(place, condition.robot, of_timer);
-    if (condition.quantity == RobotQuantity::kBattery) need_device(place, robot, "battery");
-    need_limits(place, condition.limits);
-  }
-  void check(const FiducialCondition& condition, const std::string& pointer, bool of_timer) {
-    need_device(pointer + "/fiducial", need_robot(pointer + "/fiducial", condition.robot, of_timer),
-                "fiducial");
-  }
-
-  // --- Actions
-
-  void check_actions(const std::vector<ArenaAction>& actions, const std::string& pointer,
-                     bool of_timer) {
-    if (!trusted_(pointer)) return;
-    for (std::size_t i = 0; i < actions.size(); ++i) {
-      std::visit([&](const auto& kind) { check(kind, at(pointer, i), of_timer); }, actions[i]);
+  void check(const QuantityCondition& condition, const std::string& object) {
+    if (condition.quantity == RobotQuantity::kBattery) {
+      need_device(object, condition.robot, "battery");
     }
+    need_limits(object, condition.limits);
   }
-
-  void check(const ConfigurationAction& action, const std::string& pointer, bool) {
-    if (configurations_.contains(action.configuration)) return;
-    if (!trusted_("/controller/configurations")) return;
-    add_unknown("world/unknown-configuration", pointer + "/configuration",
-                "the name of a configuration", action.configuration, configurations_);
+  void check(const FiducialCondition& condition, const std::string& object) {
+    need_device(object, condition.robot, "fiducial");
   }
-  void check(const BlocksAction& action, const std::string& pointer, bool) {
-    static constexpr const char* kKeys[] = {"/extend", "/retract", "/toggle"};
-    const std::string list = pointer + kKeys[static_cast<std::size_t>(action.change)];
-    for (std::size_t i = 0; i < action.blocks.size(); ++i) {
-      need_dynamic(at(list, i), action.blocks[i]);
-    }
-  }
-  void check(const PlaceAction& action, const std::string& pointer, bool) {
-    need_obstacle(pointer + "/place/obstacle", action.obstacle);
-  }
-  void check(const RestartAction& action, const std::string& pointer, bool of_timer) {
-    static_cast<void>(need_robot(pointer + "/restart", action.robot, of_timer));
-  }
-  void check(const ScoreAction& action, const std::string& pointer, bool of_timer) {
-    static_cast<void>(need_robot(pointer + "/score", action.robot, of_timer));
-  }
-  void check(const SwitchAction& action, const std::string& pointer, bool) {
-    for (std::size_t i = 0; i < action.names.size(); ++i) {
-      need_switch(at(pointer + (action.on ? "/enable" : "/disable"), i), action.names[i]);
-    }
-  }
-  void check(const MoveAction& action, const std::string& pointer, bool) {
-    need_obstacle(pointer + "/move/obstacle", action.obstacle);
-    const std::string place = pointer + "/move";
+  void check(const MoveAction& action, const std::string& place) {
     if (!arena_trusted_ || !trusted_(place)) return;
     const ObstacleMotion& motion = action.motion;
     if (motion.law != MotionLaw::kPath && motion.law != MotionLaw::kStand) {

@@ -33,6 +33,16 @@ template <auto kMember>
 [[nodiscard]] constexpr Field names_field(const char* name, const char* meaning) {
   return field<kMember>(name, "", meaning).counting(0, kMostNames);
 }
+/// Names of dynamic obstacles.
+template <auto kMember>
+[[nodiscard]] constexpr Field blocks_field(const char* name, const char* meaning) {
+  return names_field<kMember>(name, meaning).naming(NamedPart::kDynamicObstacle);
+}
+/// Names of timers and traps.
+template <auto kMember>
+[[nodiscard]] constexpr Field switches_field(const char* name, const char* meaning) {
+  return names_field<kMember>(name, meaning).naming(NamedPart::kSwitch);
+}
 /// A text for people.
 template <auto kMember>
 [[nodiscard]] constexpr Field message_field(const char* name, const char* meaning) {
@@ -42,7 +52,8 @@ template <auto kMember>
 template <auto kMember>
 [[nodiscard]] constexpr Field robot_field() {
   return field<kMember>("robot", "", "name of a robot; a timer has to name one")
-      .defaults_to("the one that sprang the trap");
+      .defaults_to("the one that sprang the trap")
+      .naming(NamedPart::kRobot);
 }
 
 // --- Conditions
@@ -53,7 +64,8 @@ constexpr Field kTimeFields[] = {
 };
 constexpr Field kCountFields[] = {
     field<&CountCondition::of>("of", "", "name of a timer or trap")
-        .needed("the name of a timer or trap"),
+        .needed("the name of a timer or trap")
+        .naming(NamedPart::kSwitch),
     field<&CountCondition::limits, &ArenaLimits::at_least>("at_least", "", "lower limit, included")
         .within(0.0, 1e9)
         .defaults_to("no limit"),
@@ -64,7 +76,8 @@ constexpr Field kCountFields[] = {
 constexpr const char* kPhases[] = {"extended", "retracted", "rising", "sinking"};
 constexpr Field kBlockFields[] = {
     field<&BlockCondition::block>("name", "", "name of a dynamic obstacle")
-        .needed("the name of a dynamic obstacle"),
+        .needed("the name of a dynamic obstacle")
+        .naming(NamedPart::kDynamicObstacle),
     field<&BlockCondition::phase>("state", "", "what it does").one_of(kPhases),
 };
 constexpr Field kFiducialFields[] = {
@@ -114,17 +127,20 @@ constexpr Kind kConditionKinds[] = {
 
 // --- Actions
 
-constexpr Field kConfigurationAction[] = {field<&ConfigurationAction::configuration>(
-    "configuration", "", "name of a configuration that the arena changes to")};
+constexpr Field kConfigurationAction[] = {
+    field<&ConfigurationAction::configuration>("configuration", "",
+                                               "name of a configuration that the arena changes to")
+        .naming(NamedPart::kConfiguration)};
 constexpr Field kExtendAction[] = {
-    names_field<&BlocksAction::blocks>("extend", "names of dynamic obstacles to be extended")};
+    blocks_field<&BlocksAction::blocks>("extend", "names of dynamic obstacles to be extended")};
 constexpr Field kRetractAction[] = {
-    names_field<&BlocksAction::blocks>("retract", "names of dynamic obstacles to be retracted")};
-constexpr Field kToggleAction[] = {names_field<&BlocksAction::blocks>(
+    blocks_field<&BlocksAction::blocks>("retract", "names of dynamic obstacles to be retracted")};
+constexpr Field kToggleAction[] = {blocks_field<&BlocksAction::blocks>(
     "toggle", "names of dynamic obstacles to be extended or retracted, whatever they are not")};
 constexpr Field kPlaceAction[] = {
     field<&PlaceAction::obstacle>("obstacle", "", "name of an obstacle")
-        .needed("the name of an obstacle"),
+        .needed("the name of an obstacle")
+        .naming(NamedPart::kObstacle),
     field<&PlaceAction::pose>("pose", "m, degrees", "where its middle is, and its turn")
         .needed("{\"x\", \"y\", \"yaw_deg\"} of its middle"),
 };
@@ -163,9 +179,9 @@ constexpr Field kScoreAction[] = {
     field<&ScoreAction::points>("points", "", "may be negative").within(-1e6, 1e6),
 };
 constexpr Field kEnableAction[] = {
-    names_field<&SwitchAction::names>("enable", "names of timers and traps to be switched on")};
-constexpr Field kDisableAction[] = {
-    names_field<&SwitchAction::names>("disable", "names of timers and traps to be switched off")};
+    switches_field<&SwitchAction::names>("enable", "names of timers and traps to be switched on")};
+constexpr Field kDisableAction[] = {switches_field<&SwitchAction::names>(
+    "disable", "names of timers and traps to be switched off")};
 constexpr const char* kVerdicts[] = {"passed", "failed"};
 constexpr Field kEndAction[] = {
     field<&EndAction::passed>("verdict", "", "the result of the run")
@@ -176,7 +192,8 @@ constexpr Field kEndAction[] = {
 constexpr Field kMoveAction[] = {
     field<&MoveAction::obstacle>("obstacle", "",
                                  "name of an obstacle that is neither dynamic nor portable")
-        .needed("the name of an obstacle"),
+        .needed("the name of an obstacle")
+        .naming(NamedPart::kObstacle),
     field<&MoveAction::motion>("motion", "", "has keys among those of the action")
         .in_format(io::kMoveFormat),
 };
@@ -213,10 +230,10 @@ constexpr Field kPlaceFields[] = {
 };
 constexpr Field kConfigurationFields[] = {
     field<&ArenaConfiguration::name>("name").as_name().as_read_only(),
-    names_field<&ArenaConfiguration::extended>("extended",
-                                               "names of dynamic obstacles that are extended"),
-    names_field<&ArenaConfiguration::retracted>("retracted",
-                                                "names of dynamic obstacles that are retracted"),
+    blocks_field<&ArenaConfiguration::extended>("extended",
+                                                "names of dynamic obstacles that are extended"),
+    blocks_field<&ArenaConfiguration::retracted>("retracted",
+                                                 "names of dynamic obstacles that are retracted"),
     field<&ArenaConfiguration::others>("others", "", "what happens to the other dynamic obstacles")
         .one_of(kOthers),
     field<&ArenaConfiguration::places>("poses", "m, degrees", "where obstacles stand, by name")

@@ -79,6 +79,16 @@ struct FieldError {
   const char* key = "";  ///< the wrong field; empty if it is the struct as a whole
 };
 
+/// What part of the world a text, or each text of a list, names.
+enum class NamedPart {
+  kNone,
+  kObstacle,
+  kDynamicObstacle,
+  kRobot,          ///< may be empty where a robot has sprung a trap
+  kConfiguration,  ///< of the arena
+  kSwitch,         ///< a timer or a trap
+};
+
 struct Field;
 /// How messages write and read the values of a type. The protocol defines it.
 struct MessageForm;
@@ -190,8 +200,9 @@ struct Field {
   /// Properties of a kCustom field.
   void (*add_custom_properties)(const void* object,
                                 std::map<std::string, double>& properties) = nullptr;
-  std::span<const Kind> kinds = {};  ///< of a variant, or of a list's elements
-  bool is_name = false;              ///< a text of letters, digits, _ and -
+  std::span<const Kind> kinds = {};    ///< of a variant, or of a list's elements
+  bool is_name = false;                ///< a text of letters, digits, _ and -
+  NamedPart names = NamedPart::kNone;  ///< the part must exist
   bool in_seconds = false;  ///< SimTime, in seconds in world files; its range is in seconds, too
   bool is_identity = true;  ///< part of what tells worlds apart, see world_hash()
   bool first_word = false;  ///< of a bool with words: the value of the first word
@@ -260,6 +271,7 @@ struct Field {
   [[nodiscard]] constexpr Field needed(const char* what_for) const {
     return with<&Field::needed_for>(what_for);
   }
+  [[nodiscard]] constexpr Field naming(NamedPart part) const { return with<&Field::names>(part); }
   [[nodiscard]] constexpr Field as_name() const { return with<&Field::is_name>(true); }
   /// A bool that files write as one of two words.
   /// @param first  the value of the first word.
