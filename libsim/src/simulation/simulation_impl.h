@@ -168,6 +168,10 @@ struct Simulation::Impl {
   SimTime now_ns = 0;
   std::uint64_t steps = 0;
   mutable std::optional<std::uint64_t> known_start_hash;
+  // About as many bytes as the parts of the state take: as many as were written last; 0: unknown.
+  std::size_t bodies_bytes = 0;
+  std::size_t rules_bytes = 0;
+  std::size_t pictures_bytes = 0;
 };
 
 }  // namespace sim
