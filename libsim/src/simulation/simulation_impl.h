@@ -24,6 +24,7 @@ struct alignas(64) RobotParts {
   RobotStatistics statistics;
   Vec2 last_position;              // at the end of the last step
   double clearance_slack_m = 0.0;  // see update_clearance()
+  bool clearance_settled = false;  // measured again before anything moves, nothing would change
   std::uint32_t first_slot = 0;    // index of its first device's slot
   std::uint16_t slot_count = 0;
   bool any_measures_after_others = false;  // whether any device measures after others
