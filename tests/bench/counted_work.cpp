@@ -2,14 +2,19 @@
 // Work whose instructions tests/bench/instructions.py counts: counted_work NAME TIMES.
 #include <libplayerc++/playerc++.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include "playerlike/host/host.h"
 #include "realtime.h"
+#include "sim/canvas/layers.h"
+#include "sim/devices/rangers.h"
 
 namespace {
 
@@ -50,6 +55,42 @@ void read_scans(int times) {
   for (int i = 0; i < times; ++i) client.Read();
 }
 
+// The rings of 16 sonars of 13 robots that stand between blocks, in each step.
+void sonar_rings(int times) {
+  constexpr int kCount = 16;
+  sim::SonarParams ring;
+  ring.frequency_hz = 100.0;
+  ring.range_max_m = 5.0;
+  ring.X_BS.clear();
+  for (int i = 0; i < kCount; ++i) {
+    const double yaw = sim::normalize_angle(2.0 * std::numbers::pi * i / kCount);
+    ring.X_BS.push_back({0.07 * std::cos(yaw), 0.07 * std::sin(yaw), yaw});
+  }
+  sim::WorldDescription world = sim::bench::endless(sim::bench::kThirteen);
+  for (sim::RobotDescription& robot : world.robots) robot.devices = {{"sonar", "sonar", ring}};
+  Simulation simulation(world);
+  for (int i = 0; i < times; ++i) simulation.step();
+}
+
+// 4096 pixels on the canvas below eight layers.
+void pixels(int times) {
+  sim::LayerStack stack({.width = 172, .height = 186});
+  for (int i = 0; i < 8; ++i) stack.add(sim::LayerKind::kColour, {}, 0);
+  std::vector<sim::DrawOperation> drawings;
+  for (int i = 0; i < 4096; ++i) {
+    drawings.push_back({sim::DrawOperation::Kind::kPixel, sim::kBaseLayer, (7 * i) % 172,
+                        (13 * i) % 186, 0, 0, sim::CellValue::of(sim::Colour{255, 0, 0, 255})});
+  }
+  for (int i = 0; i < times; ++i) stack.draw(drawings);
+}
+
+// Saves 13 robots with all devices of an S1R.
+void save(int times) {
+  Simulation simulation(sim::bench::endless(sim::bench::kThirteen));
+  for (int i = 0; i < 50; ++i) simulation.step();
+  for (int i = 0; i < times; ++i) static_cast<void>(simulation.save());
+}
+
 // The loop that a program writes, without Read().
 void beams(int times) {
   const auto host = playerlike::Host::create(sim::bench::endless(sim::bench::kOne));
@@ -70,11 +111,10 @@ void beams(int times) {
 
 int main(int argc, char** argv) {
   const std::map<std::string, std::function<void(int)>> works = {
-      {"beams", beams},
-      {"read", read_scans},
-      {"scan", scan},
-      {"step", step},
-      {"wandering_step", wandering_step}};
+      {"beams", beams},     {"pixels", pixels},
+      {"read", read_scans}, {"save", save},
+      {"scan", scan},       {"sonar_rings", sonar_rings},
+      {"step", step},       {"wandering_step", wandering_step}};
   const auto work = works.find(argc == 3 ? argv[1] : "");
   if (work == works.end()) {
     std::fprintf(stderr, "Usage: counted_work NAME TIMES; names:");

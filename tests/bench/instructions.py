@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-"""Counts the instructions of steps, scans and reads, and compares them with instructions.json.
+"""Counts the instructions of steps, scans, reads and more, and compares them with instructions.json.
 
 Unlike times, they do not depend on the machine's load. valgrind runs the program twice, so that what
 it does at its start cancels out. A count that differs by more than 3 % is an error: if it is more,
@@ -17,7 +17,8 @@ from pathlib import Path
 FILE = Path(__file__).with_name("instructions.json")
 TOLERANCE = 0.03
 # How often each work is done, in the two runs.
-TIMES = {"beams": (100, 300), "read": (200, 600), "scan": (200, 600), "step": (2000, 6000),
+TIMES = {"beams": (100, 300), "pixels": (100, 300), "read": (200, 600), "save": (10, 30),
+         "scan": (200, 600), "sonar_rings": (100, 300), "step": (2000, 6000),
          "wandering_step": (200, 600)}
 
 

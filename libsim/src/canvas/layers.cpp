@@ -115,21 +115,52 @@ std::vector<LayerInfo> LayerStack::layers() const {
   return infos;
 }
 
-void LayerStack::draw(std::span<const DrawOperation> operations) {
-  const auto is_fill = [](const DrawOperation& o) { return o.kind == DrawOperation::Kind::kFill; };
-  DrawProgress progress;
-  const auto all = std::numeric_limits<std::size_t>::max();
-  if (std::none_of(operations.begin(), operations.end(), is_fill)) {
-    draw_some(operations, progress, all);
-    return;
+namespace {
+
+// Executes the pixels at the beginning of a list, as long as they are on this layer.
+// @return their number.
+std::size_t draw_pixels(const Layer& layer, std::span<const DrawOperation> operations) {
+  const CellRaster::Writer writer(*layer.cells);
+  const LayerId id = layer.id;
+  const auto draw_each = [&](auto draw_one) {
+    std::size_t i = 0;
+    for (; i < operations.size(); ++i) {
+      const DrawOperation& operation = operations[i];
+      if (operation.kind != DrawOperation::Kind::kPixel || operation.layer != id) break;
+      draw_one(operation);
+    }
+    return i;
+  };
+  if (layer.kind == LayerKind::kColour) {
+    return draw_each([&](const DrawOperation& pixel) {
+      writer.blend(pixel.x0, pixel.y0, pixel.value.colour());
+    });
   }
-  std::vector<DrawOperation> kept(operations.begin(), operations.end());
+  return draw_each(
+      [&](const DrawOperation& pixel) { writer.put(pixel.x0, pixel.y0, pixel.value); });
+}
+
+}  // namespace
+
+void LayerStack::draw(std::span<const DrawOperation> operations) {
+  constexpr auto kAll = std::numeric_limits<std::size_t>::max();
+  DrawProgress progress;
+  static_cast<void>(draw_some(operations, progress, kAll, /*stop_at_fill=*/true));
+  const auto rest = operations.subspan(progress.operation);
+  if (rest.empty()) return;
+  std::vector<DrawOperation> kept(rest.begin(), rest.end());
   drop_covered(kept);
-  draw_some(kept, progress, all);
+  progress = {};
+  static_cast<void>(draw_some(kept, progress, kAll));
 }
 
 std::size_t LayerStack::draw_some(std::span<const DrawOperation> operations, DrawProgress& progress,
                                   std::size_t cells_at_most) {
+  return draw_some(operations, progress, cells_at_most, /*stop_at_fill=*/false);
+}
+
+std::size_t LayerStack::draw_some(std::span<const DrawOperation> operations, DrawProgress& progress,
+                                  std::size_t cells_at_most, bool stop_at_fill) {
   LayerId id = kBaseLayer;
   Layer* layer = impl_->find(id);
   std::size_t written = 0;
@@ -147,14 +178,14 @@ std::size_t LayerStack::draw_some(std::span<const DrawOperation> operations, Dra
     const bool blends = layer->kind == LayerKind::kColour;
     const CellValue value = operation.value;
     switch (operation.kind) {
-      case DrawOperation::Kind::kPixel:
-        ++written;
-        if (blends) {
-          cells.blend(operation.x0, operation.y0, value.colour());
-        } else {
-          cells.put(operation.x0, operation.y0, value);
-        }
+      case DrawOperation::Kind::kPixel: {
+        const auto rest = operations.subspan(progress.operation);
+        const std::size_t pixels =
+            draw_pixels(*layer, rest.first(std::min(rest.size(), cells_at_most - written)));
+        written += pixels;
+        progress.operation += pixels - 1;
         break;
+      }
       case DrawOperation::Kind::kLine:
         written += cells_written(operation, width(), height());
         if (blends) {
@@ -164,6 +195,7 @@ std::size_t LayerStack::draw_some(std::span<const DrawOperation> operations, Dra
         }
         break;
       case DrawOperation::Kind::kFill: {
+        if (stop_at_fill) return written;
         const auto row_cells = static_cast<std::size_t>(width());
         // The canvas may have been resized between two calls.
         const int begin = std::min(progress.row, height());

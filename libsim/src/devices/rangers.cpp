@@ -20,21 +20,38 @@
 namespace sim {
 namespace {
 
-// Square of the distance of an edge from the origin [m2]; nullopt if no point within reach_m of the
-// origin sees the edge within range_m.
-std::optional<double> distance2_if_seen(const scan::Edge& edge, double reach_m, double range_m) {
-  const Vec2 a(static_cast<double>(edge.x0_m), static_cast<double>(edge.y0_m));
-  const Vec2 b(static_cast<double>(edge.x1_m), static_cast<double>(edge.y1_m));
-  const Vec2 along = b - a;
-  const double behind = a.x() * along.y() - a.y() * along.x();
-  if (behind > 0.0 && behind * behind > reach_m * reach_m * along.squaredNorm()) {
-    return std::nullopt;
+// An edge as seen from the origin. Its squared distance is kept as a fraction, so that it can be
+// compared without a division, which takes longer than everything else here.
+struct EdgeDistance {
+  explicit EdgeDistance(const scan::Edge& edge)
+      : a(static_cast<double>(edge.x0_m), static_cast<double>(edge.y0_m)),
+        b(static_cast<double>(edge.x1_m), static_cast<double>(edge.y1_m)) {
+    const Vec2 along = b - a;
+    behind = a.x() * along.y() - a.y() * along.x();
+    length2 = along.squaredNorm();
+    const double to_foot = -a.dot(along);
+    if (to_foot > 0.0 && to_foot < length2) {
+      numerator = behind * behind;
+      denominator = length2;
+    } else {
+      numerator = to_foot > 0.0 ? b.squaredNorm() : a.squaredNorm();
+    }
   }
-  const double farthest_m = reach_m + range_m;
-  const double distance2 = nearest_on_segment(Vec2::Zero(), a, b).squaredNorm();
-  if (distance2 > farthest_m * farthest_m) return std::nullopt;
-  return distance2;
-}
+
+  // Whether no point within this distance of the origin sees the edge from its front.
+  [[nodiscard]] bool turns_away(double reach_m) const {
+    return behind > 0.0 && behind * behind > reach_m * reach_m * length2;
+  }
+  [[nodiscard]] bool is_beyond(double distance_m) const {
+    return numerator > distance_m * distance_m * denominator;
+  }
+
+  Vec2 a, b;
+  double behind;   // twice the area of the triangle with the origin; > 0: the origin is behind it
+  double length2;  // [m2]
+  double numerator;
+  double denominator = 1.0;
+};
 
 }  // namespace
 
@@ -82,12 +99,12 @@ void Ranger::look_around(const StepContext& context, double height_m) {
   context.physics.collect_edges(context.body.X_WB.position(), params_.range_max_m + reach_m_,
                                 height_m, context.robot, false, edges_);
   for (scan::EdgeColumns& shell : shells_) shell.clear();
+  const double farthest_m = reach_m_ + params_.range_max_m;
   for (const scan::Edge& edge : edges_.edges()) {
-    const auto distance2 = distance2_if_seen(edge, reach_m_, params_.range_max_m);
-    if (!distance2) continue;
-    const auto shell =
-        std::count_if(kShellLimits_m.begin(), kShellLimits_m.end(),
-                      [&](double limit_m) { return *distance2 >= limit_m * limit_m; });
+    const EdgeDistance distance(edge);
+    if (distance.turns_away(reach_m_) || distance.is_beyond(farthest_m)) continue;
+    const auto shell = std::count_if(kShellLimits_m.begin(), kShellLimits_m.end(),
+                                     [&](double limit_m) { return distance.is_beyond(limit_m); });
     shells_[static_cast<std::size_t>(shell)].add(edge);
   }
 }
@@ -95,13 +112,14 @@ void Ranger::look_around(const StepContext& context, double height_m) {
 void Ranger::measure(const StepContext& context) {
   auto& reading = next(context);
   const Pose& X_WB = context.body.X_WB;
+  const Frame body(X_WB);
   reading.X_WB = X_WB;
   if (params_.heights_m.empty()) look_around(context, params_.height_m);
   double height_m = params_.height_m;
   double range_max_m = params_.range_max_m;
   const double view_rad = params_.single_ray ? 0.0 : params_.field_of_view_rad;
   for (std::size_t i = 0; i < params_.X_BS.size(); ++i) {
-    const Pose X_WS = X_WB * params_.X_BS[i];
+    const Pose X_WS = body * params_.X_BS[i];
     const Vec2 p_BS_W = X_WS.position() - X_WB.position();
     if (!params_.heights_m.empty() && (i == 0 || params_.heights_m[i] != height_m)) {
       height_m = params_.heights_m[i];

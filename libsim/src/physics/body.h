@@ -88,7 +88,8 @@ struct BodyDetails {
   b2Vec2 nearest_direction{1.0F, 0.0F};
   double candidates_reach_m = -1.0;  ///< valid at candidates_at_travel_m; see clearance_m
   double candidates_at_travel_m = 0.0;
-  std::vector<Wall> walls;  ///< complete until its cumulative travel reaches:
+  bool clearance_settled = false;  ///< see PhysicsWorld::clearance_settled()
+  std::vector<Wall> walls;         ///< complete until its cumulative travel reaches:
   double walls_until_m = kUnknown;
   // Of Contacts:
   std::vector<int> touching;  ///< number of contacts per partner, see count_contact

@@ -2,6 +2,7 @@
 #include "physics/neighbours.h"
 
 #include <algorithm>
+#include <cstring>
 #include <span>
 #include <utility>
 
@@ -20,6 +21,11 @@ constexpr double kPairReach_m = 0.2;
 constexpr double kWallSearch_m = 0.25;
 constexpr double kCoarseWallDistance_m = 0.05;
 
+template <typename Plain>
+bool same_bits(const Plain& a, const Plain& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
 }  // namespace
 
 void Neighbours::invalidate() {
@@ -30,6 +36,7 @@ void Neighbours::invalidate() {
     r.wall_at_travel_m = kUnknown;
     r.details->walls_until_m = kUnknown;
     r.details->candidates_reach_m = -1.0;
+    r.details->clearance_settled = false;
   }
 }
 
@@ -289,9 +296,9 @@ double Neighbours::clearance_m(Body& r, double limit_m, double exact_below_m) {
   // list. A list for a far larger limit is too long.
   const double reach_m = r.details->candidates_reach_m -
                          2.0 * (cumulative_max_travel_m_ - r.details->candidates_at_travel_m);
-  if (limit_m > reach_m || reach_m > limit_m + 2.0 * kCandidateMargin_m) {
-    collect_candidates(r, box, limit_m + kCandidateMargin_m);
-  }
+  const bool collects = limit_m > reach_m || reach_m > limit_m + 2.0 * kCandidateMargin_m;
+  if (collects) collect_candidates(r, box, limit_m + kCandidateMargin_m);
+  r.details->clearance_settled = !collects;
   double least_m = limit_m;
   std::size_t nearest = 0;
   for (std::size_t i = 0; i < r.details->candidates.size(); ++i) {
@@ -313,18 +320,25 @@ double Neighbours::clearance_m(Body& r, double limit_m, double exact_below_m) {
       least_m = bound_m;
       continue;
     }
+    const b2SimplexCache cache = candidate.cache;
     const b2DistanceOutput found =
         other == nullptr
             ? distance_between(*r.details, xf, *candidate.shape, their_xf, candidate.cache)
             : distance_between(*r.details, xf, *other->details, their_xf, candidate.cache);
+    if (!same_bits(cache, candidate.cache)) r.details->clearance_settled = false;
     if (metres(found.distance) >= least_m) continue;
     if (found.distance > 0.0F) {
-      r.details->nearest_direction = (1.0F / found.distance) * (found.pointB - found.pointA);
+      const b2Vec2 direction = (1.0F / found.distance) * (found.pointB - found.pointA);
+      if (!same_bits(direction, way)) r.details->clearance_settled = false;
+      r.details->nearest_direction = direction;
     }
     least_m = metres(found.distance);
     nearest = i;
   }
-  if (nearest > 0) std::swap(r.details->candidates[0], r.details->candidates[nearest]);
+  if (nearest > 0) {
+    std::swap(r.details->candidates[0], r.details->candidates[nearest]);
+    r.details->clearance_settled = false;
+  }
   return least_m;
 }
 

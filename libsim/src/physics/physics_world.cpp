@@ -159,6 +159,10 @@ double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m
   return impl_->neighbours.clearance_m(impl_->bodies.at(robot), limit_m, exact_below_m);
 }
 
+bool PhysicsWorld::clearance_settled(int robot) const {
+  return impl_->bodies.at(robot).details->clearance_settled;
+}
+
 void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
                                  int own_robot, bool test_inside, scan::EdgeBuffer& edges) const {
   impl_->sensor_view.collect_edges(p_WL, radius_m, sensor_height_m, own_robot, test_inside, edges);

@@ -122,6 +122,9 @@ class PhysicsWorld {
   /// Distance of a robot's footprint to the nearest solid, at most limit_m [m]. The result is exact
   /// if it is below exact_below_m. Otherwise it is a lower bound that is at least exact_below_m.
   [[nodiscard]] double clearance_m(int robot, double limit_m, double exact_below_m);
+  /// Whether the robot's last clearance_m() has changed no state (of searches). Then the same call
+  /// gives the same result and changes nothing, as long as nothing moves.
+  [[nodiscard]] bool clearance_settled(int robot) const;
 
   /// Collects the edges and circles within radius_m of a sensor at p_WL whose solids are higher
   /// than the sensor.

@@ -80,21 +80,15 @@ double least_range_in_cone_m(std::span<const Edge> edges, const Cone& cone, doub
   return columns.least_range_in_cone_m(cone, range_max_m);
 }
 
-void EdgeColumns::clear() noexcept {
-  for (auto* column : {&x0_, &y0_, &x1_, &y1_}) column->clear();
-}
-
-void EdgeColumns::add(const Edge& edge) {
-  x0_.push_back(static_cast<double>(edge.x0_m));
-  y0_.push_back(static_cast<double>(edge.y0_m));
-  x1_.push_back(static_cast<double>(edge.x1_m));
-  y1_.push_back(static_cast<double>(edge.y1_m));
+void EdgeColumns::grow() {
+  constexpr std::size_t kLeast = 64;
+  const std::size_t room = std::max(kLeast, 2 * size_);
+  for (auto* column : {&x0_, &y0_, &x1_, &y1_, &within_}) column->resize(room);
 }
 
 double EdgeColumns::least_range_in_cone_m(const Cone& cone, double range_max_m) {
   const Sides sides(cone);
-  const std::size_t count = x0_.size();
-  within_.resize(count);
+  const std::size_t count = size_;
   const double* const x0 = x0_.data();
   const double* const y0 = y0_.data();
   const double* const x1 = x1_.data();

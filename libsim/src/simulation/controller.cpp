@@ -502,8 +502,9 @@ const std::vector<double>& Simulation::scores() const noexcept {
 }
 
 const std::optional<Verdict>& Simulation::verdict() const noexcept {
+  if (impl_->controller) return impl_->controller->verdict();
   static const std::optional<Verdict> none;
-  return impl_->controller ? impl_->controller->verdict() : none;
+  return none;
 }
 
 }  // namespace sim

@@ -268,7 +268,10 @@ void Simulation::Impl::record_collisions() {
 }
 
 void Simulation::Impl::invalidate_clearances() {
-  for (RobotParts& robot : robots) robot.clearance_slack_m = 0.0;
+  for (RobotParts& robot : robots) {
+    robot.clearance_slack_m = 0.0;
+    robot.clearance_settled = false;
+  }
 }
 
 inline double Simulation::Impl::move_m(std::size_t i, double dt_s) const {
@@ -282,15 +285,19 @@ void Simulation::Impl::measure_clearance(std::size_t i, double limit_m) {
   double& least_m = robot.statistics.least_clearance_m;
   const double exact_below_m = steps == 0 ? limit_m : least_m + kClearanceExact_m;
   const double clearance_m = physics->clearance_m(static_cast<int>(i), limit_m, exact_below_m);
-  if (steps == 0 || clearance_m < least_m) least_m = clearance_m;
+  const bool is_least = steps == 0 || clearance_m < least_m;
+  if (is_least) least_m = clearance_m;
   robot.clearance_slack_m = clearance_m - least_m;
+  robot.clearance_settled = !is_least && physics->clearance_settled(static_cast<int>(i));
 }
 
 inline void Simulation::Impl::update_clearance(std::size_t i, double dt_s) {
   RobotParts& robot = robots[i];
   if (robot.statistics.least_clearance_m <= 0.0) return;
-  robot.clearance_slack_m -= move_m(i, dt_s) + physics->farthest_move_m();
+  const double moved_m = move_m(i, dt_s) + physics->farthest_move_m();
+  robot.clearance_slack_m -= moved_m;
   if (robot.clearance_slack_m > 0.0) return;
+  if (moved_m == 0.0 && robot.clearance_settled) return;
   measure_clearance(i, robot.statistics.least_clearance_m + kClearanceLookahead_m);
 }
 
@@ -382,7 +389,8 @@ std::uint64_t Simulation::steps() const noexcept { return impl_->steps; }
 
 bool Simulation::finished() const noexcept {
   const auto& duration = impl_->world.simulation.duration_ns;
-  return verdict().has_value() || (duration.has_value() && impl_->now_ns >= *duration);
+  if (duration.has_value() && impl_->now_ns >= *duration) return true;
+  return impl_->controller && impl_->controller->verdict().has_value();
 }
 
 const WorldDescription& Simulation::world() const noexcept { return impl_->world; }

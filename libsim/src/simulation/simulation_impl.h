@@ -24,6 +24,7 @@ struct alignas(64) RobotParts {
   RobotStatistics statistics;
   Vec2 last_position;              // at the end of the last step
   double clearance_slack_m = 0.0;  // see update_clearance()
+  bool clearance_settled = false;  // measured again before anything moves, nothing would change
   std::uint32_t first_slot = 0;    // index of its first device's slot
   std::uint16_t slot_count = 0;
   bool any_measures_after_others = false;  // whether any device measures after others
@@ -168,6 +169,10 @@ struct Simulation::Impl {
   SimTime now_ns = 0;
   std::uint64_t steps = 0;
   mutable std::optional<std::uint64_t> known_start_hash;
+  // About as many bytes as the parts of the state take: as many as were written last; 0: unknown.
+  std::size_t bodies_bytes = 0;
+  std::size_t rules_bytes = 0;
+  std::size_t pictures_bytes = 0;
 };
 
 }  // namespace sim

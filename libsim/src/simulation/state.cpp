@@ -67,6 +67,45 @@ SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const Worl
   return header;
 }
 
+// Counts the bytes that are written during its life. Does nothing while a state is read.
+class ByteCount {
+ public:
+  ByteCount(const StateArchive& archive, std::size_t& count)
+      : archive_(archive), count_(count), begin_(archive.written().size()) {}
+  ~ByteCount() {
+    if (!archive_.reading()) count_ = archive_.written().size() - begin_;
+  }
+  ByteCount(const ByteCount&) = delete;
+  ByteCount& operator=(const ByteCount&) = delete;
+
+ private:
+  const StateArchive& archive_;
+  std::size_t& count_;
+  std::size_t begin_;
+};
+
+// Room for what took so many bytes last time. A little more, since lists grow.
+std::size_t room_for(std::size_t bytes) { return bytes + bytes / 16; }
+
+// Writes a snapshot: its header, and what write_state() and write_pictures() append.
+// @param room  about the number of bytes of both.
+template <typename WriteState, typename WritePictures>
+Snapshot written_snapshot(std::uint64_t world, std::uint64_t seed, std::size_t room,
+                          WriteState write_state, WritePictures write_pictures) {
+  SnapshotHeader header{kMagic, kSnapshotVersion, world, seed, 0, 0, 0};
+  StateArchive archive;
+  archive.reserve(sizeof header + room);
+  archive.raw(&header, sizeof header);
+  write_state(archive);
+  header.state = archive.written().size() - sizeof header;
+  write_pictures(archive);
+  header.pictures = archive.written().size() - sizeof header - header.state;
+  header.hash = hash_of(archive.written().subspan(sizeof header));
+  Snapshot snapshot = archive.take();
+  std::memcpy(snapshot.data(), &header, sizeof header);
+  return snapshot;
+}
+
 }  // namespace
 
 WorldDescription Simulation::Impl::start_world() const {
@@ -109,6 +148,7 @@ void Simulation::Impl::archive(StateArchive& archive) {
 }
 
 void Simulation::Impl::archive_bodies(StateArchive& archive) {
+  const ByteCount count(archive, bodies_bytes);
   archive.time(now_ns);
   archive(steps);
   physics->archive(archive);
@@ -123,6 +163,7 @@ void Simulation::Impl::archive_bodies(StateArchive& archive) {
 }
 
 void Simulation::Impl::archive_rules(StateArchive& archive) {
+  const ByteCount count(archive, rules_bytes);
   if (chronicle.records_events()) {
     blocks->archive(archive);
     chronicle.archive_events(archive);
@@ -134,23 +175,25 @@ void Simulation::Impl::archive_rules(StateArchive& archive) {
 }
 
 void Simulation::Impl::archive_pictures(StateArchive& archive) {
+  const ByteCount count(archive, pictures_bytes);
   archive.choice(view_mode, ViewMode::kFullScreen);
   // The hash of the state excludes them, because only pictures and reports use them.
   chronicle.archive_places(archive);
 }
 
 StateParts Simulation::state_parts() const {
-  const auto bytes_of = [this](void (Impl::*part)(StateArchive&)) {
+  const auto bytes_of = [this](void (Impl::*part)(StateArchive&), std::size_t before) {
     StateArchive archive;
+    archive.reserve(room_for(before));
     ((*impl_).*part)(archive);
     return archive.take();
   };
   StateParts parts;
   parts.world_ = impl_->start_hash();
   parts.seed_ = impl_->world.simulation.seed;
-  parts.bodies_ = bytes_of(&Impl::archive_bodies);
-  parts.rules_ = bytes_of(&Impl::archive_rules);
-  parts.pictures_ = bytes_of(&Impl::archive_pictures);
+  parts.bodies_ = bytes_of(&Impl::archive_bodies, impl_->bodies_bytes);
+  parts.rules_ = bytes_of(&Impl::archive_rules, impl_->rules_bytes);
+  parts.pictures_ = bytes_of(&Impl::archive_pictures, impl_->pictures_bytes);
   return parts;
 }
 
@@ -168,29 +211,35 @@ std::uint64_t StateParts::hash(LayerStack& layers) {
 }
 
 Snapshot StateParts::snapshot(LayerStack& layers) {
-  SnapshotHeader header{kMagic, kSnapshotVersion, world_, seed_, 0, 0, 0};
-  StateArchive archive;
-  archive.reserve(sizeof header + bodies_.size() + rules_.size() + pictures_.size() +
-                  layers.archived_bytes(/*others=*/true));
-  archive.raw(&header, sizeof header);
-  append_state(archive, layers);
-  header.state = archive.written().size() - sizeof header;
-  archive.raw(pictures_.data(), pictures_.size());
-  layers.archive_others(archive);
-  header.pictures = archive.written().size() - sizeof header - header.state;
-  header.hash = hash_of(archive.written().subspan(sizeof header));
-  Snapshot snapshot = archive.take();
-  std::memcpy(snapshot.data(), &header, sizeof header);
-  return snapshot;
+  return written_snapshot(
+      world_, seed_,
+      bodies_.size() + rules_.size() + pictures_.size() + layers.archived_bytes(/*others=*/true),
+      [&](StateArchive& archive) { append_state(archive, layers); },
+      [&](StateArchive& archive) {
+        archive.raw(pictures_.data(), pictures_.size());
+        layers.archive_others(archive);
+      });
 }
 
 std::uint64_t Simulation::state_hash() const {
   StateArchive archive;
+  archive.reserve(room_for(impl_->bodies_bytes + impl_->rules_bytes) +
+                  impl_->layers.archived_bytes(/*others=*/false));
   impl_->archive(archive);
   return hash_of(archive.written());
 }
 
-Snapshot Simulation::save() const { return state_parts().snapshot(impl_->layers); }
+Snapshot Simulation::save() const {
+  return written_snapshot(
+      impl_->start_hash(), impl_->world.simulation.seed,
+      room_for(impl_->bodies_bytes + impl_->rules_bytes + impl_->pictures_bytes) +
+          impl_->layers.archived_bytes(/*others=*/true),
+      [this](StateArchive& archive) { impl_->archive(archive); },
+      [this](StateArchive& archive) {
+        impl_->archive_pictures(archive);
+        impl_->layers.archive_others(archive);
+      });
+}
 
 SnapshotReader::SnapshotReader(WorldDescription start, std::uint64_t hash, LogHook log)
     : start_(std::move(start)), hash_(hash), log_(std::move(log)) {}
@@ -199,6 +248,7 @@ Simulation SnapshotReader::read(std::span<const std::uint8_t> snapshot) const {
   const SnapshotHeader header = checked_header(snapshot, start_, hash_);
   auto made = std::make_unique<Simulation::Impl>(start_, log_, true);
   made->known_start_hash = hash_;
+  made->bodies_bytes = header.state;  // and the canvas
   StateArchive state(snapshot.subspan(sizeof header, header.state));
   made->archive(state);
   state.expect(state.left() == 0, "no more bytes of state");

@@ -101,18 +101,58 @@ class CellRaster {
     return data_.data() + static_cast<std::size_t>(row) * byte_offset(width_);
   }
 
+  /// Writes single cells of a raster. Loops over many cells use one object, so that what each write
+  /// needs is not loaded again. Valid as long as the raster keeps its size.
+  class Writer {
+   public:
+    explicit Writer(CellRaster& raster) noexcept
+        : width_(static_cast<unsigned>(raster.width_)),
+          height_(static_cast<unsigned>(raster.height_)),
+          tile_stride_(raster.tile_stride_),
+          data_(raster.data_.data()),
+          tiles_(raster.tiles_.data()) {}
+
+    /// See CellRaster::put().
+    void put(int column, int row, CellValue value) const noexcept {
+      if (contains(column, row)) write(column, row, value);
+    }
+    /// See CellRaster::blend().
+    void blend(int column, int row, Colour colour) const noexcept {
+      if (!contains(column, row) || colour.a == 0) return;
+      if (colour.a != 255) {
+        CellValue below;
+        std::memcpy(&below, cell(column, row), sizeof below);
+        colour = source_over(colour, below.colour());
+      }
+      write(column, row, CellValue::of(colour));
+    }
+
+   private:
+    [[nodiscard]] bool contains(int column, int row) const noexcept {
+      return static_cast<unsigned>(column) < width_ && static_cast<unsigned>(row) < height_;
+    }
+    [[nodiscard]] std::uint8_t* cell(int column, int row) const noexcept {
+      return data_ + (static_cast<std::size_t>(row) * width_ + static_cast<std::size_t>(column)) *
+                         sizeof(CellValue);
+    }
+    void write(int column, int row, CellValue value) const noexcept {
+      std::memcpy(cell(column, row), &value, sizeof value);
+      tiles_[(static_cast<std::size_t>(row) >> kTileShift) * tile_stride_ +
+             (static_cast<std::size_t>(column) >> kTileShift)] = kWritten;
+    }
+
+    unsigned width_;
+    unsigned height_;
+    std::size_t tile_stride_;
+    std::uint8_t* data_;
+    std::uint8_t* tiles_;
+  };
+
   /// Sets a cell; does nothing outside the raster.
-  void put(int column, int row, CellValue value) noexcept {
-    if (contains(column, row)) write(column, row, value);
-  }
+  void put(int column, int row, CellValue value) noexcept { Writer(*this).put(column, row, value); }
   /// Blends a colour over the cell's content (source_over); does nothing outside the raster.
   void blend(int column, int row, Colour colour) noexcept {
-    if (!contains(column, row)) return;
-    if (colour.a == 255) {
-      write(column, row, CellValue::of(colour));
-    } else if (colour.a != 0) {
-      write(column, row, CellValue::of(source_over(colour, at(column, row).colour())));
-    }
+    Writer(*this).blend(column, row, colour);
   }
   /// put() along a line, see Canvas::draw_line.
   void put_line(int column0, int row0, int column1, int row1, CellValue value) noexcept;

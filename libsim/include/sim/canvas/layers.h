@@ -154,8 +154,8 @@ class LayerStack {
   /// All layers in drawing order, lowest first.
   [[nodiscard]] std::vector<LayerInfo> layers() const;
 
-  /// Executes drawings in order. Drawings on removed layers have no effect, and those that a later
-  /// fill of the same layer covers are skipped.
+  /// Executes drawings in order. Drawings on removed layers have no effect. From the first fill on,
+  /// those that a later fill of the same layer covers are skipped.
   void draw(std::span<const DrawOperation> operations);
   /// Continues drawings in order, until this many cells have been written (cells_written()) or all
   /// drawings are finished. Lines are not divided; fills are divided between rows.
@@ -250,6 +250,10 @@ class LayerStack {
  private:
   friend class LayerCopy;
   struct Impl;
+  /// @param stop_at_fill  end before the first fill.
+  std::size_t draw_some(std::span<const DrawOperation> operations, DrawProgress& progress,
+                        std::size_t cells, bool stop_at_fill);
+
   std::unique_ptr<Impl> impl_;
 };
 

@@ -13,8 +13,12 @@ using Vec2 = Eigen::Vector2d;
 /// Wraps an angle into (-pi, pi].
 /// @param angle_rad  any finite angle [rad].
 [[nodiscard]] inline double normalize_angle(double angle_rad) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
   if (angle_rad > -std::numbers::pi && angle_rad <= std::numbers::pi) return angle_rad;
-  const double wrapped = std::remainder(angle_rad, 2.0 * std::numbers::pi);
+  // Within three half turns these differences are exact (Sterbenz), so they are the remainder.
+  if (angle_rad > 0.0 && angle_rad < 9.0) return angle_rad - kTurn;
+  if (angle_rad < 0.0 && angle_rad > -9.0) return angle_rad + kTurn;
+  const double wrapped = std::remainder(angle_rad, kTurn);
   return wrapped == -std::numbers::pi ? std::numbers::pi : wrapped;
 }
 
@@ -29,14 +33,6 @@ struct Pose {
   double yaw_rad = 0.0;  ///< turn from A's to B's x axis, counter-clockwise [rad], (-pi, pi]
 
   [[nodiscard]] Vec2 position() const { return {x_m, y_m}; }
-
-  /// X_AC = X_AB * X_BC.
-  [[nodiscard]] friend Pose operator*(const Pose& X_AB, const Pose& X_BC) {
-    const double c = std::cos(X_AB.yaw_rad);
-    const double s = std::sin(X_AB.yaw_rad);
-    return {X_AB.x_m + c * X_BC.x_m - s * X_BC.y_m, X_AB.y_m + s * X_BC.x_m + c * X_BC.y_m,
-            normalize_angle(X_AB.yaw_rad + X_BC.yaw_rad)};
-  }
 
   /// p_AQ = X_AB * p_BQ: a point given in B, expressed in A [m].
   [[nodiscard]] friend Vec2 operator*(const Pose& X_AB, const Vec2& p_BQ) {
@@ -54,6 +50,28 @@ struct Pose {
 
   friend bool operator==(const Pose&, const Pose&) = default;
 };
+
+/// A pose with the cosine and the sine of its yaw, for several products with it. They have the same
+/// bits as those of the pose.
+struct Frame {
+  explicit Frame(const Pose& pose)
+      : X_AB(pose), cos_yaw(std::cos(pose.yaw_rad)), sin_yaw(std::sin(pose.yaw_rad)) {}
+
+  /// X_AC = X_AB * X_BC.
+  [[nodiscard]] Pose operator*(const Pose& X_BC) const {
+    return {X_AB.x_m + cos_yaw * X_BC.x_m - sin_yaw * X_BC.y_m,
+            X_AB.y_m + sin_yaw * X_BC.x_m + cos_yaw * X_BC.y_m,
+            normalize_angle(X_AB.yaw_rad + X_BC.yaw_rad)};
+  }
+
+  Pose X_AB;
+  double cos_yaw, sin_yaw;
+};
+
+/// X_AC = X_AB * X_BC.
+[[nodiscard]] inline Pose operator*(const Pose& X_AB, const Pose& X_BC) {
+  return Frame(X_AB) * X_BC;
+}
 
 /// Planar velocity of a body, in its own frame.
 struct Twist {

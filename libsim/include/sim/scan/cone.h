@@ -34,16 +34,26 @@ struct Cone {
 /// edges. Not thread-safe (scratch memory). clear() keeps the memory.
 class EdgeColumns {
  public:
-  void clear() noexcept;
-  void add(const Edge& edge);
-  [[nodiscard]] std::size_t size() const noexcept { return x0_.size(); }
+  void clear() noexcept { size_ = 0; }
+  void add(const Edge& edge) {
+    if (size_ == x0_.size()) grow();
+    x0_[size_] = static_cast<double>(edge.x0_m);
+    y0_[size_] = static_cast<double>(edge.y0_m);
+    x1_[size_] = static_cast<double>(edge.x1_m);
+    y1_[size_] = static_cast<double>(edge.y1_m);
+    ++size_;
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
   /// least_range_in_cone_m() of these edges.
   [[nodiscard]] double least_range_in_cone_m(const Cone& cone, double range_max_m);
 
  private:
-  std::vector<double> x0_, y0_, x1_, y1_;
-  std::vector<double> within_;  ///< scratch
+  void grow();
+
+  std::size_t size_ = 0;
+  std::vector<double> x0_, y0_, x1_, y1_;  ///< the first size_ of each are in use
+  std::vector<double> within_;             ///< scratch
 };
 
 }  // namespace sim::scan

@@ -297,7 +297,7 @@ class Simulation {
   ///
   /// A snapshot identifies its world and seed, but does not contain the world. It contains a hash
   /// of its bytes, so that damage is detected. It takes about 1 KB per robot, 2.5 KB per device
-  /// with noise, and the readings. Saving takes about 0.5 ms per megabyte.
+  /// with noise, and the readings. Saving takes about 0.7 ms per megabyte.
   [[nodiscard]] Snapshot save() const;
   /// The state without the layers, for callers that hash or save it later, when this simulation is
   /// in use again.
