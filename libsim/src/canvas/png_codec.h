@@ -24,11 +24,10 @@ struct PngRow {
 [[nodiscard]] bool decode_png(const std::vector<std::uint8_t>& bytes, int width, int height,
                               const std::function<void(const PngRow&)>& row);
 
-/// Encodes RGB bytes (row-major from the top left, 3 * width * height values) as a PNG. Equal
-/// pictures give equal bytes, since the PNG contains no time or name.
-/// @param level  of zlib, 1 (fast) to 9 (small).
+/// Encodes RGB bytes (row-major from the top left, 3 * width * height values) as a PNG: with a
+/// palette if there are at most 256 colours, as canvases have, which is both smaller and faster.
+/// Equal pictures give equal bytes, since the PNG contains no time or name.
 /// @return the file's bytes; empty if memory runs out.
-[[nodiscard]] std::vector<std::uint8_t> encode_png(int width, int height, const std::uint8_t* rgb,
-                                                   int level);
+[[nodiscard]] std::vector<std::uint8_t> encode_png(int width, int height, const std::uint8_t* rgb);
 
 }  // namespace sim

@@ -168,9 +168,8 @@ struct Drawing::SvgWriter {
            "</text>\n";
   }
   void operator()(const Picture& picture) const {
-    constexpr int kEffort = 6;
     const std::vector<std::uint8_t> png =
-        encode_png(picture.image.width, picture.image.height, picture.image.rgb.data(), kEffort);
+        encode_png(picture.image.width, picture.image.height, picture.image.rgb.data());
     out += "<image x=\"" + std::to_string(picture.left) + "\" y=\"" + std::to_string(picture.top) +
            "\" width=\"" + std::to_string(picture.image.width) + "\" height=\"" +
            std::to_string(picture.image.height) + "\" xlink:href=\"data:image/png;base64," +

@@ -232,9 +232,8 @@ class Pictures final : public FilmWriter::Impl {
     const std::uint64_t number = frame_count + 1;
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "frame_%06" PRIu64 ".png", number);
-    // Fast compression, since a film has thousands of frames.
     const fs::path file = fs::path(path) / name.data();
-    write_png(frame, file.string(), PngEffort::kQuick);
+    write_png(frame, file.string());
     std::error_code error;
     const std::uint64_t size = fs::file_size(file, error);
     if (!error) size_ += size;

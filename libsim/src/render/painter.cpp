@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -327,8 +328,9 @@ void Overlay::Canvas::fill(const Shape& shape, Colour colour, double opacity) {
 }
 
 Overlay::Overlay(int width, int height, const std::function<void(Canvas&)>& draw) {
-  constexpr int kBand_px = 1 << 20;
+  constexpr int kBand_px = 1 << 17;  // 2 MB: the memory of larger bands costs more than drawing
   const int rows = std::max(1, kBand_px / width);
+  bytes_.reserve(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   Canvas canvas;
   for (int top = 0; top < height; top += rows) {
     canvas.part_ = {0, top, width, std::min(top + rows, height)};
@@ -354,18 +356,21 @@ void Overlay::add_runs(const Canvas& canvas) {
       run.begin = x;
       run.opaque = pixel[x].kept < kLeastKept;
       run.first = run.opaque ? bytes_.size() : blends_.size();
-      for (; x < width && pixel[x].kept != 1.0F && (pixel[x].kept < kLeastKept) == run.opaque;
-           ++x) {
-        if (run.opaque) {
-          for (const float channel : pixel[x].added) {
-            bytes_.push_back(static_cast<std::uint8_t>(std::min(channel + 0.5F, 255.0F)));
-          }
-        } else {
-          blends_.push_back(Blend::of(pixel[x].kept, pixel[x].added));
-        }
-      }
+      while (x < width && pixel[x].kept != 1.0F && (pixel[x].kept < kLeastKept) == run.opaque) ++x;
       run.end = x;
       runs_.push_back(run);
+      const std::span pixels(pixel + run.begin, pixel + run.end);
+      if (!run.opaque) {
+        for (const Canvas::Pixel& p : pixels) blends_.push_back(Blend::of(p.kept, p.added));
+        continue;
+      }
+      bytes_.resize(run.first + 3 * pixels.size());
+      std::uint8_t* to = bytes_.data() + run.first;
+      for (const Canvas::Pixel& p : pixels) {
+        for (const float channel : p.added) {
+          *to++ = static_cast<std::uint8_t>(std::min(channel + 0.5F, 255.0F));
+        }
+      }
     }
     row_.push_back(runs_.size());
   }

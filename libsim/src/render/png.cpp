@@ -18,15 +18,14 @@ namespace {
 
 }  // namespace
 
-void write_png(const Image& image, const std::string& path, PngEffort effort) {
+void write_png(const Image& image, const std::string& path) {
   const std::size_t samples =
       3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (image.width <= 0 || image.height <= 0 || image.rgb.size() != samples) {
     refuse_picture(path, "it has no pixels, or not as many as its size says");
   }
   // Encoded in memory and written here, so that the reason of a failure is known.
-  const std::vector<std::uint8_t> bytes =
-      encode_png(image.width, image.height, image.rgb.data(), effort == PngEffort::kQuick ? 1 : 6);
+  const std::vector<std::uint8_t> bytes = encode_png(image.width, image.height, image.rgb.data());
   if (bytes.empty()) refuse_picture(path, "the PNG encoder failed");
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (const int error = replace_file(path, text)) refuse_picture(path, std::strerror(error));

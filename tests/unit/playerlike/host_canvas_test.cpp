@@ -294,7 +294,7 @@ TEST_P(HostCanvas, ClientFiles_Limited) {
   RunSettings settings;
   settings.output_folder = folder.path().string();
   settings.client_files_limit = 1;
-  settings.all_files_limit = 10'000;
+  settings.all_files_limit = 1000;
   const auto host = create(two_robots(), settings);
   const auto one = host->connect(6665);
   LogRequest logging;
@@ -306,7 +306,7 @@ TEST_P(HostCanvas, ClientFiles_Limited) {
       << "a log has a limit of its own";
   const auto two = host->connect(6665);
   EXPECT_EQ(refusal([&] { two->request(SaveImageRequest{"b", 64}); }), std::nullopt);
-  ASSERT_GT(std::filesystem::file_size(folder.path() / "b.png"), 10'000U);
+  ASSERT_GT(std::filesystem::file_size(folder.path() / "b.png"), 1000U);
   const auto three = host->connect(6666);
   EXPECT_EQ(refusal([&] { three->request(SaveImageRequest{"c"}); }), kNotAvailable);
   EXPECT_EQ(refusal([&] { three->request(logging); }), kNotAvailable);

@@ -126,7 +126,7 @@ TEST(Recorder, Frame_ShowsSceneOfItsTime) {
     if (step == 8) {  // 0.08 s = 2 / 25 s: frame 3, as the first one is that of the start
       const sim::render::Image image =
           sim::render::draw_view(recorder.scene(simulation), {.size_px = 800});
-      sim::render::write_png(image, folder / "expected.png", sim::render::PngEffort::kQuick);
+      sim::render::write_png(image, folder / "expected.png");
       expected = read_bytes(folder / "expected.png");
     }
   }

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "canvas/image_file.h"
+#include "canvas/png_codec.h"
 #include "render/modules/module_file.h"
 
 namespace sim::render {
@@ -807,6 +808,32 @@ TEST(WritePng, RedAndBlue_NotSwapped) {
   write_png({1, 1, {200, 0, 100}}, path);
   // Luma 0.299 * 200 + 0.114 * 100 = 71.2; with exchanged channels it would be 52.7.
   EXPECT_EQ(load_grey_image(path).pixels, (std::vector<std::uint8_t>{71}));
+}
+
+// Pictures with a palette have indices of 1, 2, 4 or 8 bits; others have none.
+TEST(WritePng, AnyNumberOfColours_SamePixels) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("colours.png");
+  for (const int colours : {1, 2, 3, 4, 5, 16, 17, 255, 256, 257, 1000}) {
+    SCOPED_TRACE(colours);
+    Image image{37, 41, {}};  // a row is no whole number of bytes
+    for (int i = 0; i < image.width * image.height; ++i) {
+      const int colour = i / image.width % 3 == 0 ? 0 : i % colours;  // some rows are equal
+      image.rgb.push_back(static_cast<std::uint8_t>(colour % 256));
+      image.rgb.push_back(static_cast<std::uint8_t>(255 - colour % 256));
+      image.rgb.push_back(static_cast<std::uint8_t>(colour / 256));
+    }
+    write_png(image, path);
+    const std::string file = file_bytes(path);
+    std::vector<std::uint8_t> read;
+    const bool whole =
+        decode_png({file.begin(), file.end()}, image.width, image.height, [&](const PngRow& row) {
+          ASSERT_EQ(row.channels, 3);
+          read.insert(read.end(), row.samples, row.samples + 3 * row.width);
+        });
+    ASSERT_TRUE(whole);
+    EXPECT_TRUE(read == image.rgb);
+  }
 }
 
 TEST(WritePng, Error_NamesFileAndReason) {

@@ -302,6 +302,25 @@ TEST(Simulation, LeastClearance_ExactDespiteRareMeasurement) {
   EXPECT_NEAR(simulation.statistics(0).least_clearance_m, 4.0 - 3.587, 1e-4);
 }
 
+// While nothing moves, the clearance of a robot at rest is not measured again.
+TEST(Simulation, LeastClearanceAtRest_MeasuredAgainWhenOthersMove) {
+  Simulation simulation(load_world_text(R"({"arena": {"size": [4, 4]}, "robots": [
+      {"name": "r1", "pose": {"x": 1, "y": 2}},
+      {"name": "r2", "pose": {"x": 3, "y": 2, "yaw_deg": 180}}]})"));
+  const auto least_m = [&] { return simulation.statistics(0).least_clearance_m; };
+  run(simulation, 50);
+  EXPECT_NEAR(least_m(), 1.0 - 0.087, 1e-4);  // to the left border
+  ASSERT_EQ(simulation.place_object("r2", {1.6, 2.0, std::numbers::pi}), std::nullopt);
+  run(simulation, 50);
+  EXPECT_NEAR(least_m(), 0.6 - 2.0 * 0.087, 1e-4);
+  drive(simulation, 0.1, 0.0, 1);
+  run(simulation, 100);
+  EXPECT_NEAR(least_m(), 0.5 - 2.0 * 0.087, 1e-3);
+  drive(simulation, -0.1, 0.0, 1);
+  run(simulation, 100);
+  EXPECT_NEAR(least_m(), 0.5 - 2.0 * 0.087, 1e-3);
+}
+
 TEST(Simulation, PenWithTrail_DrawsPath) {
   Simulation simulation(room(R"({"pen": {"trail": true, "colour": "#ff0000"}})"));
   drive(simulation, 0.5, 0.0);

@@ -133,15 +133,9 @@ class SceneRenderer {
 [[nodiscard]] Image draw_canvas(const CanvasDescription& description,
                                 const std::vector<std::uint8_t>& rgba, int scale);
 
-/// How much effort to spend on a small PNG file.
-enum class PngEffort {
-  kQuick,  ///< a few times faster; the file is about a third larger
-  kSmall,
-};
-
 /// Writes a PNG; equal pictures give equal bytes.
 /// @throws std::runtime_error naming the file and the reason.
-void write_png(const Image& image, const std::string& path, PngEffort effort = PngEffort::kSmall);
+void write_png(const Image& image, const std::string& path);
 
 /// Loads the module that draws text with OpenCV; otherwise the first picture loads it. Call this
 /// before std::atexit() if the handler draws pictures: handlers run in reverse order, so the

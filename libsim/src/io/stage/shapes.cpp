@@ -301,7 +301,7 @@ std::string png_of(const DarkArea& area) {
   for (const std::uint8_t solid : area.solid) {
     rgb.insert(rgb.end(), 3, solid != 0 ? std::uint8_t{0} : std::uint8_t{255});
   }
-  const std::vector<std::uint8_t> bytes = encode_png(area.width, area.height, rgb.data(), 3);
+  const std::vector<std::uint8_t> bytes = encode_png(area.width, area.height, rgb.data());
   return {bytes.begin(), bytes.end()};
 }
 
