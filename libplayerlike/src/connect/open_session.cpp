@@ -154,6 +154,11 @@ std::string_view variable(const char* name) {
   return value == nullptr ? std::string_view() : std::string_view(value);
 }
 
+// Whether a name, such as that of PLAYPEN_WORLD, is that of a Playpen server.
+bool names_server(std::string_view name) {
+  return name.starts_with(kTcpPrefix) || name.starts_with(kUnixPrefix);
+}
+
 // A server runs in real time, so this program cannot use virtual time.
 void use_real_time() {
   if (virtual_time::active()) virtual_time::give_up();
@@ -163,8 +168,7 @@ std::unique_ptr<Session> connect_to_server(const std::string& server, int port) 
   use_real_time();
   SocketSettings settings = SocketSettings::from_environment(parse_server_address(server), port);
   const std::string_view run = variable("PLAYPEN_RUN");
-  settings.quiet_end =
-      (!run.empty() && run != "0") || variable("PLAYPEN_WORLD").starts_with(kTcpPrefix);
+  settings.quiet_end = (!run.empty() && run != "0") || names_server(variable("PLAYPEN_WORLD"));
   return std::make_unique<SocketSession>(std::move(settings));
 }
 
@@ -334,7 +338,7 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
   if (file.starts_with(kPlayerPrefix)) {
     return connect_to_player(player_server_of_world(file, port), port);
   }
-  if (file.starts_with(kTcpPrefix)) return connect_to_server(file, port);
+  if (names_server(file)) return connect_to_server(file, port);
   if (is_world_of_run(file)) {
     if (const std::optional<int> server = served_world_port()) {
       return connect_to_server("tcp://127.0.0.1:" + std::to_string(*server), port);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <asio/io_context.hpp>
-#include <asio/ip/tcp.hpp>
 #include <condition_variable>
 #include <mutex>
 #include <utility>
@@ -17,7 +16,6 @@
 namespace playerlike {
 namespace {
 
-using asio::ip::tcp;
 using nlohmann::json;
 using protocol::Encoding;
 using protocol::MessageSplitter;
@@ -65,7 +63,7 @@ struct Connection::Impl {
 
   const ServerAddress address;
   asio::io_context context;
-  tcp::socket socket{context};
+  StreamSocket socket{context};
   Encoding encoding = Encoding::kJson;
   MessageSplitter splitter{Encoding::kJson, kAnswerLimit};  // used by the leader only
   json welcome;
@@ -238,7 +236,11 @@ std::shared_ptr<Connection> Connection::open(const ServerAddress& address, const
   const ConnectDeadline deadline(timeout, give_up);
   auto impl = std::make_unique<Impl>(address);
   impl->timeout = timeout.count();
-  connect_tcp(impl->socket, address, timeout, deadline, "is `playpen serve` running there?");
+  if (address.is_local()) {
+    connect_local(impl->socket, address);
+  } else {
+    connect_tcp(impl->socket, address, timeout, deadline, "is `playpen serve` running there?");
+  }
   impl->say_hello(hello, deadline);
   return std::shared_ptr<Connection>(new Connection(std::move(impl)));
 }
