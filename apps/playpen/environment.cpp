@@ -53,7 +53,8 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"PLAYPEN_VIEW_MODE", "How the canvas is shown: ground, mini-map or full-screen.", true},
       {"PLAYPEN_VIRTUAL_TIME", "If it is 1, sleeps of the program are simulated time.", true},
       {"PLAYPEN_WORLD",
-       "The world that \"localhost\" means: a file, tcp://HOST[:PORT] or player://HOST[:PORT].",
+       "The world that \"localhost\" means: a file, tcp://HOST[:PORT], unix:PATH or "
+       "player://HOST[:PORT].",
        true},
   };
   return *variables;

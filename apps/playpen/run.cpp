@@ -153,7 +153,10 @@ class ServedWorld {
 }  // namespace
 
 int run(RunRequest request) {
-  if (request.world.starts_with("tcp://") || request.world.starts_with("player://")) {
+  const auto is_server = [&request](const char* prefix) {
+    return request.world.starts_with(prefix);
+  };
+  if (is_server("tcp://") || is_server("player://") || is_server("unix:")) {
     throw std::runtime_error(
         "playpen run makes a simulation of its own; for the one of a server, "
         "start the program itself: PLAYPEN_WORLD=" +

@@ -56,6 +56,14 @@ playerlike::RunSettings with_environment(const playerlike::RunSettings& settings
   return result;
 }
 
+/// The addresses of a server for the user: "127.0.0.1:4000", "unix:/tmp/robots" or both.
+std::string listening_on(const playerlike::ServerSettings& settings, int port) {
+  std::string text;
+  if (settings.port) text = playerlike::address_text(settings.bind, port);
+  if (settings.unix_path.empty()) return text;
+  return text + (text.empty() ? "" : " and ") + "unix:" + settings.unix_path;
+}
+
 /// Serves until a signal arrives or everything is over.
 void wait_for_end(const playerlike::Host& host, const playerlike::Server& server,
                   const EndSignals& signals) {
@@ -145,7 +153,7 @@ int serve(ServeRequest request) {
                  [&](int signal) { end_without(*host, kept, world, request, signal); });
   {
     playerlike::Server server(host, request.server, log);
-    std::cout << "listening on " << playerlike::address_text(request.server.bind, server.port());
+    std::cout << "listening on " << listening_on(request.server, server.port());
     if (request.server.sync_port) std::cout << ", clock synchronisation on " << server.sync_port();
     std::cout << std::endl;
     for (const std::string& line : server.player_port_lines()) std::cout << line << std::endl;

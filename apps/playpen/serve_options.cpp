@@ -73,7 +73,7 @@ void add_serve(CommandLine& line) {
   playerlike::ServerSettings& server = request->server;
   CLI::App& command = line.add_command("serve", "Offer a world to client programs over TCP");
   command.footer(
-      "Clients connect with PLAYPEN_WORLD=tcp://HOST:PORT, or as MORSE's do: see\n"
+      "Clients connect with PLAYPEN_WORLD=tcp://HOST:PORT or unix:PATH, or as MORSE's do: see\n"
       "'playpen doc remote'. With --port 6665, Player's clients find each robot on its\n"
       "own port.\n"
       "Ends on Ctrl-C (SIGINT) or SIGTERM, with reports and pictures written.");
@@ -83,7 +83,13 @@ void add_serve(CommandLine& line) {
                      "; --tcp-port sets the port of Playpen's and MORSE's clients",
                  &server.port);  // 0 was its value for any free TCP port
   add_port(command, "--tcp-port",
-           "TCP port of Playpen's and MORSE's clients; 0: any free one [4000]", server.port);
+           "TCP port of Playpen's and MORSE's clients; 0: any free one [4000; none with --unix]",
+           server.port);
+  CLI::Option* const unix_path = command.add_option(
+      "--unix", server.unix_path,
+      "Unix socket for clients on this machine, PLAYPEN_WORLD=unix:PATH; TCP only if --tcp-port "
+      "is given");
+  line.takes(unix_path->type_name("PATH"), ValueKind::Kind::kFile);
   command
       .add_option("--bind", server.bind,
                   "Address to listen on, or a name of this machine [127.0.0.1]")
@@ -127,7 +133,9 @@ void add_serve(CommandLine& line) {
   command.add_flag("--view", request->view,
                    "Watch and steer in a window, in real time unless --time says otherwise");
   command.add_flag("--quiet", request->quiet, "No summary");
-  command.callback([request, &line] {
+  command.callback([request, &line, &command] {
+    playerlike::ServerSettings& listening = request->server;
+    if (!listening.unix_path.empty() && command.count("--tcp-port") == 0) listening.port.reset();
     require_something_to_show(request->settings, request->view);
     line.status = serve(*request);
   });

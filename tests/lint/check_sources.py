@@ -111,7 +111,7 @@ PLAYERLIKE = arrows({
     "session": "messages libplayerinterface",
     "virtual_time": "process",
     "host": "messages process protocol session view virtual_time",
-    "remote": "messages process protocol session",
+    "remote": "messages process protocol session virtual_time",
     "connect": "messages process session virtual_time host remote",
     "server": "messages process protocol session virtual_time host wire proxies libplayerinterface",
     # Headers that clients include.

@@ -34,8 +34,8 @@ struct CoreAccess;
 ///   "tcp://HOST[:PORT]" or "player://HOST[:PORT]", it is that server.
 /// - "sim:FILE": a simulation of that world file in this process; a new one when all clients of the
 ///   earlier one are gone.
-/// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`). Its default TCP
-///   port is 4000.
+/// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`), by default on TCP port
+///   4000. "unix:PATH": the one at that Unix socket. PLAYPEN_WORLD may be this, too.
 /// - "player://HOST[:PORT]": a Player server, e.g. of a real robot; the default TCP port is that of
 ///   the client.
 /// - any other host name: the server there, of Player on the client's port or else of Playpen. If

@@ -154,18 +154,28 @@ std::string_view variable(const char* name) {
   return value == nullptr ? std::string_view() : std::string_view(value);
 }
 
-// A server runs in real time, so this program cannot use virtual time.
+// Whether a name, such as that of PLAYPEN_WORLD, is that of a Playpen server.
+bool names_server(std::string_view name) {
+  return name.starts_with(kTcpPrefix) || name.starts_with(kUnixPrefix);
+}
+
+// For what runs in real time: this program cannot use virtual time then.
 void use_real_time() {
   if (virtual_time::active()) virtual_time::give_up();
 }
 
+// Time stays virtual if that of the server is lockstep.
 std::unique_ptr<Session> connect_to_server(const std::string& server, int port) {
-  use_real_time();
   SocketSettings settings = SocketSettings::from_environment(parse_server_address(server), port);
   const std::string_view run = variable("PLAYPEN_RUN");
-  settings.quiet_end =
-      (!run.empty() && run != "0") || variable("PLAYPEN_WORLD").starts_with(kTcpPrefix);
-  return std::make_unique<SocketSession>(std::move(settings));
+  settings.quiet_end = (!run.empty() && run != "0") || names_server(variable("PLAYPEN_WORLD"));
+  if (virtual_time::active() && variable("PLAYPEN_VIRTUAL_TIME") == "1") {
+    settings.virtual_time = true;
+    settings.silence_limit_s = silence_limit_s_of_environment();
+  }
+  auto session = std::make_unique<SocketSession>(std::move(settings));
+  if (!session->in_turns()) use_real_time();
+  return session;
 }
 
 // MORSE's port is no Player server's, so programs that name it mean Player's default port.
@@ -334,9 +344,10 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
   if (file.starts_with(kPlayerPrefix)) {
     return connect_to_player(player_server_of_world(file, port), port);
   }
-  if (file.starts_with(kTcpPrefix)) return connect_to_server(file, port);
+  if (names_server(file)) return connect_to_server(file, port);
   if (is_world_of_run(file)) {
     if (const std::optional<int> server = served_world_port()) {
+      use_real_time();
       return connect_to_server("tcp://127.0.0.1:" + std::to_string(*server), port);
     }
   }

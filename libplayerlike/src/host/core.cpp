@@ -105,15 +105,16 @@ void Host::Core::give_way(Lock& lock) const {
 // --- Clients
 
 std::shared_ptr<Client> Host::Core::add_client(int port, EventRole role,
-                                               std::function<void()> notify) {
+                                               std::function<void()> notify,
+                                               const CreationOrder& order) {
   const Lock lock = lock_with_priority();
-  auto client = clients_.add(port, role, std::move(notify));
+  auto client = clients_.add(port, role, std::move(notify), order);
   had_client_ = had_client_ || !client->onlooker;
   changed_.notify_all();  // a paced clock may wait for its first client
   return client;
 }
 
-void Host::Core::remove_client(Client& client) noexcept {
+void Host::Core::remove_client(Client& client, bool abandoned) noexcept {
   const Lock lock = lock_with_priority();
   if (client.closed.exchange(true)) return;
   // Its last commands are still applied.
@@ -123,7 +124,7 @@ void Host::Core::remove_client(Client& client) noexcept {
   inputs_.registry.leave(client.number);
   if (turns_) Turns::instance().resume_client_thread(&client);
   clients_.remove(client);
-  if (!ended_) inputs_.stop(left);
+  if (!ended_) abandoned ? inputs_.stop_at_next_step(left) : inputs_.stop(left);
   changed_.notify_all();
 }
 
@@ -194,7 +195,9 @@ bool Host::Core::may_advance(bool all_known_waiting) {
 
 bool Host::Core::is_due(const Client& client) const {
   return (client.wants_data && client.has_data) || !client.lost_robot.empty() ||
-         (client.wake_ns && simulation_.now_ns() >= *client.wake_ns);
+         (client.wake_ns && simulation_.now_ns() >= *client.wake_ns) ||
+         std::any_of(client.waits_for.begin(), client.waits_for.end(),
+                     [](const auto& other) { return other->has_data; });
 }
 
 void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
@@ -318,6 +321,13 @@ void Host::Core::sleep(Client& client, double duration_s) {
 EventClient::Outcome Host::Core::begin(Client& client, ThreadId thread_id, bool wants_data,
                                        std::optional<sim::SimTime> wake_ns) {
   adopt(client, thread_id);
+  client.takes_turns = false;
+  client.waits_for.clear();
+  return begin_adopted(client, wants_data, wake_ns);
+}
+
+EventClient::Outcome Host::Core::begin_adopted(Client& client, bool wants_data,
+                                               std::optional<sim::SimTime> wake_ns) {
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
   client.lost_robot = wants_data ? clients_.reason_not_to_wait(client) : "";
@@ -376,6 +386,7 @@ void Host::Core::cancel_wait(Client& client) {
   client.waiting = false;
   client.wants_data = false;
   client.wake_ns.reset();
+  client.waits_for.clear();
   client.touch();
 }
 
@@ -646,7 +657,7 @@ void Host::Core::write_results(Lock& lock) {
 }
 
 std::vector<std::string> Host::Core::unrepeatable() const {
-  std::vector<std::string> why;
+  std::vector<std::string> why = told_unrepeatable_;
   if (turns_) why = Turns::instance().unrepeatable();
   if (paced()) why.emplace_back("simulated time followed the wall clock");
   if (lockstep_.silence_noted()) {

@@ -56,8 +56,10 @@ class Host::Core {
   void stop() noexcept;
 
   std::shared_ptr<Client> add_client(int port, EventRole role = EventRole::kParticipant,
-                                     std::function<void()> notify = {});
-  void remove_client(Client& client) noexcept;
+                                     std::function<void()> notify = {},
+                                     const CreationOrder& order = {});
+  /// @param abandoned  see EventClient::abandon().
+  void remove_client(Client& client, bool abandoned = false) noexcept;
   void thread_ended(ThreadId thread_id) noexcept;
   void join(Client& client, ThreadId thread_id);
 
@@ -80,6 +82,8 @@ class Host::Core {
   EventClient::Outcome begin_peek(Client& client, ThreadId thread_id,
                                   std::chrono::milliseconds timeout);
   EventClient::Outcome begin_sleep(Client& client, ThreadId thread_id, double seconds);
+  EventClient::Outcome begin_turns_wait(Client& client, ThreadId thread_id,
+                                        const EventClient::TurnsWait& what);
   EventClient::Outcome outcome_of(const Client& client) const;
   void cancel_wait(Client& client);
   bool advance_for(std::chrono::microseconds slice);
@@ -197,6 +201,9 @@ class Host::Core {
   [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
   EventClient::Outcome begin(Client& client, ThreadId thread_id, bool wants_data,
                              std::optional<sim::SimTime> wake_ns);
+  /// The same, for a client that takes part already.
+  EventClient::Outcome begin_adopted(Client& client, bool wants_data,
+                                     std::optional<sim::SimTime> wake_ns);
   /// The end of a peek that begins now in lockstep.
   [[nodiscard]] sim::SimTime end_of_peek(std::chrono::milliseconds timeout) const;
 
@@ -282,8 +289,9 @@ class Host::Core {
   bool ended_by_program_ = false;
   bool end_reported_ = false;  ///< a session has thrown because the run is over
   int reads_after_end_ = 0;
-  bool driven_by_hand_ = false;              ///< a user has driven a robot in the window
-  std::atomic<bool> onlooker_acted_{false};  ///< see Host::note_onlooker_acts()
+  std::vector<std::string> told_unrepeatable_;  ///< see Host::note_unrepeatable()
+  bool driven_by_hand_ = false;                 ///< a user has driven a robot in the window
+  std::atomic<bool> onlooker_acted_{false};     ///< see Host::note_onlooker_acts()
 };
 
 /// A program's thread inside of the host: its clocks and locks are real during the call.

@@ -15,6 +15,8 @@ EventClient::EventClient(std::shared_ptr<Host> host, std::shared_ptr<Client> cli
 
 EventClient::~EventClient() = default;
 
+void EventClient::abandon() noexcept { host_->core_->remove_client(*client_, /*abandoned=*/true); }
+
 EventClient::Outcome EventClient::begin_wait(ThreadId thread_id) {
   return host_->core_->begin_wait(*client_, thread_id);
 }
@@ -26,6 +28,27 @@ EventClient::Outcome EventClient::begin_peek(ThreadId thread_id,
 
 EventClient::Outcome EventClient::begin_sleep(ThreadId thread_id, double seconds) {
   return host_->core_->begin_sleep(*client_, thread_id, seconds);
+}
+
+EventClient::Outcome EventClient::begin_turns_wait(ThreadId thread_id, const TurnsWait& what) {
+  return host_->core_->begin_turns_wait(*client_, thread_id, what);
+}
+
+bool EventClient::has_data() const {
+  return host_->core_->locked([this] { return client_->has_data; });
+}
+
+EventClient::Outcome Host::Core::begin_turns_wait(Client& client, ThreadId thread_id,
+                                                  const EventClient::TurnsWait& what) {
+  const Lock lock = lock_with_priority();
+  adopt(client, thread_id);
+  client.takes_turns = true;
+  for (const EventClient* const joined : what.joined) {
+    if (!joined->client_->closed) adopt(*joined->client_, thread_id);
+  }
+  client.waits_for.clear();
+  for (const EventClient* const other : what.others) client.waits_for.push_back(other->client_);
+  return begin_adopted(client, what.wants_data, what.until_ns);
 }
 
 void EventClient::join(ThreadId thread_id) { host_->core_->join(*client_, thread_id); }

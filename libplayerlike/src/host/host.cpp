@@ -40,9 +40,9 @@ std::unique_ptr<Session> Host::connect(int port) {
 }
 
 std::unique_ptr<EventClient> Host::connect_events(int port, std::function<void()> notify,
-                                                  EventRole role) {
+                                                  EventRole role, const CreationOrder& order) {
   require_port(port);
-  auto client = core_->add_client(port, role, std::move(notify));
+  auto client = core_->add_client(port, role, std::move(notify), order);
   client->served = true;
   return std::make_unique<EventClient>(shared_from_this(), std::move(client));
 }
@@ -60,6 +60,14 @@ void Host::note_program_ends(int status) { InsideCore(*core_)->note_program_ends
 void Host::note_end_request(int signal) noexcept { core_->results_.note_end_request(signal); }
 bool Host::take_over_results() noexcept { return core_->results_.take_over(); }
 void Host::note_onlooker_acts() noexcept { core_->onlooker_acted_ = true; }
+void Host::note_unrepeatable(const std::string& reason) {
+  constexpr std::size_t kMostReasons = 32;
+  core_->locked([&] {
+    std::vector<std::string>& told = core_->told_unrepeatable_;
+    const bool known = std::find(told.begin(), told.end(), reason) != told.end();
+    if (!known && told.size() < kMostReasons) told.push_back(reason);
+  });
+}
 void Host::thread_ended(ThreadId thread_id) noexcept {
   InsideCore(*core_)->thread_ended(thread_id);
 }

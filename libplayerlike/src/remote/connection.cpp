@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <asio/io_context.hpp>
-#include <asio/ip/tcp.hpp>
 #include <condition_variable>
 #include <mutex>
 #include <utility>
@@ -17,7 +16,6 @@
 namespace playerlike {
 namespace {
 
-using asio::ip::tcp;
 using nlohmann::json;
 using protocol::Encoding;
 using protocol::MessageSplitter;
@@ -58,6 +56,7 @@ bool is_error(const json& message) {
 
 struct Connection::Impl {
   struct Slot {
+    Clock::time_point asked;
     std::optional<json> answer;
   };
 
@@ -65,7 +64,7 @@ struct Connection::Impl {
 
   const ServerAddress address;
   asio::io_context context;
-  tcp::socket socket{context};
+  StreamSocket socket{context};
   Encoding encoding = Encoding::kJson;
   MessageSplitter splitter{Encoding::kJson, kAnswerLimit};  // used by the leader only
   json welcome;
@@ -181,6 +180,12 @@ struct Connection::Impl {
     if (event == "bye") bye_message = text_or(message, "message", "good-bye");
   }
 
+  /// Waits for an answer, see Connection::answer().
+  /// @param give_up  returns nullopt if there is none by then.
+  std::optional<json> answer(std::uint64_t id, WaitPolicy policy,
+                             std::optional<Clock::duration> at_most,
+                             std::optional<Clock::time_point> give_up);
+
   /// Sends hello on the new connection and checks the answer. @throws SessionError.
   void say_hello(const json& hello, const ConnectDeadline& deadline) {
     const auto no_playpen = [&](const std::string& what) {
@@ -238,7 +243,11 @@ std::shared_ptr<Connection> Connection::open(const ServerAddress& address, const
   const ConnectDeadline deadline(timeout, give_up);
   auto impl = std::make_unique<Impl>(address);
   impl->timeout = timeout.count();
-  connect_tcp(impl->socket, address, timeout, deadline, "is `playpen serve` running there?");
+  if (address.is_local()) {
+    connect_local(impl->socket, address);
+  } else {
+    connect_tcp(impl->socket, address, timeout, deadline, "is `playpen serve` running there?");
+  }
   impl->say_hello(hello, deadline);
   return std::shared_ptr<Connection>(new Connection(std::move(impl)));
 }
@@ -257,7 +266,7 @@ std::uint64_t Connection::ask(json& request, std::string before) {
     const std::lock_guard lock(impl_->mutex);
     if (impl_->lost) throw ConnectionLost(impl_->reason);
     id = impl_->next_id++;
-    impl_->slots.emplace(id, Impl::Slot{});
+    impl_->slots.emplace(id, Impl::Slot{Clock::now(), std::nullopt});
   }
   try {
     request["id"] = id;
@@ -273,29 +282,39 @@ std::uint64_t Connection::ask(json& request, std::string before) {
 
 json Connection::answer(std::uint64_t id, WaitPolicy policy,
                         std::optional<Clock::duration> at_most) {
-  Impl& c = *impl_;
+  return *impl_->answer(id, policy, at_most, std::nullopt);
+}
+
+std::optional<json> Connection::answer_within(std::uint64_t id, Clock::duration at_most) {
+  return impl_->answer(id, WaitPolicy::kWhileAlive, std::nullopt, Clock::now() + at_most);
+}
+
+std::optional<json> Connection::Impl::answer(std::uint64_t id, WaitPolicy policy,
+                                             std::optional<Clock::duration> at_most,
+                                             std::optional<Clock::time_point> give_up) {
+  Impl& c = *this;
   std::unique_lock lock(c.mutex);
-  const auto began = Clock::now();
-  c.heard = std::max(c.heard, began);
   const auto slot = c.slots.find(id);
+  const auto began = slot->second.asked;
+  c.heard = std::max(c.heard, began);
   bool looked = false;  // whether the splitter was searched after the time limit
   for (;;) {
     if (slot->second.answer) {
-      json answer = std::move(*slot->second.answer);
+      json found = std::move(*slot->second.answer);
       c.slots.erase(slot);
-      if (is_error(answer)) throw error_of(answer);
-      return answer;
+      if (is_error(found)) throw error_of(found);
+      return found;
     }
     if (c.lost) {
       c.slots.erase(slot);
       throw ConnectionLost(c.reason);
     }
-    const auto timeout = std::min(c.request_timeout(), at_most.value_or(Clock::duration::max()));
+    const auto longest = std::min(c.request_timeout(), at_most.value_or(Clock::duration::max()));
     const bool living = policy == WaitPolicy::kWhileAlive;
-    const auto limit = (living ? c.heard : began) + timeout;
+    const auto limit = (living ? c.heard : began) + longest;
     const auto now = Clock::now();
     // Data that arrived in time count, even if this thread was scheduled late.
-    if (now >= limit && now < limit + std::max<Clock::duration>(timeout, milliseconds(1000)) &&
+    if (now >= limit && now < limit + std::max<Clock::duration>(longest, milliseconds(1000)) &&
         (c.has_unread() || !std::exchange(looked, true))) {
       if (!c.led) {
         c.lead(lock, now);
@@ -309,13 +328,14 @@ json Connection::answer(std::uint64_t id, WaitPolicy policy,
     if (now >= limit) {
       lock.unlock();
       c.lose("the server at " + c.address.text() + " has not answered for " +
-             seconds_text(timeout));
+             seconds_text(longest));
       lock.lock();
       continue;
     }
-    auto wake = limit;
+    if (give_up && now >= *give_up) return std::nullopt;
+    auto wake = std::min(limit, give_up.value_or(limit));
     if (living && c.asked <= c.heard) {
-      const auto next = c.heard + timeout / 2;
+      const auto next = c.heard + longest / 2;
       if (now >= next) {
         c.asked = now;
         lock.unlock();
@@ -329,7 +349,7 @@ json Connection::answer(std::uint64_t id, WaitPolicy policy,
         lock.lock();
         continue;
       }
-      wake = next;
+      wake = std::min(wake, next);
     }
     if (!c.led) {
       c.lead(lock, wake);

@@ -66,6 +66,10 @@ class Connection {
   /// @throws ConnectionLost; SessionError for an error answer.
   [[nodiscard]] nlohmann::json answer(std::uint64_t id, WaitPolicy policy = WaitPolicy::kTimeout,
                                       std::optional<Clock::duration> at_most = std::nullopt);
+  /// As answer() with kWhileAlive, but returns nullopt if there is no answer within this time; then
+  /// it must be called again.
+  [[nodiscard]] std::optional<nlohmann::json> answer_within(std::uint64_t id,
+                                                            Clock::duration at_most);
   /// Sends one or more messages that have no answers. @throws ConnectionLost.
   void tell(std::string_view bytes);
   /// The first error of such messages since the last call.

@@ -43,6 +43,18 @@ std::shared_ptr<RemoteSimulation> RemoteSimulation::of(const std::string& name) 
   return simulation;
 }
 
+std::shared_ptr<RemoteClock> RemoteSimulation::clock() const {
+  const std::lock_guard lock(mutex_);
+  return clock_;
+}
+
+std::shared_ptr<RemoteClock> RemoteSimulation::clock_or(
+    const std::function<std::shared_ptr<RemoteClock>()>& make) {
+  const std::lock_guard lock(mutex_);
+  if (!clock_) clock_ = make();
+  return clock_;
+}
+
 void RemoteSimulation::add(const std::shared_ptr<MessageSender>& sender) {
   const std::lock_guard lock(mutex_);
   senders_.push_back(sender);
@@ -124,6 +136,18 @@ void MessageSender::flush() {
   const std::shared_ptr<Connection> connection = this->connection();
   const std::string bytes = take_drawings(connection->encoding(), connection->message_limit());
   connection->tell(bytes);  // even without drawings, since it throws if the connection is lost
+}
+
+std::uint64_t MessageSender::begin_wait(json& request, std::shared_ptr<Connection>& on) {
+  confirm_others();
+  on = connection();
+  const Lock lock(send_mutex_);
+  std::string drawings = take_drawings(on->encoding(), on->message_limit());
+  const std::uint64_t id = on->ask(request, std::move(drawings));
+  // No time passes until the server has read this request, and so the messages before it.
+  acknowledged_.store(sent_);
+  joined_ = true;
+  return id;
 }
 
 json MessageSender::ask(json& request, Connection::WaitPolicy policy, bool waits,
@@ -210,14 +234,32 @@ void MessageSender::flush_now_and_then() {
   }
 }
 
-void MessageSender::close() noexcept {
+bool MessageSender::stop_flusher() noexcept {
   {
     const Lock lock(flusher_mutex_);
-    if (closing_) return;
+    if (closing_) return true;
     closing_ = true;
     flusher_changed_.notify_all();
   }
   if (flusher_.joinable()) flusher_.join();
+  return false;
+}
+
+bool MessageSender::leave() noexcept {
+  try {
+    json request = {{"do", "leave"}};
+    ask(request);
+  } catch (const std::exception&) {
+    return false;
+  }
+  static_cast<void>(stop_flusher());
+  const Lock lock(send_mutex_);
+  drawings_.close();
+  return true;
+}
+
+void MessageSender::close() noexcept {
+  if (stop_flusher()) return;
   const std::shared_ptr<Connection> connection = this->connection();
   try {
     if (!connection->lost()) {

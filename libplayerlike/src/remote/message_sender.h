@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 
 namespace playerlike {
 
+class RemoteClock;
 class RemoteSimulation;
 
 /// Sends a socket session's messages to the server in order, drawings before the messages that
@@ -45,6 +47,9 @@ class MessageSender : public std::enable_shared_from_this<MessageSender> {
   /// Sends a request by which a thread waits. Before, it makes sure that all earlier messages of
   /// the process's other sessions have arrived, so that the next step sees them.
   nlohmann::json wait(nlohmann::json& request);
+  /// As wait(), but returns at once. @param on  receives the connection for
+  /// Connection::answer_within(). @return the id for it.
+  std::uint64_t begin_wait(nlohmann::json& request, std::shared_ptr<Connection>& on);
   /// Sends a message without an answer. @throws ConnectionLost.
   void tell(const nlohmann::json& message);
   /// Makes sure that all messages sent so far have arrived.
@@ -56,6 +61,9 @@ class MessageSender : public std::enable_shared_from_this<MessageSender> {
   void set_paced(bool paced);
   [[nodiscard]] bool paced() const noexcept { return paced_; }
 
+  /// Sends the draw queue, and ends the session but not the connection, which then only lets time
+  /// pass (`begin_wait`). @return false: that was not possible, and close() must be called.
+  [[nodiscard]] bool leave() noexcept;
   /// Sends the draw queue and a good-bye, and ends the connection.
   void close() noexcept;
 
@@ -66,6 +74,8 @@ class MessageSender : public std::enable_shared_from_this<MessageSender> {
   nlohmann::json ask(nlohmann::json& request, Connection::WaitPolicy policy, bool waits,
                      std::shared_ptr<Connection>* answered_by);
   void start_flusher();
+  /// Ends the flusher. @return whether it was done before.
+  bool stop_flusher() noexcept;
   void flush_now_and_then();
 
   mutable std::mutex connection_mutex_;  // guards the next two; a leaf mutex
@@ -92,6 +102,11 @@ class RemoteSimulation {
   /// The simulation of a name; one object as long as it is in use.
   [[nodiscard]] static std::shared_ptr<RemoteSimulation> of(const std::string& name);
 
+  /// Its clock in virtual time; null until set_clock().
+  [[nodiscard]] std::shared_ptr<RemoteClock> clock() const;
+  /// @param make  makes the clock if there is none. @return the clock.
+  std::shared_ptr<RemoteClock> clock_or(const std::function<std::shared_ptr<RemoteClock>()>& make);
+
   void add(const std::shared_ptr<MessageSender>& sender);
   void remove(const MessageSender& sender) noexcept;
   /// All senders except the given one.
@@ -101,6 +116,7 @@ class RemoteSimulation {
  private:
   mutable std::mutex mutex_;
   std::vector<std::weak_ptr<MessageSender>> senders_;
+  std::shared_ptr<RemoteClock> clock_;
 };
 
 }  // namespace playerlike

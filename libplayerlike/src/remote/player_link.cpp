@@ -43,7 +43,7 @@ struct PlayerLink::Impl {
   const ServerAddress address;
   Receiver& receiver;
   asio::io_context context;
-  asio::ip::tcp::socket socket{context};
+  StreamSocket socket{context};
   std::string version;
   std::atomic<Clock::rep> timeout{};
 

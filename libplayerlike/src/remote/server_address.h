@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,8 +13,12 @@ namespace playerlike {
 struct ServerAddress {
   std::string host;  ///< a name, or an IPv4 or IPv6 address without brackets
   int tcp_port = protocol::kDefaultTcpPort;
+  std::string path = {};               ///< of a Unix socket; replaces host and port
+  std::optional<int> descriptor = {};  ///< of a connected socket; replaces all of these
 
-  /// "HOST:PORT", for messages.
+  /// Whether it is on this machine, without TCP.
+  [[nodiscard]] bool is_local() const noexcept { return !path.empty() || descriptor.has_value(); }
+  /// "HOST:PORT", "unix:PATH" or "unix:fd=N", for messages.
   [[nodiscard]] std::string text() const;
 };
 
@@ -22,8 +27,15 @@ inline constexpr std::string_view kTcpPrefix = "tcp://";
 /// Prefix of host names that mean a Player server.
 inline constexpr std::string_view kPlayerPrefix = "player://";
 
-/// Parses "tcp://HOST[:PORT]", "player://HOST[:PORT]" or "HOST[:PORT]"; an IPv6 address is in
-/// brackets.
+/// Prefix of Unix sockets on which a Playpen server listens: "unix:PATH"; "unix:fd=N" is a
+/// descriptor that is connected to a server already.
+inline constexpr std::string_view kUnixPrefix = "unix:";
+
+/// Maximum length of a Unix socket's path [bytes].
+inline constexpr std::size_t kMaxUnixPath = 107;
+
+/// Parses "unix:PATH", "unix:fd=N", "tcp://HOST[:PORT]", "player://HOST[:PORT]" or "HOST[:PORT]";
+/// an IPv6 address is in brackets.
 /// @param default_port  of an address without a port.
 /// @throws SessionError kBadArgument with the reason.
 [[nodiscard]] ServerAddress parse_server_address(const std::string& text,

@@ -17,6 +17,7 @@
 #include "remote/message_sender.h"
 #include "session/checks.h"
 #include "sim/core/error.h"
+#include "virtual_time/virtual_time.h"
 
 namespace playerlike {
 namespace {
@@ -66,6 +67,11 @@ auto understood(Read read) -> decltype(read()) {
   } catch (const protocol::ProtocolError& e) {
     throw misunderstood(e.what());
   }
+}
+
+std::uint64_t session_number(const json& welcome) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 53U;
+  return static_cast<std::uint64_t>(protocol::require_integer(welcome, "session", 1, kMost));
 }
 
 json read_request(const char* wait) {
@@ -152,8 +158,9 @@ SocketSession::SocketSession(SocketSettings settings, std::optional<std::string>
         std::make_shared<MessageSender>(connection, protocol::require_text(welcome, "simulation"));
     const TimeStatistics time = protocol::decode_time(protocol::require(welcome, "time"));
     sender_->set_paced(time.mode == sim::TimeMode::kPaced);
+    sender_->simulation()->add(sender_);
+    take_part_in_turns(time, session_number(welcome));
   });
-  sender_->simulation()->add(sender_);
   resumed_ = connection;
 }
 
@@ -165,6 +172,7 @@ json SocketSession::hello() const {
       {"port", settings_.port},        {"tokens", settings_.tokens},
       {"name", program_name()},        {"process", process_name()}};
   if (follow_) hello["follow"] = *follow_;
+  if (settings_.virtual_time) hello["thread"] = this_thread_id();
   return hello;
 }
 
@@ -242,6 +250,7 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
           }
           resume(connection);
           sender_->replace(connection, protocol::require_text(welcome, "simulation"));
+          if (turns_) clock_->note_reconnected(*turns_, session_number(welcome));
           note(welcome);
         });
       });
@@ -286,6 +295,7 @@ const std::vector<RobotInfo>& SocketSession::robots() const noexcept { return ro
 int SocketSession::port() const noexcept { return settings_.port; }
 
 bool SocketSession::connected() const noexcept {
+  const virtual_time::Inside inside;
   return !closed_ && !sender_->connection()->lost();
 }
 
@@ -407,6 +417,8 @@ void SocketSession::throw_finished() {
 }
 
 void SocketSession::wait() {
+  const virtual_time::Inside inside;
+  if (in_turns() && wait_for_data_in_turns()) return;
   Lock lock(mutex_);
   changed_.wait(lock, [&] { return closed_ || round_ || !reading_; });
   require_open();
@@ -424,9 +436,14 @@ void SocketSession::wait() {
 }
 
 int SocketSession::take(ReadingSink& sink) {
-  Lock lock(mutex_);
+  const virtual_time::Inside inside;
   require_open();
-  if (!round_ && !reading_ && !over_) {
+  const bool turns = in_turns();
+  if (turns) {
+    if (const auto round = clock_->take_round(*turns_)) store_answer(*round, /*round=*/true);
+  }
+  Lock lock(mutex_);
+  if (!round_ && !reading_ && !over_ && (!turns || clock_->has_data(*turns_))) {
     {
       const ReadTurn turn(*this, lock);
       store_answer(ask(read_request("none")), /*round=*/false);
@@ -436,6 +453,7 @@ int SocketSession::take(ReadingSink& sink) {
   round_ = false;
   std::vector<protocol::DecodedReading> readings = std::exchange(readings_, {});
   lock.unlock();
+  if (turns) clock_->note_taken(*turns_);
   for (protocol::DecodedReading& reading : readings) {
     sink.on_reading(reading.device, std::move(reading.reading));
   }
@@ -443,7 +461,9 @@ int SocketSession::take(ReadingSink& sink) {
 }
 
 bool SocketSession::peek(milliseconds timeout) {
+  const virtual_time::Inside inside;
   timeout = std::max(timeout, milliseconds(0));
+  if (bool result = false; in_turns() && peek_in_turns(timeout, result)) return result;
   Lock lock(mutex_);
   require_open();
   if (reading_ && !round_) {
@@ -468,6 +488,11 @@ bool SocketSession::peek(milliseconds timeout) {
 }
 
 void SocketSession::join() {
+  if (in_turns()) {
+    note_wait();
+    require_open();
+    return clock_->join(*turns_);
+  }
   Lock lock(mutex_);
   changed_.wait(lock, [&] { return closed_ || !reading_; });
   require_open();
@@ -480,6 +505,7 @@ void SocketSession::sleep(double seconds) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "sleep takes a number of seconds in [0, 1e9]");
   }
+  if (in_turns() && sleep_in_turns(seconds)) return;
   if (sender_->paced()) return sleep_by_the_wall_clock(seconds);
   Lock lock(mutex_);
   changed_.wait(lock, [&] { return closed_ || !reading_; });
@@ -525,15 +551,18 @@ TimeStatistics SocketSession::time() const {
 // --- Commands and other sessions
 
 void SocketSession::send(DeviceId device, const sim::Command& command) {
+  const virtual_time::Inside inside;
   require_open();
   require_device(robots_, device);
   require_finite(command);
+  if (turns_) clock_->touch(*turns_);
   tell({{"do", "command"},
         {"device", protocol::encode_device_id(device)},
         {"command", protocol::encode_command(command)}});
 }
 
 std::unique_ptr<Session> SocketSession::open_follower() {
+  const virtual_time::Inside inside;
   require_open();
   const std::string key =
       understood([&] { return protocol::require_text(sender_->connection()->welcome(), "key"); });
@@ -542,7 +571,10 @@ std::unique_ptr<Session> SocketSession::open_follower() {
   return std::unique_ptr<Session>(new SocketSession(std::move(settings), key));
 }
 
-const void* SocketSession::simulation() const noexcept { return sender_->simulation().get(); }
+const void* SocketSession::simulation() const noexcept {
+  if (turns_) return static_cast<const TurnClock*>(clock_.get());
+  return sender_->simulation().get();
+}
 
 // --- The canvas
 
@@ -578,6 +610,11 @@ struct SocketSession::RequestHandler {
   void operator()(const SleepRequest& what) const { session.sleep(what.seconds); }
   TimeStatistics operator()(const TimeRequest&) const { return session.time(); }
   void operator()(const PreferRealTimeRequest& what) const {
+    if (session.in_turns()) {
+      session.note_wait();
+      session.clock_->note_background();
+      return virtual_time::note_background();
+    }
     static_cast<void>(session.ask_for(what));
     static_cast<void>(session.time());
   }
@@ -634,6 +671,7 @@ struct SocketSession::RequestHandler {
 };
 
 Answer SocketSession::answer(const Request& request) {
+  const virtual_time::Inside inside;
   return answer_by(RequestHandler{*this}, request);
 }
 
@@ -644,11 +682,13 @@ Answer SocketSession::ask_for(const Request& request) const {
 }
 
 void SocketSession::close() noexcept {
+  const virtual_time::Inside inside;
   if (closed_.exchange(true)) return;
   {
     const Lock lock(mutex_);
     changed_.notify_all();
   }
+  if (turns_ && clock_->remove(turns_) && sender_->leave()) return;
   sender_->close();
 }
 

@@ -17,6 +17,7 @@
 #include "playerlike/session/session.h"
 #include "protocol/codec.h"
 #include "remote/connection.h"
+#include "remote/remote_clock.h"
 
 namespace playerlike {
 
@@ -30,6 +31,9 @@ struct SocketSettings {
   double request_timeout_s = 10.0;
   /// An end-of-run error that nobody catches ends the program with status 0, see end_of_program.h.
   bool quiet_end = false;
+  /// Whether the program's time is virtual if the server's is lockstep, see RemoteClock.
+  bool virtual_time = false;
+  double silence_limit_s = 5.0;  ///< in virtual time, see RunSettings
 
   /// Reads the environment: PLAYPEN_ENCODING (cbor or json) and PLAYPEN_TOKEN (tokens, separated by
   /// commas). @throws sim::ConfigError run/environment.
@@ -47,11 +51,17 @@ class MessageSender;
 /// exception is a session that draws in a paced simulation; its thread sends the draw queue.
 /// Overflow, size and generation of the canvas are cached from the last answer. A round that peek()
 /// or wait() has fetched is kept until take().
+///
+/// In virtual time its waits are those of RemoteClock, which all such sessions of a simulation
+/// share.
 class SocketSession final : public Session {
  public:
   /// Connects. @throws SessionError as Connection::open().
   explicit SocketSession(SocketSettings settings);
   ~SocketSession() override;
+
+  /// Whether its waits are those of virtual time.
+  [[nodiscard]] bool in_turns() const noexcept;
 
   const std::vector<RobotInfo>& robots() const noexcept override;
   int port() const noexcept override;
@@ -110,6 +120,16 @@ class SocketSession final : public Session {
   void unsubscribe(DeviceId device);
   void set_cells(const SetCellsRequest& what) const;
   [[nodiscard]] WorldMap world_map(double cell_size_m) const;
+  /// Attaches the session to the clock of virtual time, if the settings and the server allow it.
+  void take_part_in_turns(const TimeStatistics& time, std::uint64_t session);
+  void note_wait() const;
+  /// Calls wait(), a function of the clock; repeats it after a reconnection.
+  template <typename Wait>
+  auto wait_in_turns(Wait wait);
+  /// The waits in virtual time. @return whether it was done; otherwise time is real now.
+  [[nodiscard]] bool wait_for_data_in_turns();
+  [[nodiscard]] bool peek_in_turns(std::chrono::milliseconds timeout, bool& result);
+  [[nodiscard]] bool sleep_in_turns(double seconds);
   void join();
   void sleep(double seconds);
   void sleep_by_the_wall_clock(double seconds);
@@ -120,6 +140,8 @@ class SocketSession final : public Session {
   const std::optional<std::string> follow_;  ///< key of the session that this one follows
   std::vector<RobotInfo> robots_;
   std::shared_ptr<MessageSender> sender_;
+  std::shared_ptr<RemoteClock> clock_;  ///< null: the session's time is real
+  RemoteClock::ClientPointer turns_;    ///< the clock's state of this session
   std::atomic<bool> closed_{false};
   std::atomic<double> request_timeout_s_;
   std::atomic<int> retry_limit_{0};

@@ -1,15 +1,22 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "remote/tcp_connect.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <asio/buffer.hpp>
 #include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <asio/local/stream_protocol.hpp>
+#include <cerrno>
 #include <future>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -110,21 +117,69 @@ std::optional<std::string> connect_to(tcp::socket& socket, const tcp::endpoint& 
 
 }  // namespace
 
-void connect_tcp(tcp::socket& socket, const ServerAddress& address, SocketClock::duration timeout,
+void connect_tcp(StreamSocket& socket, const ServerAddress& address, SocketClock::duration timeout,
                  const ConnectDeadline& deadline, const char* refused) {
+  tcp::socket made(socket.get_executor());
   const auto hosts = look_up(address, timeout, deadline);
   std::string reasons;
   for (std::size_t i = 0; i < hosts.size(); ++i) {
     const tcp::endpoint endpoint(hosts[i], static_cast<asio::ip::port_type>(address.tcp_port));
     // Each remaining address gets an equal share of the time left.
-    const auto problem = connect_to(socket, endpoint, deadline, hosts.size() - i, refused);
-    if (!problem) return;
+    const auto problem = connect_to(made, endpoint, deadline, hosts.size() - i, refused);
+    if (!problem) {
+      socket = std::move(made);
+      return;
+    }
     asio::error_code ignored;
-    socket.close(ignored);
+    made.close(ignored);
     if (reasons.find(*problem) != std::string::npos) continue;
     reasons += (reasons.empty() ? "" : "; ") + *problem;
   }
   fail_to_connect(address, reasons);
+}
+
+namespace {
+
+/// A copy of a descriptor that this process has got connected. The copy is closed with the session;
+/// the original is closed at once, so that it serves one session only.
+StreamSocket::native_handle_type take_descriptor(const ServerAddress& address) {
+  int type = 0;
+  socklen_t size = sizeof type;
+  sockaddr_storage peer{};
+  socklen_t peer_size = sizeof peer;
+  const int given = *address.descriptor;
+  if (getsockopt(given, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_STREAM ||
+      getpeername(given, reinterpret_cast<sockaddr*>(&peer), &peer_size) != 0) {
+    fail_to_connect(address,
+                    "this is no connected stream socket of this process; a descriptor that was "
+                    "handed in serves one client only");
+  }
+  const int copy = fcntl(given, F_DUPFD_CLOEXEC, 0);
+  if (copy < 0) fail_to_connect(address, std::generic_category().message(errno));
+  ::close(given);
+  return copy;
+}
+
+}  // namespace
+
+void connect_local(StreamSocket& socket, const ServerAddress& address) {
+  asio::error_code error;
+  if (address.descriptor) {
+    socket.assign(asio::generic::stream_protocol(AF_UNIX, 0), take_descriptor(address), error);
+  } else {
+    asio::local::stream_protocol::socket made(socket.get_executor());
+    made.connect(asio::local::stream_protocol::endpoint(address.path), error);
+    if (!error) socket = std::move(made);
+  }
+  if (!error) socket.non_blocking(true, error);
+  if (!error) return;
+  if (error == asio::error::connection_refused) {
+    fail_to_connect(address, "nobody listens there: is `playpen serve --unix` running?");
+  }
+  if (error.value() == ENOENT) {
+    fail_to_connect(address, "there is no such socket: is `playpen serve --unix` running?");
+  }
+  fail_to_connect(address, error.message());
 }
 
 std::string connect_again(int limit, const std::function<bool()>& pause,
@@ -151,7 +206,7 @@ std::string socket_problem(const ServerAddress& address, const asio::error_code&
   return "the connection to " + address.text() + " is lost: " + error.message();
 }
 
-std::string write_all(tcp::socket& socket, const ServerAddress& address, std::string_view bytes,
+std::string write_all(StreamSocket& socket, const ServerAddress& address, std::string_view bytes,
                       SocketClock::duration timeout) {
   const auto deadline = SocketClock::now() + timeout;
   while (!bytes.empty()) {
@@ -170,7 +225,7 @@ std::string write_all(tcp::socket& socket, const ServerAddress& address, std::st
   return "";
 }
 
-std::size_t read_some(tcp::socket& socket, const ServerAddress& address, std::span<char> room) {
+std::size_t read_some(StreamSocket& socket, const ServerAddress& address, std::span<char> room) {
   asio::error_code error;
   const std::size_t count = socket.read_some(asio::buffer(room.data(), room.size()), error);
   if (error == asio::error::would_block || error == asio::error::try_again ||

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <asio/generic/stream_protocol.hpp>
 #include <asio/ip/address.hpp>
-#include <asio/ip/tcp.hpp>
 #include <chrono>
 #include <cstddef>
 #include <functional>
@@ -19,6 +19,8 @@
 namespace playerlike {
 
 using SocketClock = std::chrono::steady_clock;
+/// A connected socket, of TCP or of this machine.
+using StreamSocket = asio::generic::stream_protocol::socket;
 
 /// A lost connection; the message says why it was lost.
 class ConnectionLost : public SessionError {
@@ -62,7 +64,7 @@ class ConnectDeadline {
   const std::function<bool()>& give_up_;
 };
 
-/// Throws SessionError kDisconnected: "cannot connect to HOST:PORT: " and the reason.
+/// Throws SessionError kDisconnected: "cannot connect to ADDRESS: " and the reason.
 [[noreturn]] void fail_to_connect(const ServerAddress& address, const std::string& why);
 
 /// Resolves the server's host, tries all its addresses in turn, and connects the socket. The socket
@@ -70,9 +72,14 @@ class ConnectDeadline {
 /// @param timeout  of the whole attempt, for messages.
 /// @param refused  hint for a refused connection, e.g. "is `playpen serve` running there?".
 /// @throws SessionError kDisconnected that names host, port and reason.
-void connect_tcp(asio::ip::tcp::socket& socket, const ServerAddress& address,
-                 SocketClock::duration timeout, const ConnectDeadline& deadline,
-                 const char* refused);
+void connect_tcp(StreamSocket& socket, const ServerAddress& address, SocketClock::duration timeout,
+                 const ConnectDeadline& deadline, const char* refused);
+
+/// Connects the socket to a Unix socket, or uses a descriptor that is connected already. The socket
+/// does not block.
+/// @param address  one of this machine, see ServerAddress::is_local().
+/// @throws SessionError kDisconnected that names address and reason.
+void connect_local(StreamSocket& socket, const ServerAddress& address);
 
 /// Calls attempt() until it does not throw a SessionError.
 /// @param limit  maximum number of attempts; < 0: no limit.
@@ -86,12 +93,12 @@ void connect_tcp(asio::ip::tcp::socket& socket, const ServerAddress& address,
                                          const asio::error_code& error);
 
 /// Writes all bytes. @return the reason if that is not possible within the timeout; empty: done.
-[[nodiscard]] std::string write_all(asio::ip::tcp::socket& socket, const ServerAddress& address,
+[[nodiscard]] std::string write_all(StreamSocket& socket, const ServerAddress& address,
                                     std::string_view bytes, SocketClock::duration timeout);
 
 /// Reads what has arrived, without waiting.
 /// @return the number of bytes; 0 if there are none yet. @throws ConnectionLost.
-[[nodiscard]] std::size_t read_some(asio::ip::tcp::socket& socket, const ServerAddress& address,
+[[nodiscard]] std::size_t read_some(StreamSocket& socket, const ServerAddress& address,
                                     std::span<char> room);
 
 /// Whether the server has closed the connection and all its data were read.

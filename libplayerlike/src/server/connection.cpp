@@ -46,7 +46,8 @@ std::string bytes_text(std::uint64_t bytes) {
 
 }  // namespace
 
-Connection::Connection(asio::ip::tcp::socket socket, std::string name, ConnectionOwner& owner)
+Connection::Connection(asio::generic::stream_protocol::socket socket, std::string name,
+                       ConnectionOwner& owner)
     : socket_(std::move(socket)),
       name_(std::move(name)),
       owner_(owner),
@@ -204,15 +205,7 @@ std::optional<int> Connection::local_process() {
   return socket_.is_open() ? peer_process(socket_.native_handle()) : std::nullopt;
 }
 
-std::uint32_t Connection::own_ipv4() const {
-  asio::error_code error;
-  asio::ip::address address = socket_.local_endpoint(error).address();
-  if (error) return 0;
-  if (address.is_v6() && address.to_v6().is_v4_mapped()) {
-    address = asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
-  }
-  return address.is_v4() ? htonl(address.to_v4().to_uint()) : 0;
-}
+std::uint32_t Connection::own_ipv4() { return own_ipv4_of(socket_.native_handle()); }
 
 // --- Writing
 
@@ -248,7 +241,7 @@ void Connection::flush() {
   const bool was_paused = paused();
   if (!write_some()) {
     writing_ = true;
-    socket_.async_wait(asio::ip::tcp::socket::wait_write,
+    socket_.async_wait(asio::socket_base::wait_write,
                        [self = shared_from_this()](const asio::error_code& error) {
                          self->writing_ = false;
                          if (!error) self->flush();
@@ -332,7 +325,7 @@ void Connection::close_when_read() {
   if (peer_left_) return end(reason_);
   write_ended_ = true;
   asio::error_code error;
-  socket_.shutdown(asio::ip::tcp::socket::shutdown_send, error);
+  socket_.shutdown(asio::socket_base::shutdown_send, error);
   if (error) return end(reason_);
   read();
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <asio/ip/tcp.hpp>
+#include <asio/generic/stream_protocol.hpp>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -47,7 +47,8 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
 
   /// @param socket  connected.
   /// @param name    of the peer.
-  Connection(asio::ip::tcp::socket socket, std::string name, ConnectionOwner& owner);
+  Connection(asio::generic::stream_protocol::socket socket, std::string name,
+             ConnectionOwner& owner);
 
   /// Starts to read.
   void start(std::unique_ptr<Handler> handler);
@@ -85,7 +86,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   void acknowledge_at_once() override { acknowledges_at_once_ = true; }
   [[nodiscard]] std::optional<std::uint64_t> settled_input() const override;
   [[nodiscard]] std::optional<int> local_process() override;
-  [[nodiscard]] std::uint32_t own_ipv4() const override;
+  [[nodiscard]] std::uint32_t own_ipv4() override;
   [[nodiscard]] const std::string& name() const noexcept override { return name_; }
   void describe(const std::string& text) override { description_ = text; }
 
@@ -119,7 +120,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   void post(void (Connection::*member)());
   void forget();
 
-  asio::ip::tcp::socket socket_;
+  asio::generic::stream_protocol::socket socket_;
   std::string name_;
   ConnectionOwner& owner_;
   std::unique_ptr<Handler> handler_;

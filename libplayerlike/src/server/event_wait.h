@@ -19,7 +19,8 @@ class EventWait {
   ///                returned its outcome. It must check EventClient::outcome(). It is not called
   ///                after the destruction of this object.
   /// @throws SessionError as Host::connect_events().
-  EventWait(Hub& hub, int port, EventRole role, std::function<void()> on_end)
+  EventWait(Hub& hub, int port, EventRole role, std::function<void()> on_end,
+            const CreationOrder& order = {})
       : hub_(hub), on_end_(std::make_shared<const std::function<void()>>(std::move(on_end))) {
     const void* me = on_end_.get();
     client_ = hub.host().connect_events(
@@ -30,7 +31,7 @@ class EventWait {
             if (const auto action = weak.lock()) (*action)();
           });
         },
-        role);
+        role, order);
   }
   EventWait(const EventWait&) = delete;
   EventWait& operator=(const EventWait&) = delete;

@@ -101,7 +101,20 @@ bool has_file(const std::string& process, std::string_view target) {
 
 }  // namespace
 
+std::uint32_t own_ipv4_of(int socket) {
+  const std::optional<End> own = end_of(socket, getsockname);
+  return own && own->is_ipv4() ? own->address[3] : 0;
+}
+
 std::optional<int> peer_process(int socket) {
+  ucred peer{};
+  socklen_t peer_size = sizeof peer;
+  int family = 0;
+  socklen_t family_size = sizeof family;
+  if (getsockopt(socket, SOL_SOCKET, SO_DOMAIN, &family, &family_size) == 0 && family == AF_UNIX) {
+    const bool known = getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &peer_size) == 0;
+    return known && peer.pid > 0 ? std::optional<int>(peer.pid) : std::nullopt;
+  }
   // The other end's own address is this end's peer.
   const std::optional<End> own = end_of(socket, getpeername);
   const std::optional<End> other = end_of(socket, getsockname);

@@ -56,12 +56,16 @@ struct NativeHandler::OwnRequest {
 const NativeHandler::OwnRequest* NativeHandler::find_own_request(std::string_view name) {
   using H = NativeHandler;
   static const OwnRequest kRequests[] = {
-      {"read", {"id", "do", "wait", "timeout", "thread", "commands", "drawings"}, nullptr},
+      {"read",
+       {"id", "do", "wait", "timeout", "thread", "commands", "drawings", "until", "data", "take",
+        "others", "joined", "unrepeatable"},
+       nullptr},
       {"command", {"id", "do", "device", "command"}, &H::command},
       {"draw", {"id", "do", "drawings"}, nullptr},
       {"time", {"id", "do"}, &H::time, true},
       {"thread_ended", {"id", "do", "thread"}, &H::thread_ended},
       {"watch", {"id", "do", "rate", "canvas"}, &H::watch, true},
+      {"leave", {"id", "do"}, &H::leave},
       {"bye", {"id", "do"}, &H::bye, true},
   };
   const auto* const it =
@@ -80,14 +84,21 @@ NativeHandler::NativeHandler(Peer& peer, Hub& hub, Terms terms)
       guard_(hub.host(), terms_.rights, terms_.port),
       self_(std::make_shared<NativeHandler*>(this)) {
   if (!terms_.session) return;
-  wait_.emplace(hub, terms_.port, terms_.follower ? EventRole::kFollower : EventRole::kParticipant,
-                [this] { answer_waiting(); });
-  state_->leaders[terms_.key] = {terms_.port, terms_.rights.command};
+  number_ = ++state_->sessions;
+  open_session(terms_.follower ? EventRole::kFollower : EventRole::kParticipant);
+}
+
+void NativeHandler::open_session(EventRole role) {
+  wait_.emplace(
+      hub_, terms_.port, role, [this] { answer_waiting(); }, terms_.order);
+  state_->open[terms_.key] = {number_, terms_.port, terms_.rights.command, terms_.process,
+                              wait_->client().get()};
 }
 
 NativeHandler::~NativeHandler() {
   state_->watching.forget(peer_);
-  if (wait_) state_->leaders.erase(terms_.key);
+  if (wait_) state_->open.erase(terms_.key);
+  if (wait_ && !ending_) wait_->client()->abandon();
   if (waiting_ && waiting_->timer != 0) hub_.cancel(waiting_->timer);
 }
 
@@ -220,7 +231,7 @@ void NativeHandler::require_drawing(std::span<const sim::DrawOperation> drawings
 }
 
 bool NativeHandler::draw_here(std::vector<sim::DrawOperation>& drawings) {
-  return light_drawings_.queue(session(), drawings, state_->leaders.size());
+  return light_drawings_.queue(session(), drawings, state_->open.size());
 }
 
 void NativeHandler::draw_elsewhere(std::vector<sim::DrawOperation> drawings, const json& id,
@@ -289,11 +300,12 @@ ThreadId NativeHandler::thread_id(const json& request) {
 }
 
 void NativeHandler::read(const json& request, const json& id) {
-  static constexpr std::array<std::string_view, 5> kWaits{"data", "peek", "sleep", "join", "none"};
+  static constexpr std::array<std::string_view, 6> kWaits{"data",  "peek", "sleep",
+                                                          "turns", "join", "none"};
   const std::string text = protocol::require_text(request, "wait");
   const auto found = std::find(kWaits.begin(), kWaits.end(), text);
   if (found == kWaits.end()) {
-    protocol::refuse_value("wait", "data, peek, sleep, join or none", request["wait"]);
+    protocol::refuse_value("wait", "data, peek, sleep, turns, join or none", request["wait"]);
   }
   const auto wait = static_cast<Wait>(found - kWaits.begin());
   if (wait != Wait::kNone && waiting_) {
@@ -303,6 +315,10 @@ void NativeHandler::read(const json& request, const json& id) {
     static_cast<void>(require_timeout(request));
   }
   static_cast<void>(integer_or(request, "thread", 0, 0, kMaxInteger));
+  if (wait == Wait::kTurns) {
+    static_cast<void>(turns_wait(request));
+    note_unrepeatable(request);
+  }
 
   // Checks all commands before the first one is sent: a request that fails has no effect.
   std::vector<std::pair<DeviceId, sim::Command>> commands;
@@ -330,7 +346,7 @@ void NativeHandler::read(const json& request, const json& id) {
   };
   if (draw_here(drawings)) return go_on(commands, request);
   json rest = json::object();
-  for (const char* key : {"thread", "timeout"}) {
+  for (const char* key : {"thread", "timeout", "until", "data", "take", "others", "joined"}) {
     if (request.contains(key)) rest[key] = request[key];
   }
   draw_elsewhere(
@@ -342,6 +358,7 @@ NativeHandler::Outcome NativeHandler::begin(Wait wait, const json& request) {
   const ThreadId who = thread_id(request);
   if (wait == Wait::kData) return wait_->client()->begin_wait(who);
   if (wait == Wait::kSleep) return wait_->client()->begin_sleep(who, require_timeout(request));
+  if (wait == Wait::kTurns) return wait_->client()->begin_turns_wait(who, turns_wait(request));
   const double timeout_s = request.contains("timeout") ? require_timeout(request) : 0.0;
   const std::chrono::milliseconds timeout(std::llround(timeout_s * 1e3));
   const Outcome outcome = wait_->client()->begin_peek(who, timeout);
@@ -358,13 +375,14 @@ NativeHandler::Outcome NativeHandler::begin(Wait wait, const json& request) {
 }
 
 void NativeHandler::begin_to_wait(const json& request, const json& id, Wait wait) {
-  waiting_ = {id, wait};
+  const bool take = wait != Wait::kTurns || protocol::require_bool(request, "take");
+  waiting_ = {id, wait, take};
   try {
     const Outcome outcome = wait_->begin([&] { return begin(wait, request); });
     if (outcome == Outcome::kWaiting) return peer_.set_in_flight(1);
     if (waiting_->timer != 0) hub_.cancel(waiting_->timer);
     waiting_.reset();
-    answer(id, round(wait, outcome));
+    answer(id, round(wait, outcome, take));
   } catch (...) {
     waiting_.reset();
     throw;
@@ -380,7 +398,7 @@ void NativeHandler::answer_waiting() {
   if (done.timer != 0) hub_.cancel(done.timer);
   peer_.set_in_flight(0);
   try {
-    answer(done.id, round(done.wait, outcome));
+    answer(done.id, round(done.wait, outcome, done.take));
   } catch (const SessionError& error) {
     fail(done.id, "read", protocol::error_id(error.code()), error.what());
   } catch (const std::exception& error) {
@@ -396,7 +414,7 @@ void NativeHandler::on_peek_timeout() {
 }
 
 // The answer to a `read` for the outcome of its wait. A cancelled wait has timed out.
-json NativeHandler::round(Wait wait, Outcome outcome) {
+json NativeHandler::round(Wait wait, Outcome outcome, bool take) {
   if (outcome != Outcome::kIdle && wait != Wait::kNone) light_drawings_.note_step();
   if (wait == Wait::kData && outcome == Outcome::kFinished) {
     throw SessionError(SessionError::Code::kFinished, "the simulated run is over");
@@ -404,6 +422,7 @@ json NativeHandler::round(Wait wait, Outcome outcome) {
   if (wait == Wait::kData && outcome != Outcome::kData) {
     throw SessionError(SessionError::Code::kDisconnected, "the session is closed");
   }
+  if (wait == Wait::kTurns) return round_of_turns(take && outcome == Outcome::kData);
   const bool looks = wait == Wait::kData || wait == Wait::kPeek || wait == Wait::kNone;
   const bool takes = looks && (outcome == Outcome::kData || outcome == Outcome::kFinished);
   json answer = {{"readings", takes ? readings() : json::array()}};

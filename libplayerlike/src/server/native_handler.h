@@ -34,6 +34,7 @@ class NativeHandler final : public Handler {
     std::string process;  ///< see Hub::thread_id(); not empty
     std::string key;      ///< identifies the session for its followers; not empty
     bool follower = false;
+    CreationOrder order;
   };
 
   /// @param hub  must outlive the handler; its native_state is set.
@@ -44,6 +45,8 @@ class NativeHandler final : public Handler {
   void on_message(std::string_view message) override;
   [[nodiscard]] std::string farewell(const protocol::ProtocolError& error) override;
 
+  /// Number of the session; 0: it only watches.
+  [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
   /// Size and position of the canvas; notes that the client knows them.
   [[nodiscard]] nlohmann::json tell_canvas();
 
@@ -53,11 +56,12 @@ class NativeHandler final : public Handler {
   struct OwnRequest;
   class ReadingList;
 
-  enum class Wait { kData, kPeek, kSleep, kJoin, kNone };
+  enum class Wait { kData, kPeek, kSleep, kTurns, kJoin, kNone };
   /// A `read` without an answer so far.
   struct Waiting {
     json id;
     Wait wait;
+    bool take = true;         ///< kTurns: whether the answer contains the data
     std::uint64_t timer = 0;  ///< 0: none
   };
 
@@ -91,8 +95,19 @@ class NativeHandler final : public Handler {
   /// Answers the waiting `read` if its wait is over.
   void answer_waiting();
   void on_peek_timeout();
-  json round(Wait wait, Outcome outcome);
+  /// @param take  see Waiting.
+  json round(Wait wait, Outcome outcome, bool take = true);
+  json round_of_turns(bool take);
+  /// The wait of a program in virtual time, see docs/protocol.md#virtual-time.
+  [[nodiscard]] EventClient::TurnsWait turns_wait(const json& request) const;
+  /// Notes reasons why another run may differ, which the request tells.
+  void note_unrepeatable(const json& request);
+  /// Numbers of the process's sessions that have data.
+  [[nodiscard]] json ready_sessions() const;
   json readings();
+
+  /// Opens the connection's session in the simulation.
+  void open_session(EventRole role);
 
   [[nodiscard]] Session& session() { return wait_->session(); }
   [[nodiscard]] ThreadId thread_id(const json& request);
@@ -102,6 +117,7 @@ class NativeHandler final : public Handler {
   json time(const json& request);
   json thread_ended(const json& request);
   json watch(const json& request);
+  json leave(const json& request);
   json bye(const json& request);
 
   /// Finds one of these requests. @return null for an unknown name.
@@ -111,6 +127,7 @@ class NativeHandler final : public Handler {
   Hub& hub_;
   std::shared_ptr<NativeState> state_;
   Terms terms_;
+  std::uint64_t number_ = 0;
   RequestGuard guard_;
   std::shared_ptr<NativeHandler*> self_;  ///< expires with the handler; posted tasks check it
   std::optional<EventWait> wait_;         ///< none: only watches

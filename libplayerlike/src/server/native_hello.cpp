@@ -59,8 +59,8 @@ void require_version(const json& argument) {
 
 /// Sets the terms of a session that follows another one.
 void follow(NativeHandler::Terms& terms, const NativeState& state, const json& argument) {
-  const auto leader = state.leaders.find(protocol::require_text(argument, "follow"));
-  if (leader == state.leaders.end()) {
+  const auto leader = state.open.find(protocol::require_text(argument, "follow"));
+  if (leader == state.open.end()) {
     throw ProtocolError("access/denied", "follow: no open session has this key");
   }
   if (leader->second.command != terms.rights.command) {
@@ -78,7 +78,8 @@ void follow(NativeHandler::Terms& terms, const NativeState& state, const json& a
 
 NativeHandler::Terms terms_of(Hub& hub, const json& argument) {
   protocol::refuse_unknown_keys(
-      argument, {"version", "encoding", "port", "tokens", "name", "process", "follow", "watch"},
+      argument,
+      {"version", "encoding", "port", "tokens", "name", "process", "thread", "follow", "watch"},
       "hello");
   require_version(argument);
   NativeHandler::Terms terms;
@@ -100,6 +101,12 @@ NativeHandler::Terms terms_of(Hub& hub, const json& argument) {
   }
   terms.key = make_token();
   terms.process = name_or_empty(argument, "process");
+  if (argument.contains("thread") && !terms.process.empty()) {
+    constexpr std::int64_t kMostThreads = std::int64_t{1} << 53U;
+    terms.order.process = hub.thread_id(terms.process, 0);
+    terms.order.thread =
+        static_cast<std::uint64_t>(protocol::require_integer(argument, "thread", 0, kMostThreads));
+  }
   // A name that no client can choose for its own process.
   if (terms.process.empty()) terms.process = "session " + terms.key;
   return terms;
@@ -120,7 +127,7 @@ json welcome(Hub& hub, NativeHandler& handler, const NativeHandler::Terms& terms
                   {{"message_bytes", limits.message_bytes},
                    {"requests_in_flight", limits.requests_in_flight}}}};
   if (terms.session) {
-    answer["session"] = ++state.sessions;
+    answer["session"] = handler.number();
     answer["key"] = terms.key;
   }
   return answer;

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "playerlike/host/event_client.h"
 #include "server/peer.h"
 #include "server/watch_hub.h"
 
@@ -12,17 +14,20 @@ namespace playerlike::server {
 
 /// State that the connections in Playpen's own protocol share, see Hub::native_state.
 struct NativeState {
-  /// The data of a session that its followers need.
-  struct Leader {
+  /// An open session, as others need it: its followers, and the other sessions of its process.
+  struct OpenSession {
+    std::uint64_t number = 0;
     int port = 0;
-    std::vector<bool> command;  ///< as in Rights
+    std::vector<bool> command;            ///< as in Rights
+    std::string process;                  ///< see Hub::thread_id()
+    const EventClient* client = nullptr;  ///< valid as long as the session is open
   };
 
   explicit NativeState(Hub& hub) : watching(hub) {}
 
-  std::string simulation;                 ///< identifies this simulation uniquely
-  std::uint64_t sessions = 0;             ///< number of sessions opened so far
-  std::map<std::string, Leader> leaders;  ///< open sessions by key
+  std::string simulation;                   ///< identifies this simulation uniquely
+  std::uint64_t sessions = 0;               ///< number of sessions opened so far
+  std::map<std::string, OpenSession> open;  ///< open sessions by key
   WatchHub watching;
 };
 

@@ -100,7 +100,7 @@ class Peer {
   /// peer_process().
   [[nodiscard]] virtual std::optional<int> local_process() { return std::nullopt; }
   /// The address of this end as it lies in memory; 0: not IPv4.
-  [[nodiscard]] virtual std::uint32_t own_ipv4() const { return 0; }
+  [[nodiscard]] virtual std::uint32_t own_ipv4() { return 0; }
   /// "127.0.0.1:51234", for the log.
   [[nodiscard]] virtual const std::string& name() const noexcept = 0;
   /// Sets the text for the log: protocol and client name, 'playpen cbor "robot"'.

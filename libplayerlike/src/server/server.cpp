@@ -57,6 +57,7 @@ std::vector<std::string> Server::player_port_lines() const {
 }
 std::size_t Server::connections() const noexcept { return impl_->hub.connections(); }
 bool Server::done() const noexcept { return impl_->hub.done(); }
+void Server::adopt(int descriptor) { impl_->hub.adopt(descriptor); }
 void Server::stop() noexcept { impl_->hub.stop(); }
 
 }  // namespace playerlike

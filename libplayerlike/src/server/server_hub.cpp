@@ -1,7 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "server/server_hub.h"
 
-#include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
-#include <asio/ip/v6_only.hpp>
 #include <asio/post.hpp>
 #include <asio/steady_timer.hpp>
 #include <atomic>
@@ -17,13 +15,13 @@
 #include <list>
 #include <map>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <unordered_set>
 #include <utility>
 
 #include "process/system_threads.h"
 #include "server/connection.h"
+#include "server/listening.h"
 #include "server/player_connection.h"
 #include "sim/core/error.h"
 #include "virtual_time/virtual_time.h"
@@ -57,12 +55,6 @@ constexpr int kKeepAliveIdle_s = 30;
 constexpr int kKeepAliveInterval_s = 10;
 constexpr int kKeepAliveProbes = 3;
 
-[[noreturn]] void throw_issue(std::string id, std::string place, std::string expected,
-                              std::string found, std::string hint) {
-  throw sim::ConfigError(sim::ConfigIssue{std::move(id), "", std::move(place), std::move(expected),
-                                          std::move(found), std::move(hint)});
-}
-
 std::string text_of(const tcp::endpoint& endpoint) {
   asio::ip::address ip = endpoint.address();
   if (ip.is_v6() && ip.to_v6().is_v4_mapped()) {
@@ -70,150 +62,6 @@ std::string text_of(const tcp::endpoint& endpoint) {
   }
   const std::string address = ip.to_string();
   return (ip.is_v6() ? '[' + address + ']' : address) + ':' + std::to_string(endpoint.port());
-}
-
-/// Resolves a name to addresses of this machine.
-std::vector<asio::ip::address> addresses_of(asio::io_context& io, const std::string& name) {
-  constexpr const char* kExpected = "an IPv4 or IPv6 address of this machine, or a name of it";
-  asio::error_code error;
-  const asio::ip::address literal = asio::ip::make_address(name, error);
-  if (!error) return {literal};
-  tcp::resolver resolver(io);
-  const auto results = resolver.resolve(name, "", tcp::resolver::passive, error);
-  std::vector<asio::ip::address> addresses;
-  for (const auto& result : results) {
-    const asio::ip::address address = result.endpoint().address();
-    if (std::find(addresses.begin(), addresses.end(), address) == addresses.end()) {
-      addresses.push_back(address);
-    }
-  }
-  if (error || addresses.empty()) {
-    throw_issue("server/address", "bind", kExpected,
-                '"' + name + "\": " + (error ? error.message() : "no address"), "");
-  }
-  return addresses;
-}
-
-void require_token(const ServerSettings& settings,
-                   const std::vector<asio::ip::address>& addresses) {
-  if (settings.open || !settings.access.server_token.empty()) return;
-  for (const asio::ip::address& address : addresses) {
-    if (address.is_loopback()) continue;
-    throw_issue("server/token-needed", "bind",
-                "a token for clients, since other machines can reach this address",
-                '"' + settings.bind + "\" without one",
-                "name a token file that has a \"server\" token, or allow everybody with --open");
-  }
-}
-
-/// The addresses to listen on. @throws sim::ConfigError, also if they need a token.
-std::vector<asio::ip::address> checked_addresses(asio::io_context& io,
-                                                 const ServerSettings& settings) {
-  std::vector<asio::ip::address> addresses = addresses_of(io, settings.bind);
-  require_token(settings, addresses);
-  return addresses;
-}
-
-/// A port on all of the server's addresses.
-struct Listener {
-  std::vector<tcp::acceptor> acceptors;
-  int port = 0;
-  bool services = false;  ///< the services' port
-  MakeHandler make;
-};
-
-// Programs that this process starts must not keep its ports and connections open.
-void close_on_exec(int descriptor) { fcntl(descriptor, F_SETFD, FD_CLOEXEC); }
-
-/// @param alone  whether this is the only address: then "::" accepts IPv4 too. A name may resolve
-///               to an address of each protocol.
-asio::error_code open_on(asio::io_context& io, const asio::ip::address& address, bool alone,
-                         Listener& listener) {
-  try {
-    const tcp::endpoint endpoint(address, static_cast<std::uint16_t>(listener.port));
-    tcp::acceptor acceptor(io);
-    acceptor.open(endpoint.protocol());
-    close_on_exec(acceptor.native_handle());
-    acceptor.set_option(tcp::acceptor::reuse_address(true));
-    if (address.is_v6()) acceptor.set_option(asio::ip::v6_only(!alone));
-    acceptor.bind(endpoint);
-    acceptor.listen();
-    acceptor.non_blocking(true);
-    listener.port = acceptor.local_endpoint().port();
-    listener.acceptors.push_back(std::move(acceptor));
-    return {};
-  } catch (const std::system_error& e) {
-    return e.code();
-  }
-}
-
-/// Opens a port on all addresses. @param port  0: any free one. @return the error.
-asio::error_code open(asio::io_context& io, const std::vector<asio::ip::address>& addresses,
-                      int port, Listener& listener) {
-  asio::error_code result;
-  // A port that is free on the first address may be in use on another, so try again.
-  for (int attempt = 0; attempt < (port == 0 ? 10 : 1); ++attempt) {
-    listener.acceptors.clear();
-    listener.port = port;
-    result.clear();
-    for (const asio::ip::address& address : addresses) {
-      const asio::error_code error = open_on(io, address, addresses.size() == 1, listener);
-      // A name may have an address of a protocol that this machine does not support.
-      const bool no_such_address =
-          error == asio::error::address_family_not_supported || error.value() == EADDRNOTAVAIL;
-      if (error && !(no_such_address && addresses.size() > 1)) result = error;
-      if (result) break;
-    }
-    if (!result && listener.acceptors.empty()) {
-      result = asio::error_code(EADDRNOTAVAIL, asio::system_category());
-    }
-    if (result != asio::error::address_in_use) break;
-  }
-  return result;
-}
-
-/// @param place  the setting that gives the port, for errors.
-void open_or_throw(asio::io_context& io, const std::vector<asio::ip::address>& addresses,
-                   const ServerSettings& settings, int port, const char* place,
-                   Listener& listener) {
-  const asio::error_code error = open(io, addresses, port, listener);
-  if (!error) return;
-  const std::string where = settings.bind + ':' + std::to_string(port);
-  if (error == asio::error::address_in_use) {
-    throw_issue("server/port-taken", place, "a free TCP port", std::to_string(port) + ", taken",
-                "another playpen serve, MORSE or Player may hold it (ss -ltnp tells); port 0 "
-                "takes any free one");
-  }
-  if (error == asio::error::access_denied) {
-    throw_issue("server/port-not-allowed", place, "a TCP port that this user may open",
-                where + ": " + error.message(), "ports from 1024 on are open to all users");
-  }
-  throw_issue("server/address", "bind", "an address of this machine",
-              where + ": " + error.message(), "");
-}
-
-/// TCP ports of Player's protocol by the robots' ports, 0 for any free one.
-/// @throws sim::ConfigError server/port-range.
-std::map<int, int> wanted_player_ports(const ServerSettings& settings,
-                                       const std::vector<int>& robot_ports) {
-  constexpr int kMaxPort = 65535;
-  std::map<int, int> ports;
-  if (!settings.player_port) return ports;
-  for (const int port : robot_ports) ports[port] = 0;
-  if (*settings.player_port == 0 || ports.empty()) return ports;
-  const int shift = *settings.player_port - kPlayerPort;
-  const int first = ports.begin()->first;
-  const int last = ports.rbegin()->first;
-  if (first + shift < 1 || last + shift > kMaxPort) {
-    throw_issue("server/port-range", "player_port",
-                "a port from " + std::to_string(std::max(1, kPlayerPort + 1 - first)) + " to " +
-                    std::to_string(std::min(kMaxPort, kMaxPort + kPlayerPort - last)) +
-                    ", which robots on port 6665 get, since the world's are on " +
-                    std::to_string(first) + " to " + std::to_string(last),
-                std::to_string(*settings.player_port), "port 0 takes any free ports");
-  }
-  for (auto& [robot_port, port] : ports) port = robot_port + shift;
-  return ports;
 }
 
 }  // namespace
@@ -225,15 +73,17 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
         settings_(std::move(settings)),
         log_(std::move(log)),
         access_(settings_.access, host_->robots(), host_->own_sensors_only()),
+        services_(std::move(services)),
         addresses_(checked_addresses(io_, settings_)) {
     if (settings_.port) {
       Listener services_port;
       services_port.services = true;
-      services_port.make = std::move(services);
+      services_port.make = services_;
       open_or_throw(io_, addresses_, settings_, *settings_.port, "port", services_port);
       port_ = add(std::move(services_port));
     }
     warn_if_not_private();
+    if (!settings_.unix_path.empty()) listen_on_unix_socket();
     if (settings_.sync_port) {
       Listener clock;
       clock.make = make_sync_handler;
@@ -271,6 +121,19 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   [[nodiscard]] std::size_t connections() const noexcept { return open_connections_; }
   [[nodiscard]] bool done() const noexcept {
     return quit_ || (open_connections_ == 0 && host_->finished());
+  }
+
+  void adopt(int descriptor) {
+    ++open_connections_;  // at once, so that done() does not miss it
+    asio::post(io_, [this, descriptor] {
+      --open_connections_;
+      asio::generic::stream_protocol::socket socket(io_);
+      asio::error_code error;
+      socket.assign(asio::generic::stream_protocol(AF_UNIX, 0), descriptor, error);
+      if (!error && !stopping_) {
+        admit(services_, /*services=*/true, std::move(socket), unix_peer_name(descriptor));
+      }
+    });
   }
 
   void stop() noexcept {
@@ -314,7 +177,12 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   void accept(Listener& listener, tcp::acceptor& acceptor);
   void accept_later(Listener& listener, tcp::acceptor& acceptor, const asio::error_code& error);
   void warn_of(Clock::time_point& last, const std::string& text);
-  void admit(Listener& listener, tcp::socket socket);
+  void listen_on_unix_socket();
+  void accept_on_unix_socket();
+  void admit_tcp(const Listener& listener, tcp::socket socket);
+  /// Serves a connected socket. @param services  whether it may get a message why it is refused.
+  void admit(const MakeHandler& make, bool services, asio::generic::stream_protocol::socket socket,
+             const std::string& name);
   void tick();
   void run_tasks();
   void run_tasks_soon();
@@ -327,12 +195,14 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   ServerSettings settings_;
   sim::LogHook log_;
   Access access_;
+  MakeHandler services_;  ///< makes the handlers of services
   std::vector<asio::ip::address> addresses_;
   int port_ = 0;
   int sync_port_ = 0;
   std::map<int, int> player_ports_;
 
   std::vector<std::unique_ptr<Listener>> listeners_;
+  std::optional<UnixListener> unix_listener_;
   std::unordered_set<std::shared_ptr<Connection>> connections_;  ///< also those that are closing
   std::size_t refused_ = 0;                                      ///< how many of them were refused
   std::atomic<std::size_t> open_connections_{0};
@@ -410,7 +280,7 @@ void ServerHub::Body::accept(Listener& listener, tcp::acceptor& acceptor) {
   acceptor.async_accept(
       [this, &listener, &acceptor](const asio::error_code& error, tcp::socket socket) {
         if (stopping_ || error == asio::error::operation_aborted) return;
-        if (!error) admit(listener, std::move(socket));
+        if (!error) admit_tcp(listener, std::move(socket));
         // Connections that the peer aborted before they were accepted are not an error.
         if (!error || error == asio::error::connection_aborted) return accept(listener, acceptor);
         accept_later(listener, acceptor, error);
@@ -433,12 +303,28 @@ void ServerHub::Body::warn_of(Clock::time_point& last, const std::string& text) 
   log(sim::LogLevel::kWarning, text);
 }
 
-void ServerHub::Body::admit(Listener& listener, tcp::socket socket) {
+void ServerHub::Body::listen_on_unix_socket() {
+  unix_listener_.emplace(io_, settings_.unix_path);
+  accept_on_unix_socket();
+}
+
+void ServerHub::Body::accept_on_unix_socket() {
+  unix_listener_->accept(
+      [this](asio::generic::stream_protocol::socket socket, const std::string& name) {
+        if (!stopping_) admit(services_, /*services=*/true, std::move(socket), name);
+      },
+      [this](const asio::error_code& error) {
+        warn_of(accept_warned_, "no connection can be accepted for now: " + error.message());
+        after(kAcceptPause, [this] {
+          if (!stopping_) accept_on_unix_socket();
+        });
+      });
+}
+
+void ServerHub::Body::admit_tcp(const Listener& listener, tcp::socket socket) {
   asio::error_code error;
   const tcp::endpoint remote = socket.remote_endpoint(error);
   if (error) return;  // disconnected already
-  close_on_exec(socket.native_handle());
-  socket.non_blocking(true, error);
   socket.set_option(tcp::no_delay(true), error);
   socket.set_option(asio::socket_base::keep_alive(true), error);
   for (const auto& [option, value] :
@@ -446,13 +332,22 @@ void ServerHub::Body::admit(Listener& listener, tcp::socket socket) {
         std::pair(TCP_KEEPCNT, kKeepAliveProbes)}) {
     setsockopt(socket.native_handle(), IPPROTO_TCP, option, &value, sizeof value);
   }
+  admit(listener.make, listener.services, std::move(socket), text_of(remote));
+}
+
+void ServerHub::Body::admit(const MakeHandler& make, bool services,
+                            asio::generic::stream_protocol::socket socket,
+                            const std::string& name) {
+  close_on_exec(socket.native_handle());
+  asio::error_code error;
+  socket.non_blocking(true, error);
   const bool full = connections_.size() - refused_ >= limits().connections;
   if (full) warn_of(full_warned_, "all connections are in use, further ones are refused");
-  if (full && (refused_ >= kRefused || !listener.services)) {
+  if (full && (refused_ >= kRefused || !services)) {
     return;
   }
-  const auto connection = std::make_shared<Connection>(std::move(socket), text_of(remote),
-                                                       static_cast<ConnectionOwner&>(*this));
+  const auto connection =
+      std::make_shared<Connection>(std::move(socket), name, static_cast<ConnectionOwner&>(*this));
   connections_.insert(connection);
   if (full) {
     ++refused_;
@@ -463,7 +358,7 @@ void ServerHub::Body::admit(Listener& listener, tcp::socket socket) {
   log(sim::LogLevel::kDebug, connection->name() + ": connected");
   ++open_connections_;
   try {
-    connection->start(listener.make(*connection, *this));
+    connection->start(make(*connection, *this));
   } catch (const std::exception& e) {
     --open_connections_;
     connection->end(e.what());
@@ -646,6 +541,7 @@ void ServerHub::Body::begin_stop() {
   for (const auto& listener : listeners_) {
     for (tcp::acceptor& acceptor : listener->acceptors) acceptor.close(ignored);
   }
+  if (unix_listener_) unix_listener_->close();
   const std::vector<std::shared_ptr<Connection>> all(connections_.begin(), connections_.end());
   for (const auto& connection : all) {
     connection->fail(protocol::ProtocolError("server/closing", "the server ends"));
@@ -676,6 +572,7 @@ void ServerHub::check(const ServerSettings& settings, const std::vector<std::str
   Listener services;
   Listener clock;
   if (settings.port) open_or_throw(io, addresses, settings, *settings.port, "port", services);
+  if (!settings.unix_path.empty()) UnixListener::check(settings.unix_path);
   if (settings.sync_port) {
     open_or_throw(io, addresses, settings, *settings.sync_port, "sync_port", clock);
   }
@@ -690,6 +587,7 @@ int ServerHub::sync_port() const noexcept { return body_->sync_port(); }
 const std::map<int, int>& ServerHub::player_ports() const noexcept { return body_->player_ports(); }
 std::size_t ServerHub::connections() const noexcept { return body_->connections(); }
 bool ServerHub::done() const noexcept { return body_->done(); }
+void ServerHub::adopt(int descriptor) { body_->adopt(descriptor); }
 void ServerHub::stop() noexcept { body_->stop(); }
 
 }  // namespace playerlike::server

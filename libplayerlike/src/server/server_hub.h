@@ -33,6 +33,7 @@ class ServerHub {
   [[nodiscard]] const std::map<int, int>& player_ports() const noexcept;
   [[nodiscard]] std::size_t connections() const noexcept;
   [[nodiscard]] bool done() const noexcept;
+  void adopt(int descriptor);
   void stop() noexcept;
   /// @}
 

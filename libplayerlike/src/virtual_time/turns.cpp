@@ -62,20 +62,24 @@ class SignalWatch {
   SignalWatch& operator=(const SignalWatch&) = delete;
   ~SignalWatch() { let_through(); }
 
-  /// Must be called after each step. @return whether handle() is due.
-  [[nodiscard]] bool is_due() {
-    if (++steps_ % kSteps != 0) return false;
-    if (!holds_) {
-      sigset_t all;
-      sigfillset(&all);
-      // Fault signals must stay enabled, since the thread itself causes them. The timers of
-      // processor time do not run during a real sleep.
-      for (const int signal :
-           {SIGPROF, SIGVTALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) {
-        sigdelset(&all, signal);
-      }
-      holds_ = pthread_sigmask(SIG_BLOCK, &all, &before_) == 0;
+  /// Blocks the signals until handle() or let_through().
+  void hold() {
+    if (holds_) return;
+    sigset_t all;
+    sigfillset(&all);
+    // Fault signals must stay enabled, since the thread itself causes them. The timers of processor
+    // time do not run during a real sleep.
+    for (const int signal :
+         {SIGPROF, SIGVTALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) {
+      sigdelset(&all, signal);
     }
+    holds_ = pthread_sigmask(SIG_BLOCK, &all, &before_) == 0;
+  }
+  /// Must be called after each step. @param now  whether to look now, not after some more steps.
+  /// @return whether handle() is due.
+  [[nodiscard]] bool is_due(bool now) {
+    if (!now && ++steps_ % kSteps != 0) return false;
+    hold();
     sigset_t pending;
     if (sigpending(&pending) != 0) return false;
     has_handler_ = false;
@@ -380,14 +384,18 @@ void Turns::park(Lock& lock, TurnThread& self) {
         notify(*next);
       } else if (concurrent_ == 0) {
         if (poll_waits()) continue;
-        if (clock_ != nullptr ? clock_->step(lock) : wait_real_time(lock, self)) {
-          if (!self.interruptible || self.state != State::kWaits || !signals.is_due()) continue;
+        const bool waits = clock_ != nullptr && clock_->step_waits();
+        if (waits && self.interruptible) signals.hold();
+        const bool stepped = clock_ != nullptr ? clock_->step(lock) : wait_real_time(lock, self);
+        if ((stepped || waits) && self.interruptible && self.state == State::kWaits &&
+            signals.is_due(waits)) {
           lock.unlock();
           const bool handled = signals.handle();
           lock.lock();
           if (handled) note_signal(self);
           continue;
         }
+        if (stepped) continue;
       }
     }
     const unsigned known_count = self.event_count.load();

@@ -78,6 +78,9 @@ class TurnClock {
   /// Called when no thread runs or is ready. Advances time by a step, if possible, and makes the
   /// threads ready whose wait is over. @return whether time has advanced.
   virtual bool step(std::unique_lock<std::mutex>& lock) = 0;
+  /// Whether step() may wait in the system, for a server: signals are held meanwhile. May return
+  /// false after some milliseconds, and is called again.
+  [[nodiscard]] virtual bool step_waits() const noexcept { return false; }
   /// Whether simulated time has reached a wake-up time.
   [[nodiscard]] virtual bool has_come(sim::SimTime wake_ns) const = 0;
   /// Checks for clients that have been silent for too long.

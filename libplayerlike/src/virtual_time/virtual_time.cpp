@@ -560,6 +560,8 @@ void attach(const std::shared_ptr<TurnClock>& clock) {
   attached.store(clock.get(), std::memory_order_release);
 }
 
+const TurnClock* attached_clock() noexcept { return attached.load(std::memory_order_acquire); }
+
 void detach(TurnClock& clock) noexcept {
   const std::lock_guard lock(lists_mutex);
   if (attached.load() != &clock) return;

@@ -56,6 +56,8 @@ class StartsForLibraries {
 /// lockstep. Further simulations are ignored until the first one is detached: a program has one
 /// clock.
 void attach(const std::shared_ptr<TurnClock>& simulation);
+/// The simulation that is attached; null: none.
+[[nodiscard]] const TurnClock* attached_clock() noexcept;
 /// The clocks stop until another simulation is attached.
 void detach(TurnClock& simulation) noexcept;
 /// From now on sleeps are real, and the clocks continue in real time. The caller has locked the

@@ -647,6 +647,84 @@ TEST_P(NativeProtocol, FailedRead_HasNoEffect) {
   EXPECT_EQ(answer["readings"][0]["v"], 0.0);
 }
 
+json turns(std::int64_t until_ns, bool data, bool take) {
+  return {{"until", until_ns}, {"data", data}, {"take", take}};
+}
+
+TEST_P(NativeProtocol, Turns_EndAtTimeOrData) {
+  client->ask("subscribe", {{"device", client->device("r1", "pose")}});
+  // A step takes 10 ms, a reading of the pose comes every 100 ms.
+  json answer = client->read("turns", turns(30'000'000, true, true));
+  EXPECT_EQ(answer["t"], 30'000'000);
+  EXPECT_EQ(answer["data"], false);
+  EXPECT_EQ(answer["ready"], json::array());
+  answer = client->read("turns", turns(1'000'000'000, true, true));
+  EXPECT_EQ(answer["t"], 100'000'000);
+  EXPECT_EQ(answer["readings"].size(), 1U);
+  EXPECT_EQ(answer["ready"], json::array());
+  // Without `take` the readings stay.
+  answer = client->read("turns", turns(1'000'000'000, true, false));
+  EXPECT_EQ(answer["t"], 200'000'000);
+  EXPECT_EQ(answer["readings"], json::array());
+  EXPECT_EQ(answer["ready"], json::array({client->welcome["session"]}));
+  EXPECT_EQ(client->read("none")["readings"].size(), 1U);
+}
+
+TEST_P(NativeProtocol, Turns_EndWithDataOfProcessesOtherSessions) {
+  client.reset();
+  Client one(hub, GetParam(), {{"process", "program"}, {"thread", 1}});
+  Client two(hub, GetParam(), {{"process", "program"}, {"thread", 2}});
+  Client stranger(hub, GetParam(), {{"process", "another"}, {"thread", 1}});
+  for (Client* each : {&one, &two, &stranger}) {
+    each->ask("subscribe", {{"device", each->device("r1", "pose")}});
+  }
+  json request = turns(1'000'000'000, false, false);
+  request["others"] = {two.welcome["session"], stranger.welcome["session"]};
+  request["joined"] = {two.welcome["session"]};
+  const json answer = one.read("turns", request);
+  EXPECT_EQ(answer["t"], 100'000'000);
+  EXPECT_THAT(answer["ready"],
+              testing::UnorderedElementsAre(one.welcome["session"], two.welcome["session"]));
+}
+
+TEST_P(NativeProtocol, Turns_AfterLeaveLetTimePass) {
+  client.reset();
+  Client program(hub, GetParam(), {{"process", "program"}});
+  program.ask("command", {{"device", program.device("r1", "motion")}, {"command", twist(0.5)}});
+  program.read("turns", turns(1'000'000'000, false, false));
+  const double driven_m = program.ask("object_pose", {{"name", "r1"}})["pose"]["x"];
+  EXPECT_EQ(program.error("leave"), "");
+  EXPECT_EQ(program.read("turns", turns(5'000'000'000, false, false))["t"], 5'000'000'000);
+  // The robot stopped when its session ended.
+  EXPECT_NEAR(program.ask("object_pose", {{"name", "r1"}})["pose"]["x"], driven_m, 0.05);
+}
+
+TEST_P(NativeProtocol, Turns_ReasonsReachReport) {
+  json request = turns(0, false, false);
+  request["unrepeatable"] = {"the moon", "the moon", "the tide"};
+  client->read("turns", request);
+  EXPECT_THAT(host->time().unrepeatable, testing::ElementsAre("the moon", "the tide"));
+}
+
+TEST_P(NativeProtocol, Turns_FaultyRequests_Refused) {
+  struct Case {
+    const char* key;
+    json value;
+  };
+  for (const Case& c :
+       {Case{"until", -1}, Case{"until", "soon"}, Case{"data", 1}, Case{"take", nullptr},
+        Case{"others", "all"}, Case{"others", {-1}}, Case{"joined", {"x"}},
+        Case{"others", std::vector<int>(257, 1)}, Case{"unrepeatable", {7}},
+        Case{"unrepeatable", {"a\nb"}}, Case{"unrepeatable", {std::string(301, 'a')}}}) {
+    json request = turns(10'000'000, false, false);
+    request[c.key] = c.value;
+    EXPECT_EQ(client->error("read", (request["wait"] = "turns", request)), "protocol/bad-value")
+        << c.key << ": " << c.value;
+  }
+  EXPECT_EQ(client->error("read", {{"wait", "turns"}}), "protocol/bad-value");
+  EXPECT_EQ(host->time().steps, 0U);
+}
+
 TEST_P(NativeProtocol, SleepAndJoin_KeepReadings) {
   client->ask("subscribe", {{"device", client->device("r1", "pose")}});
   const json slept = client->read("sleep", {{"timeout", 0.25}});

@@ -4,12 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <set>
@@ -341,6 +346,56 @@ TEST_F(ServerTest, PortInUse_ErrorNamesIt) {
   EXPECT_THAT(issues[0].found, HasSubstr(std::to_string(hub->port())));
   EXPECT_THAT(issues[0].hint, HasSubstr("port 0"));
   expect_alive();
+}
+
+TEST_F(ServerTest, UnixSocket_OwnersOnlyAndRemovedAtEnd) {
+  const TemporaryFolder folder;
+  settings.unix_path = folder / "robots";
+  settings.port.reset();
+  start();
+  struct stat status {};
+  ASSERT_EQ(lstat(settings.unix_path.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0600U);
+  hub.reset();
+  EXPECT_FALSE(std::filesystem::exists(settings.unix_path));
+}
+
+TEST_F(ServerTest, UnixSocket_ReplacedOnlyIfNobodyListens) {
+  const TemporaryFolder folder;
+  settings.unix_path = folder / "robots";
+  // A process that was killed leaves its socket.
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  settings.unix_path.copy(address.sun_path, sizeof address.sun_path - 1);
+  const int left = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  ASSERT_EQ(bind(left, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  close(left);
+  ASSERT_TRUE(std::filesystem::exists(settings.unix_path));
+  start();
+  const auto issues = issues_of([&] { ServerHub second(make_host(), settings, {}, {}); });
+  ASSERT_THAT(issues, SizeIs(1));
+  EXPECT_EQ(issues[0].id, "server/unix-socket");
+  EXPECT_THAT(issues[0].found, HasSubstr("a server listens there"));
+  expect_alive();
+  EXPECT_TRUE(std::filesystem::exists(settings.unix_path));
+}
+
+TEST_F(ServerTest, UnixSocket_UnusablePaths_Refused) {
+  const TemporaryFolder folder;
+  struct Case {
+    std::string path;
+    const char* found;
+  };
+  for (const Case& c : {Case{folder.write("file", "text"), "a file that is no socket"},
+                        Case{folder / "no/such/folder", "No such file"},
+                        Case{std::string(108, 'a'), "108 bytes"}}) {
+    settings.unix_path = c.path;
+    const auto issues = issues_of([&] { ServerHub refused(make_host(), settings, {}, {}); });
+    ASSERT_THAT(issues, SizeIs(1)) << c.path;
+    EXPECT_EQ(issues[0].id, "server/unix-socket");
+    EXPECT_THAT(issues[0].found, HasSubstr(c.found));
+  }
+  EXPECT_EQ(test_support::read_bytes(folder / "file"), "text");
 }
 
 TEST_F(ServerTest, ClosedPort_FreeAtOnce) {

@@ -32,6 +32,7 @@
 #include "relay.h"
 #include "sim/core/error.h"
 #include "sim/devices/localization.h"
+#include "temporary_folder.h"
 
 namespace playerlike {
 namespace {
@@ -115,6 +116,14 @@ std::unique_ptr<SocketSession> connect(int tcp_port, int port = 6665) {
   return std::make_unique<SocketSession>(settings_for(tcp_port, port));
 }
 
+/// Settings for a server of this machine.
+SocketSettings settings_for(const std::string& address) {
+  SocketSettings settings;
+  settings.server = parse_server_address(address);
+  settings.port = 6665;
+  return settings;
+}
+
 // --- Names
 
 TEST(ServerAddresses, ParsedInTheirForms) {
@@ -132,6 +141,19 @@ TEST(ServerAddresses, ParsedInTheirForms) {
     EXPECT_EQ(address.tcp_port, c.port) << c.text;
   }
   EXPECT_EQ((ServerAddress{"::1", 4000}.text()), "[::1]:4000");
+}
+
+TEST(ServerAddresses, UnixSockets_ParsedInTheirForms) {
+  const ServerAddress socket = parse_server_address("unix:/run/robots");
+  EXPECT_EQ(socket.path, "/run/robots");
+  EXPECT_TRUE(socket.is_local());
+  EXPECT_EQ(socket.text(), "unix:/run/robots");
+  const ServerAddress descriptor = parse_server_address("unix:fd=7");
+  EXPECT_EQ(descriptor.descriptor, 7);
+  EXPECT_EQ(descriptor.path, "");
+  EXPECT_EQ(descriptor.text(), "unix:fd=7");
+  EXPECT_EQ(parse_server_address("unix:" + std::string(kMaxUnixPath, 'a')).path.size(),
+            kMaxUnixPath);
 }
 
 TEST(ServerAddresses, InvalidAddresses_RefusedWithReason) {
@@ -842,6 +864,73 @@ TEST(SocketSessions, EarlyAnswer_ReadDespiteZeroTimeout) {
   const auto session = connect(relay.port());
   session->request(AnswerTimeoutRequest{0.0});
   EXPECT_EQ(session->request(TimeRequest{}).sim_time_ns, 0);
+}
+
+// --- Unix sockets
+
+TEST(UnixSockets, Session_DrivesAsByTcp) {
+  const test_support::TemporaryFolder folder;
+  ServerSettings listening;
+  listening.unix_path = folder / "robots";
+  const Served served("{}", listening);
+  double by_tcp_m = 0.0;
+  for (const bool tcp : {true, false}) {
+    SocketSession session(tcp ? settings_for(served.port())
+                              : settings_for("unix:" + listening.unix_path));
+    const DeviceId motors = subscribe_position(session);
+    session.send(motors, sim::TwistCommand{{.v_mps = 0.2}});
+    const double begin_m = read(session).x_m;
+    const double driven_m = read(session).x_m - begin_m;
+    if (tcp) by_tcp_m = driven_m;
+    EXPECT_GT(driven_m, 0.0);
+  }
+  EXPECT_GT(by_tcp_m, 0.0);
+}
+
+TEST(UnixSockets, HandedInDescriptor_ServesOneClient) {
+  const Served served;
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+  served.server->adopt(ends[0]);
+  const std::string address = "unix:fd=" + std::to_string(ends[1]);
+  {
+    SocketSession session(settings_for(address));
+    subscribe_position(session);
+    EXPECT_THAT(read(session).times_ns, testing::Not(testing::IsEmpty()));
+  }
+  const SessionError error = error_of([&] { SocketSession(settings_for(address)); });
+  EXPECT_EQ(error.code(), kDisconnected);
+  EXPECT_THAT(error.what(), AllOf(HasSubstr(address), HasSubstr("one client only")));
+}
+
+TEST(UnixSockets, NobodyListens_ErrorNamesPathAndCure) {
+  const test_support::TemporaryFolder folder;
+  const std::string address = "unix:" + (folder / "nothing");
+  const SessionError error = error_of([&] { SocketSession(settings_for(address)); });
+  EXPECT_EQ(error.code(), kDisconnected);
+  EXPECT_THAT(error.what(), AllOf(HasSubstr(address), HasSubstr("playpen serve --unix")));
+}
+
+TEST(UnixSockets, InvalidNames_RefusedWithReason) {
+  struct Case {
+    const char* text;
+    const char* why;
+  };
+  for (const Case& c :
+       {Case{"unix:", "the path is missing"}, Case{"unix:@robots", "no permissions"},
+        Case{"unix:fd=", "a whole number"}, Case{"unix:fd=-1", "a whole number"},
+        Case{"unix:fd=7x", "a whole number"}}) {
+    const SessionError error = error_of([&] { static_cast<void>(open_session(c.text, 6665)); });
+    EXPECT_EQ(error.code(), kBadArgument) << c.text;
+    EXPECT_THAT(error.what(), AllOf(HasSubstr(c.why), HasSubstr("unix:PATH"))) << c.text;
+  }
+}
+
+TEST(UnixSockets, LongPath_RefusedWithItsLength) {
+  const SessionError error = error_of(
+      [] { static_cast<void>(open_session("unix:/" + std::string(kMaxUnixPath, 'a'), 6665)); });
+  EXPECT_EQ(error.code(), kBadArgument);
+  EXPECT_THAT(error.what(), AllOf(HasSubstr("108 bytes"), HasSubstr("107")));
 }
 
 }  // namespace

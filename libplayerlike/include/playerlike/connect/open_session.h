@@ -11,13 +11,15 @@ namespace playerlike {
 
 /// Opens the session for a client's host name:
 /// - "localhost" and "127.0.0.1": the embedded simulation of this process. PLAYPEN_WORLD names its
-///   world file; without it, the default world is used. If PLAYPEN_WORLD is "tcp://HOST[:PORT]" or
-///   "player://HOST[:PORT]", that server is used instead. A Player server there has the robot on
-///   port 6665 at PORT, and others at the same distance to it;
+///   world file; without it, the default world is used. If PLAYPEN_WORLD is "tcp://HOST[:PORT]",
+///   "unix:PATH" or "player://HOST[:PORT]", that server is used instead. A Player server there has
+///   the robot on port 6665 at PORT, and others at the same distance to it;
 /// - "sim:FILE": an embedded simulation of that file;
 /// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`). Its default TCP
 ///   port is 4000. An IPv6 address is written in brackets. PLAYPEN_TOKEN contains the client's
 ///   tokens, separated by commas; PLAYPEN_ENCODING is "cbor" (default) or "json";
+/// - "unix:PATH": the Playpen server at that Unix socket; "unix:fd=N": the one to which the
+///   descriptor N of this process is connected, for one session;
 /// - "player://HOST[:PORT]": a Player server: a real robot, or `playpen serve --player-port`.
 ///   Without a PORT, it is the client's `port` (6665 for MORSE's port 4000);
 /// - any other "HOST": the server there, of Player on the client's `port` if one greets there,

@@ -34,6 +34,14 @@ enum class EventRole {
                  ///< after those of all others
 };
 
+/// Which thread of which process has opened a session at a server. Sessions of one process are in
+/// the order in which these threads were started, not of their arrival, as within a process.
+struct CreationOrder {
+  ThreadId process = 0;      ///< 0: unknown, the session comes last
+  std::uint64_t thread = 0;  ///< its number within the process; a thread started later has a
+                             ///< greater one
+};
+
 /// A client of a host for event loops, without its own thread. A call begins a wait and returns; a
 /// callback reports the end of the wait. See Host::connect_events(). Any thread may call the
 /// members, but only one at a time.
@@ -58,6 +66,10 @@ class EventClient final {
   /// JoinRequest or SleepRequest.
   [[nodiscard]] Session& session() noexcept { return *session_; }
 
+  /// Closes the session of a process that has ended without closing it. Its robots stop with the
+  /// next step, if there is one: in a process of its own such a program would have ended the run.
+  void abandon() noexcept;
+
   /// Begins a wait like Session::wait(). It ends with kData or kFinished.
   /// @return the outcome, or kWaiting if the wait is not over. The same applies to the functions
   ///         below.
@@ -68,6 +80,19 @@ class EventClient final {
   /// Begins a wait like SleepRequest. It ends with kTime or kFinished.
   /// @throws SessionError kBadArgument.
   Outcome begin_sleep(ThreadId thread_id, double seconds);
+  /// What a program in virtual time waits for, whose threads take turns; for begin_turns_wait().
+  struct TurnsWait {
+    bool wants_data = false;                 ///< data of this client end the wait
+    sim::SimTime until_ns = 0;               ///< this simulated time ends it
+    std::vector<const EventClient*> others;  ///< so do data of these clients of the program
+    std::vector<const EventClient*> joined;  ///< take part from now on
+  };
+  /// Begins a wait for all threads of a program. It ends with kData (data of this client), kTime,
+  /// kFinished, or kIdle (data of another one).
+  /// @param thread_id  of the program: all of its clients have the same.
+  Outcome begin_turns_wait(ThreadId thread_id, const TurnsWait& what);
+  /// Whether a reading is available.
+  [[nodiscard]] bool has_data() const;
   /// Joins the lockstep like JoinRequest.
   void join(ThreadId thread_id);
 
@@ -86,6 +111,8 @@ class EventClient final {
   void cancel();
 
  private:
+  friend class Host;  // and its core
+
   std::shared_ptr<Host> host_;
   std::shared_ptr<Client> client_;
   std::unique_ptr<Session> session_;

@@ -51,7 +51,8 @@ class Host : public std::enable_shared_from_this<Host> {
   ///                  locked. It must only forward the notification.
   /// @throws SessionError for the same errors as connect().
   [[nodiscard]] std::unique_ptr<EventClient> connect_events(
-      int port, std::function<void()> notify, EventRole role = EventRole::kParticipant);
+      int port, std::function<void()> notify, EventRole role = EventRole::kParticipant,
+      const CreationOrder& order = {});
 
   /// Lockstep: steps the simulation while all participants wait, for at most about this wall time.
   /// @return whether stepping could continue immediately; the caller should then call again soon.
@@ -79,6 +80,10 @@ class Host : public std::enable_shared_from_this<Host> {
   /// Notes for the report that an onlooker has commanded a robot or changed the world, so that the
   /// run depends on the wall clock.
   void note_onlooker_acts() noexcept;
+
+  /// Notes for the report a reason why another run may differ, which a program at a server tells
+  /// about itself. Of many reasons only the first ones are kept.
+  void note_unrepeatable(const std::string& reason);
 
   /// Notes that a thread no longer takes part; see EventClient.
   void thread_ended(ThreadId thread_id) noexcept;

@@ -17,8 +17,9 @@ namespace playerlike {
 /// An address and a port as one text, such as "127.0.0.1:4000" or "[::1]:4000".
 [[nodiscard]] std::string address_text(const std::string& address, int port);
 
-/// Serves a simulation over TCP, with MORSE's protocol and Playpen's protocol on one port
-/// (docs/protocol.md), and with Player's protocol on a port for each robot (docs/player_wire.md).
+/// Serves a simulation over TCP and over a Unix socket, with MORSE's protocol and Playpen's
+/// protocol on one port (docs/protocol.md), and with Player's protocol on a port for each robot
+/// (docs/player_wire.md).
 ///
 /// The server has one thread for all input and output; in lockstep this thread also steps the
 /// simulation. The simulation never waits for a socket.
@@ -29,7 +30,7 @@ class Server {
   /// @param log   receives messages about connections (kInfo) and errors; called from the server's
   ///              thread.
   /// @throws sim::ConfigError server/port-taken, server/port-range, server/address,
-  ///         server/token-needed, access/unknown-robot.
+  ///         server/token-needed, server/unix-socket, access/unknown-robot.
   Server(std::shared_ptr<Host> host, ServerSettings settings, sim::LogHook log = {});
   /// Throws the errors that the constructor would throw for these settings and robots, without side
   /// effects. It allows a check before a simulation is created.
@@ -56,6 +57,10 @@ class Server {
   /// Whether a client has requested the end (MORSE's `quit`), or the run is over and all clients
   /// have disconnected.
   [[nodiscard]] bool done() const noexcept;
+
+  /// Serves a connected Unix socket, such as one end of a socketpair(), like a connection to the
+  /// port for services. The server closes it.
+  void adopt(int descriptor);
 
   /// Sends a closing message to all clients, spends a short time on sending queued data, closes all
   /// connections and ends the thread. The host continues. To notify clients of the end of the run,

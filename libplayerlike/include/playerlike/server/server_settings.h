@@ -36,6 +36,7 @@ struct AccessSettings {
 struct ServerSettings {
   std::string bind = "127.0.0.1";  ///< an IPv4 or IPv6 address, or a name of this machine
   std::optional<int> port = 4000;  ///< port for services; 0: any free port; nullopt: no such port
+  std::string unix_path;           ///< Unix socket for services beside the port; "": none
   int stream_port = 60000;         ///< first of MORSE's stream ports; 0: any free ports
   bool open_streams = false;       ///< opens all of MORSE's stream ports at the start, in the order
                                    ///< of list_streams; otherwise each when a client asks for it

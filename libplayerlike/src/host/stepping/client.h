@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -45,6 +46,7 @@ struct Client {
   /// Belongs to a server, which checks itself what its clients may read.
   bool served = false;
   ThreadId creator = 0;                     ///< the thread that connected it
+  ThreadId process = 0;                     ///< see CreationOrder
   std::vector<Subscription> subscriptions;  ///< in order of device
   bool replace_by_default = true;
   std::uint32_t overflow = 0;
@@ -60,6 +62,10 @@ struct Client {
   bool waiting = false;     ///< its owner waits, and the wait is not over
   bool wants_data = false;  ///< data end the wait
   std::optional<sim::SimTime> wake_ns;  ///< if set, this time ends the wait
+  /// Of a program in virtual time at a server: it waits with this session for all of its threads.
+  bool takes_turns = false;
+  /// ... and data of these sessions end the wait, too.
+  std::vector<std::shared_ptr<const Client>> waits_for;
 
   /// Of an EventClient: called when its wait is over. Empty: a thread waits inside of a call.
   std::function<void()> notify;

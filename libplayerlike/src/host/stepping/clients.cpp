@@ -31,14 +31,16 @@ bool Clients::any_but_onlookers() const {
   return std::any_of(begin(), end(), [](const auto& client) { return !client->onlooker; });
 }
 
-std::shared_ptr<Client> Clients::add(int port, EventRole role, std::function<void()> notify) {
+std::shared_ptr<Client> Clients::add(int port, EventRole role, std::function<void()> notify,
+                                     const CreationOrder& order) {
   auto client = std::make_shared<Client>();
   client->notify = std::move(notify);
   client->number = next_number_++;
   client->port = port;
   client->follower = role == EventRole::kFollower;
   client->onlooker = role == EventRole::kOnlooker;
-  client->creator = this_thread_id();
+  client->process = order.process;
+  client->creator = order.process == 0 ? this_thread_id() : order.thread;
   client->touch();
   begin_round(*client);
   // The place is usually the last, so the search begins there. In virtual time several threads may
@@ -47,8 +49,9 @@ std::shared_ptr<Client> Clients::add(int port, EventRole role, std::function<voi
   while (place != clients_.begin()) {
     const Client& before = **std::prev(place);
     const int group = group_of(before);
+    const bool by_thread = by_creator_ || (order.process != 0 && before.process == order.process);
     const bool after_it = group == group_of(*client)
-                              ? !by_creator_ || before.creator <= client->creator
+                              ? !by_thread || before.creator <= client->creator
                               : group < group_of(*client);
     if (after_it) break;
     --place;

@@ -36,7 +36,8 @@ class Clients {
   [[nodiscard]] auto end() const { return clients_.end(); }
   [[nodiscard]] bool any_but_onlookers() const;
 
-  std::shared_ptr<Client> add(int port, EventRole role, std::function<void()> notify);
+  std::shared_ptr<Client> add(int port, EventRole role, std::function<void()> notify,
+                              const CreationOrder& order = {});
   void remove(Client& client) noexcept;
 
   void subscribe(Client& client, DeviceId device);

@@ -42,6 +42,7 @@ bool Inputs::add(Client& client, DeviceId device, const sim::Command& command) {
 }
 
 void Inputs::before_step(const Clients& clients) {
+  if (!to_stop_.empty()) stop(std::exchange(to_stop_, {}));
   const bool commanded = commands_wait_.exchange(false);
   if (commanded || somebody_draws_) {
     for (const auto& client : clients) apply(*client);
@@ -79,6 +80,11 @@ std::optional<std::string> Inputs::execute_for(Commanders::Who who, DeviceId dev
   if (auto refusal = commanders.note(who, device, Commanders::Kind::kMorse)) return refusal;
   if (hand) hand->note_command(device, command);
   return execute(device, command);
+}
+
+void Inputs::stop_at_next_step(const std::vector<int>& robots) {
+  if (mirror_ != nullptr) return stop(robots);
+  to_stop_.insert(to_stop_.end(), robots.begin(), robots.end());
 }
 
 void Inputs::stop(const std::vector<int>& robots) {

@@ -52,6 +52,8 @@ class Inputs {
                                          const sim::Command& command);
   /// Stops robots that nobody commands any more.
   void stop(const std::vector<int>& robots);
+  /// The same before the next step, or at once if they mirror real robots.
+  void stop_at_next_step(const std::vector<int>& robots);
   void apply_drawings(Client& client);
   /// Allocates a client's draw queue.
   void reserve_drawings(Client& client);
@@ -70,6 +72,7 @@ class Inputs {
   sim::Simulation& simulation_;
   Mirror* const mirror_;
   const Warn warn_;
+  std::vector<int> to_stop_;                ///< robots, before the next step
   std::atomic<bool> commands_wait_{false};  ///< a client has sent commands since the last step
   bool somebody_draws_ = false;             ///< a client has had a draw queue
 };

@@ -38,8 +38,9 @@ bool Lockstep::gate_open() {
 }
 
 bool Lockstep::program_takes_part() const {
-  return std::any_of(clients_.begin(), clients_.end(),
-                     [](const auto& c) { return c->joined && !c->silent && !c->follower; });
+  return std::any_of(clients_.begin(), clients_.end(), [](const auto& c) {
+    return c->joined && !c->silent && (!c->follower || c->takes_turns);
+  });
 }
 
 bool Lockstep::somebody_waits() const {
