@@ -1,7 +1,12 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Simulated seconds a processor second in a hall of 16 x 16 m with 24 boxes. Each robot has a laser
 // with 682 beams at 10 Hz and wanders by the same rule, as in comparisons with other simulators.
+// `bench_field --hall N` prints the hall with N robots instead, for the programs of other
+// simulators.
 #include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -64,9 +69,45 @@ void print_figures(int robots) {
   }
 }
 
+// One thing a line, its name first, in metres and radians: the side of the square floor, which
+// begins at the origin; the laser's beams, the angle of the first one, the angle between two, range
+// and place before the robot's centre; the outline of a robot; each box; each robot's pose.
+void print_hall(int robots) {
+  const WorldDescription world = hall(robots, "0.1");
+  const LaserParams laser;
+  std::printf("side %.17g\n", kSide_m);
+  std::printf("laser %d %.17g %.17g %.17g %.17g\n", laser.beam_count,
+              -0.5 * (laser.beam_count - 1) * laser.resolution_rad, laser.resolution_rad,
+              laser.range_max_m, laser.X_BL.x_m);
+  std::printf("footprint");
+  for (const Vec2& p_BV : default_robot_model().footprint)
+    std::printf(" %.17g %.17g", p_BV.x(), p_BV.y());
+  std::printf("\n");
+  for (const ObstacleDescription& box : world.arena.obstacles) {
+    std::printf("box %.17g %.17g %.17g %.17g\n", box.center.x(), box.center.y(), box.size.x(),
+                box.size.y());
+  }
+  for (const RobotDescription& robot : world.robots) {
+    std::printf("robot %.17g %.17g %.17g\n", robot.pose.x_m, robot.pose.y_m, robot.pose.yaw_rad);
+  }
+}
+
 }  // namespace
 }  // namespace sim::bench
 
-int main() {
-  for (const int robots : {1, 13, 100}) sim::bench::print_figures(robots);
+int main(int argc, char** argv) {
+  if (argc == 1) {
+    for (const int robots : {1, 13, 100}) sim::bench::print_figures(robots);
+    return 0;
+  }
+  int robots = 0;
+  if (argc == 3 && std::strcmp(argv[1], "--hall") == 0) {
+    const char* const end = argv[2] + std::strlen(argv[2]);
+    if (std::from_chars(argv[2], end, robots).ptr != end) robots = 0;
+  }
+  if (robots < 1) {
+    std::fprintf(stderr, "usage: bench_field [--hall NUMBER_OF_ROBOTS]\n");
+    return 2;
+  }
+  sim::bench::print_hall(robots);
 }

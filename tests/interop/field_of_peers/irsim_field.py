@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+"""The hall of bench_field in ir-sim.
+
+Reads the lines of `bench_field --hall N` from its standard input, and prints "figure field NUMBER":
+simulated seconds a second of processor time. Nothing is drawn. Robots that touch something are
+pushed out of it and go on (collision mode "contact"), as in Playpen; by default they would stop for
+good.
+"""
+import sys
+import tempfile
+
+import irsim
+import yaml
+
+from hall import STEP_S, Hall, choose, print_figure
+
+WALL_M = 0.2  # thickness of the walls around the hall
+
+
+def world_of(hall):
+    side = hall.side
+    walls = [(x, y, size_x, size_y) for at in (-0.5 * WALL_M, side + 0.5 * WALL_M)
+             for x, y, size_x, size_y in ((at, 0.5 * side, WALL_M, side),
+                                          (0.5 * side, at, side, WALL_M))]
+    boxes = [{"shape": {"name": "rectangle", "length": size_x, "width": size_y},
+              "state": [x, y, 0]} for x, y, size_x, size_y in walls + hall.boxes]
+    lidar = {"name": "lidar2d", "range_min": 0, "range_max": hall.range, "angle_range": hall.view,
+             "number": hall.beams, "noise": False, "offset": [hall.laser_x, 0, 0]}
+    robots = [{"kinematics": {"name": "diff"},
+               "shape": {"name": "polygon", "vertices": [list(point) for point in hall.footprint]},
+               "state": list(pose), "vel_min": [-1, -3], "vel_max": [1, 3], "sensors": [lidar]}
+              for pose in hall.robots]
+    return {"world": {"width": side, "height": side, "step_time": STEP_S, "sample_time": STEP_S,
+                      "control_mode": "auto", "collision_mode": "contact"},
+            "robot": robots, "obstacle": boxes}
+
+
+def main():
+    hall = Hall(sys.stdin)
+    with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+        yaml.dump(world_of(hall), file)
+        file.flush()
+        world = irsim.make(file.name, headless=True, log_level="ERROR")
+    robots = world.robot_list
+    numbers = list(range(len(robots)))
+
+    def one_round():
+        world.step([list(choose(robot.lidar.range_data, number))
+                    for number, robot in enumerate(robots)], numbers)
+
+    print_figure(hall, one_round, lambda: [robot.state[:2, 0] for robot in robots])
+
+
+main()
