@@ -101,6 +101,7 @@ class Comparison:
             self.commands.pop(name, None)
 
     def add(self, name, robots, value):
+        print(f"  {name}, robots: {robots}, figure: {value:.6g}", file=sys.stderr, flush=True)
         self.best[name, robots] = max(self.best.get((name, robots), 0.0), value)
 
     def run_peer(self, name):
@@ -114,7 +115,6 @@ class Comparison:
             for robots in ROBOTS:
                 self.add(name, robots, ours[f"field_{figure}_{robots}"])
         for name in list(self.commands):
-            print(f"  {name}", file=sys.stderr, flush=True)
             self.tries(name, lambda name=name: self.run_peer(name))
 
     def table(self):
