@@ -101,7 +101,7 @@ class Comparison:
             self.commands.pop(name, None)
 
     def add(self, name, robots, value):
-        print(f"  {name}, {robots} robots: {value:.6g}", file=sys.stderr, flush=True)
+        print(f"  {name}, robots: {robots}, figure: {value:.6g}", file=sys.stderr, flush=True)
         self.best[name, robots] = max(self.best.get((name, robots), 0.0), value)
 
     def run_peer(self, name):
