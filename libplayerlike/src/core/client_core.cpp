@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "core/debug_types.h"
 #include "core/errors.h"
@@ -237,6 +238,22 @@ std::optional<sim::Pose> ClientCore::last_pose(int robot) const {
   const auto it = poses_.find(robot);
   if (it == poses_.end()) return std::nullopt;
   return it->second.pose;
+}
+
+std::vector<sim::CellValue> ClientCore::list_of_cells(std::size_t size) {
+  std::unique_lock lock(spare_mutex_);
+  std::vector<sim::CellValue> cells = spare_cells_.take();
+  lock.unlock();
+  cells.resize(size);
+  return cells;
+}
+
+void ClientCore::set_cells(sim::LayerId layer, const sim::CellRect& rect,
+                           std::vector<sim::CellValue> cells) {
+  Request request = SetCellsRequest{layer, rect, std::move(cells)};
+  static_cast<void>(session_->answer(request));
+  const std::lock_guard lock(spare_mutex_);
+  spare_cells_.keep(std::move(std::get<SetCellsRequest>(request).cells));
 }
 
 sim::LayerId ClientCore::acquire_layer() {

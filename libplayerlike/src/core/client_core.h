@@ -8,6 +8,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 
 #include "libplayerc++/elements.h"
 #include "libplayerc++/mutex.h"
+#include "messages/spare.h"
 #include "playerlike/session/session.h"
 #include "session/reading_as.h"
 
@@ -125,6 +127,12 @@ class ClientCore final : private ReadingSink {
   /// Gives a layer of acquire_layer() back; its contents stay. Locks the mutex; never throws.
   void release_layer(sim::LayerId layer) noexcept;
 
+  /// A list of so many cells for set_cells(), with any content. Any thread may call it.
+  [[nodiscard]] std::vector<sim::CellValue> list_of_cells(std::size_t size);
+  /// Sets cells of a layer, see SetCellsRequest. Keeps the memory of the list for the next one.
+  /// Any thread may call it.
+  void set_cells(sim::LayerId layer, const sim::CellRect& rect, std::vector<sim::CellValue> cells);
+
   /// Replace rules for interfaces whose devices are subscribed to later. The caller holds the
   /// mutex.
   std::map<int, bool>& replace_rules() noexcept { return replace_rules_; }
@@ -180,7 +188,9 @@ class ClientCore final : private ReadingSink {
   std::map<int, bool> replace_rules_;
   std::map<sim::LayerId, bool> sheets_;  // layers of graphics proxies -> in use
   std::map<std::pair<int, int>, SpeedLimits> watched_speeds_;  // of motors, until the warning
-  int looks_ = 0;                                              // not reported to the session yet
+  std::mutex spare_mutex_;
+  Spare<sim::CellValue> spare_cells_;  // guarded by spare_mutex_
+  int looks_ = 0;                      // not reported to the session yet
   std::atomic<bool> closed_{false};
   std::atomic<bool> run_is_over_{false};
   std::array<std::uint64_t, PlayerCc::detail::Elements::kViews> viewers_{};  // have a view; 0: free

@@ -337,7 +337,7 @@ void Drawing::SetImage(const std::uint8_t* aImage, std::size_t aBytes) {
                            (aImage == nullptr ? "a null pointer" : std::to_string(aBytes)) +
                            " was given");
   }
-  std::vector<sim::CellValue> values(cells);
+  std::vector<sim::CellValue> values = mCore->list_of_cells(cells);
   const std::size_t channels = aBytes / cells;
   if (mKind == COLOUR_CELLS && channels == 4) {
     std::memcpy(values.data(), aImage, aBytes);
@@ -352,10 +352,7 @@ void Drawing::SetImage(const std::uint8_t* aImage, std::size_t aBytes) {
       values[i] = {MarkOf(ImageColour_t(c[0], c[1], c[2], channels == 4 ? c[3] : 255))};
     }
   }
-  translated(mName, [&] {
-    mCore->session().request(
-        playerlike::SetCellsRequest{mLayer, {0, 0, width, height}, std::move(values)});
-  });
+  translated(mName, [&] { mCore->set_cells(mLayer, {0, 0, width, height}, std::move(values)); });
 }
 
 void Drawing::UpdateImage(const std::vector<ImagePixel_t>& aPixels) {

@@ -64,10 +64,9 @@ void require_numbers(const std::string& fun, const T* cells, std::size_t count) 
 
 // Converts numbers to the cells of a layer; colours take 3 or 4 numbers per cell, others take 1.
 template <typename T>
-std::vector<sim::CellValue> values_of(GridMapLayer::Kind kind, const T* numbers, std::size_t cells,
-                                      std::size_t channels) {
-  std::vector<sim::CellValue> values(cells);
-  for (std::size_t i = 0; i < cells; ++i) {
+void convert(GridMapLayer::Kind kind, const T* numbers, std::size_t channels,
+             std::vector<sim::CellValue>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
     const T* const cell = numbers + channels * i;
     switch (kind) {
       case GridMapLayer::BINARY:
@@ -83,7 +82,6 @@ std::vector<sim::CellValue> values_of(GridMapLayer::Kind kind, const T* numbers,
         break;
     }
   }
-  return values;
 }
 
 template <typename T>
@@ -265,10 +263,10 @@ void GridMapLayer::PutAll(const T* aCells, std::size_t aCount) {
                                 " given");
   }
   require_numbers(fun, aCells, aCount);
-  auto values = values_of(GetKind(), aCells, cells, aCount / cells);
+  std::vector<sim::CellValue> values = Core()->list_of_cells(cells);
+  convert(GetKind(), aCells, aCount / cells, values);
   translated(fun.c_str(), [&] {
-    Core()->session().request(
-        playerlike::SetCellsRequest{LayerNumber(), {0, 0, width, height}, std::move(values)});
+    Core()->set_cells(LayerNumber(), {0, 0, width, height}, std::move(values));
   });
 }
 

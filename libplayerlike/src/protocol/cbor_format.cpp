@@ -70,7 +70,7 @@ double half(std::uint64_t bits) {
 /// Parses one message. It recurses once per level; the number of levels is limited.
 class CborReader {
  public:
-  explicit CborReader(std::string_view bytes) : rest_(bytes) {}
+  CborReader(std::string_view bytes, Spare<std::uint8_t>* spare) : rest_(bytes), spare_(spare) {}
 
   json read() {
     json value = read_value(0);
@@ -124,8 +124,13 @@ class CborReader {
   }
 
   std::vector<std::uint8_t> read_bytes(std::uint64_t size) {
-    const std::string_view bytes = take(size);
-    return {bytes.begin(), bytes.end()};
+    constexpr std::size_t kLarge = std::size_t{16} << 10U;
+    const std::string_view taken = take(size);
+    std::vector<std::uint8_t> bytes;
+    if (spare_ != nullptr && taken.size() >= kLarge) bytes = spare_->take();
+    const auto* const begin = reinterpret_cast<const std::uint8_t*>(taken.data());
+    bytes.assign(begin, begin + taken.size());
+    return bytes;
   }
 
   std::string read_text(std::uint64_t size) {
@@ -236,6 +241,7 @@ class CborReader {
   }
 
   std::string_view rest_;
+  Spare<std::uint8_t>* spare_;  // may be null
 };
 
 }  // namespace
@@ -248,6 +254,8 @@ void append_cbor(const json& value, std::string& out) {
   }
 }
 
-json parse_cbor(std::string_view bytes) { return CborReader(bytes).read(); }
+json parse_cbor(std::string_view bytes, Spare<std::uint8_t>* spare) {
+  return CborReader(bytes, spare).read();
+}
 
 }  // namespace playerlike::protocol

@@ -91,11 +91,15 @@ std::vector<std::uint8_t> memory_of(std::span<const Number> numbers) {
 }
 
 template <typename Number>
+void copy_numbers(std::span<const std::uint8_t> bytes, std::vector<Number>& into) {
+  into.resize(bytes.size() / sizeof(Number));
+  if (!into.empty()) std::memcpy(into.data(), bytes.data(), into.size() * sizeof(Number));
+}
+
+template <typename Number>
 std::vector<Number> numbers_in(std::span<const std::uint8_t> bytes) {
-  std::vector<Number> numbers(bytes.size() / sizeof(Number));
-  if (!numbers.empty()) {
-    std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
-  }
+  std::vector<Number> numbers;
+  copy_numbers(bytes, numbers);
   return numbers;
 }
 
@@ -419,13 +423,19 @@ json encode_cells(std::span<const sim::CellValue> cells, Encoding encoding) {
   return bytes(memory_of(cells), encoding);
 }
 
-std::vector<sim::CellValue> decode_cells(const json& cells, Encoding encoding) {
-  return with_bytes(cells, "cells", encoding, [&](std::span<const std::uint8_t> bytes) {
+void decode_cells(const json& cells, Encoding encoding, std::vector<sim::CellValue>& into) {
+  with_bytes(cells, "cells", encoding, [&](std::span<const std::uint8_t> bytes) {
     if (bytes.size() % sizeof(sim::CellValue) != 0) {
       refuse_value("cells", "bytes, four a cell", cells);
     }
-    return numbers_in<sim::CellValue>(bytes);
+    copy_numbers(bytes, into);
   });
+}
+
+std::vector<sim::CellValue> decode_cells(const json& cells, Encoding encoding) {
+  std::vector<sim::CellValue> decoded;
+  decode_cells(cells, encoding, decoded);
+  return decoded;
 }
 
 std::string_view error_id(SessionError::Code code) noexcept {

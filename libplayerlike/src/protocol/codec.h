@@ -117,6 +117,8 @@ struct DecodedReading {
 /// Cells of a rectangle: four bytes per cell, little-endian (see docs/protocol.md).
 [[nodiscard]] json encode_cells(std::span<const sim::CellValue> cells, Encoding encoding);
 [[nodiscard]] std::vector<sim::CellValue> decode_cells(const json& cells, Encoding encoding);
+/// The same into a list, whose memory is reused.
+void decode_cells(const json& cells, Encoding encoding, std::vector<sim::CellValue>& into);
 /// Cells of a map: four bytes per cell, floats in 0..1.
 [[nodiscard]] json encode_occupancy(std::span<const float> cells, Encoding encoding);
 [[nodiscard]] std::vector<float> decode_occupancy(const json& cells, std::size_t count,

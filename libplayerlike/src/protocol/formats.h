@@ -1,9 +1,12 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+
+#include "messages/spare.h"
 
 /// The two encodings of messages; framing.h documents them.
 namespace playerlike::protocol {
@@ -13,6 +16,7 @@ void append_cbor(const nlohmann::json& value, std::string& out);
 
 /// @param splice_lists  whether long lists of numbers become typed arrays.
 [[nodiscard]] nlohmann::json parse_json(std::string_view text, bool splice_lists);
-[[nodiscard]] nlohmann::json parse_cbor(std::string_view bytes);
+/// @param spare  see decode(); may be null.
+[[nodiscard]] nlohmann::json parse_cbor(std::string_view bytes, Spare<std::uint8_t>* spare);
 
 }  // namespace playerlike::protocol

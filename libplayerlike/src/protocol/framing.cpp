@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "protocol/formats.h"
 #include "sim/core/assert.h"
@@ -113,21 +114,32 @@ std::optional<std::string_view> MessageSplitter::next_frame(std::size_t head, bo
 
 bool MessageSplitter::partial() const noexcept { return begin_ != end_; }
 
+void append_encoded(const json& message, Encoding encoding, std::string& out) {
+  if (encoding == Encoding::kJson) {
+    append_json(message, out);
+    out += '\n';
+    return;
+  }
+  const std::size_t begin = out.size();
+  out.resize(begin + kLengthBytes);
+  append_cbor(message, out);
+  write_big_endian(out.size() - begin - kLengthBytes, out.data() + begin);
+}
+
 std::string encode(const json& message, Encoding encoding) {
   std::string bytes;
-  if (encoding == Encoding::kJson) {
-    append_json(message, bytes);
-    bytes += '\n';
-  } else {
-    bytes.resize(kLengthBytes);
-    append_cbor(message, bytes);
-    write_big_endian(bytes.size() - kLengthBytes, bytes.data());
-  }
+  append_encoded(message, encoding, bytes);
   return bytes;
 }
 
-json decode(std::string_view bytes, Encoding encoding) {
-  json message = encoding == Encoding::kJson ? parse_json(bytes, true) : parse_cbor(bytes);
+void keep_bytes(json& message, Spare<std::uint8_t>& spare) {
+  for (json& member : message) {
+    if (member.is_binary()) spare.keep(std::move(member.get_binary()));
+  }
+}
+
+json decode(std::string_view bytes, Encoding encoding, Spare<std::uint8_t>* spare) {
+  json message = encoding == Encoding::kJson ? parse_json(bytes, true) : parse_cbor(bytes, spare);
   if (!message.is_object()) {
     throw ProtocolError("protocol/not-an-object",
                         std::string("a message is an object, found ") + message.type_name());

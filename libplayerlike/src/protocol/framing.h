@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "messages/spare.h"
+
 /// Playpen's protocol (docs/protocol.md) as bytes; the server and socket sessions share it.
 namespace playerlike::protocol {
 
@@ -105,6 +107,8 @@ class MessageSplitter {
 /// decode() restores numbers exactly. @pre numbers are finite: JSON cannot represent others (null
 /// is written), and decode() refuses them.
 [[nodiscard]] std::string encode(const nlohmann::json& message, Encoding encoding);
+/// Appends what encode() returns.
+void append_encoded(const nlohmann::json& message, Encoding encoding, std::string& out);
 
 /// Decodes the bytes of one message (from MessageSplitter), which must be an object.
 ///
@@ -115,7 +119,11 @@ class MessageSplitter {
 /// array of doubles, see kDoublesTag; require_doubles() accepts both forms.
 /// @throws ProtocolError protocol/syntax, protocol/too-deep (more than kMaxDepth levels),
 /// protocol/duplicate-key, protocol/not-an-object, protocol/number (not finite, or too large).
-[[nodiscard]] nlohmann::json decode(std::string_view bytes, Encoding encoding);
+/// @param spare  gives its memory to a large byte string in CBOR; see keep_bytes(). May be null.
+[[nodiscard]] nlohmann::json decode(std::string_view bytes, Encoding encoding,
+                                    Spare<std::uint8_t>* spare = nullptr);
+/// Gives the memory of a message's byte strings to `spare`. Their content is undefined afterwards.
+void keep_bytes(nlohmann::json& message, Spare<std::uint8_t>& spare);
 /// Minimum length of a list that decode() converts to a typed array.
 inline constexpr std::size_t kLongList = 16;
 

@@ -27,10 +27,13 @@ json encode_request(const Request& request, Encoding encoding) {
   return message;
 }
 
-Request decode_request(std::size_t type, const json& message, Encoding encoding) {
+Request decode_request(std::size_t type, const json& message, Encoding encoding,
+                       Spare<sim::CellValue>* spare) {
   const RequestKind& kind = request_kinds().at(type);
   refuse_unknown_keys(message, {"id", "do"}, kind.fields(), "this request");
   Request request = kind.make();
+  auto* const image = std::get_if<SetCellsRequest>(&request);
+  if (image != nullptr && spare != nullptr) image->cells = spare->take();
   read_fields(kind.fields(), message, encoding, sim::object_in(request));
   return request;
 }

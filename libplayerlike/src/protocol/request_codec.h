@@ -19,8 +19,9 @@ namespace playerlike::protocol {
 [[nodiscard]] nlohmann::json encode_request(const Request& request, Encoding encoding);
 /// @param type  from find_request(). @throws ProtocolError protocol/bad-value, also for unknown
 ///              keys.
+/// @param spare  gives its memory to the cells of a SetCellsRequest; may be null.
 [[nodiscard]] Request decode_request(std::size_t type, const nlohmann::json& message,
-                                     Encoding encoding);
+                                     Encoding encoding, Spare<sim::CellValue>* spare = nullptr);
 
 /// Encodes the answer to a request, without `id`.
 [[nodiscard]] nlohmann::json encode_answer(const Request& request, const Answer& answer,

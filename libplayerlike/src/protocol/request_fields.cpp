@@ -41,12 +41,12 @@ json encode_cell(const sim::CellValue& cell, Encoding encoding) {
   return encode_cells(std::span(&cell, 1), encoding);
 }
 
-std::vector<sim::CellValue> require_cells(const json& object, const char* key, Encoding encoding) {
-  return decode_cells(require(object, key), encoding);
+void read_cells(const json& object, const char* key, Encoding encoding, void* value) {
+  decode_cells(require(object, key), encoding, *static_cast<std::vector<sim::CellValue>*>(value));
 }
 
 sim::CellValue require_cell(const json& object, const char* key, Encoding encoding) {
-  const auto cells = require_cells(object, key, encoding);
+  const auto cells = decode_cells(require(object, key), encoding);
   if (cells.size() != 1) throw ProtocolError("protocol/bad-value", "cell: not one");
   return cells.front();
 }
@@ -84,7 +84,7 @@ constexpr sim::MessageForm kForm = {encode<kEncode, Value>, decode<kDecode, Valu
 constexpr auto kDevice = kForm<DeviceId, encode_device_id, require_device_id>;
 constexpr auto kRect = kForm<sim::CellRect, encode_rect, require_rect>;
 constexpr auto kCell = kForm<sim::CellValue, encode_cell, require_cell>;
-constexpr auto kCells = kForm<std::vector<sim::CellValue>, encode_cells, require_cells>;
+constexpr sim::MessageForm kCells = {encode<encode_cells, std::vector<sim::CellValue>>, read_cells};
 constexpr auto kProperty = kForm<PropertyValue, encode_property, require_property>;
 constexpr auto kMap = kForm<sim::OccupancyMap, encode_map, require_map>;
 constexpr auto kStyle = kForm<sim::LayerStyle, encode_style, require_style>;

@@ -260,7 +260,7 @@ void Connection::set_request_timeout(Clock::duration timeout) noexcept {
   impl_->timeout = timeout.count();
 }
 
-std::uint64_t Connection::ask(json& request, std::string before) {
+std::uint64_t Connection::ask(json& request, std::string& bytes) {
   std::uint64_t id = 0;
   {
     const std::lock_guard lock(impl_->mutex);
@@ -270,8 +270,8 @@ std::uint64_t Connection::ask(json& request, std::string before) {
   }
   try {
     request["id"] = id;
-    before += protocol::encode(request, impl_->encoding);
-    impl_->send(before);
+    protocol::append_encoded(request, impl_->encoding, bytes);
+    impl_->send(bytes);
   } catch (...) {
     const std::lock_guard lock(impl_->mutex);
     impl_->slots.erase(id);

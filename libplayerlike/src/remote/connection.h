@@ -58,9 +58,10 @@ class Connection {
     kWhileAlive,  ///< as long as the server is alive: after half of a request timeout without data
                   ///< it is asked for the time; a whole timeout without data ends the connection
   };
-  /// Sends `before` (encoded messages) and a request in one piece. Sets the `id` of the request.
+  /// Appends a request to `bytes` (encoded messages) and sends all in one piece. Sets the `id` of
+  /// the request.
   /// @return the id for answer(), which must be called. @throws ConnectionLost.
-  [[nodiscard]] std::uint64_t ask(nlohmann::json& request, std::string before = {});
+  [[nodiscard]] std::uint64_t ask(nlohmann::json& request, std::string& bytes);
   /// Waits for an answer.
   /// @param at_most  replaces the request timeout if it is shorter.
   /// @throws ConnectionLost; SessionError for an error answer.

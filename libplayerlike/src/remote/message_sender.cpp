@@ -110,20 +110,28 @@ void MessageSender::replace(std::shared_ptr<Connection> connection, const std::s
   joined_ = false;
 }
 
-std::string MessageSender::take_drawings(Encoding encoding, std::size_t limit) {
-  std::string bytes;
+void MessageSender::begin_with_drawings(const Connection& connection) {
+  const Encoding encoding = connection.encoding();
+  const std::size_t limit = connection.message_limit();
+  if (outgoing_.capacity() > Spare<char>::kMostBytes) outgoing_ = {};
+  outgoing_.clear();
   const std::size_t room = limit > kCallOverhead ? limit - kCallOverhead : 0;
   const std::size_t most = std::max<std::size_t>(room / drawing_bytes(encoding), 1);
   drawings_.drain([&](std::span<const sim::DrawOperation> drawings) {
     while (!drawings.empty()) {
       const auto part = drawings.first(std::min(drawings.size(), most));
       drawings = drawings.subspan(part.size());
-      bytes += protocol::encode(
-          json{{"do", "draw"}, {"drawings", protocol::encode_drawings(part, encoding)}}, encoding);
+      protocol::append_encoded(
+          json{{"do", "draw"}, {"drawings", protocol::encode_drawings(part, encoding)}}, encoding,
+          outgoing_);
       sent_.fetch_add(1);
     }
   });
-  return bytes;
+}
+
+std::uint64_t MessageSender::send_request(Connection& connection, json& request) {
+  begin_with_drawings(connection);
+  return connection.ask(request, outgoing_);
 }
 
 void MessageSender::flush() {
@@ -134,8 +142,8 @@ void MessageSender::flush() {
     start_flusher();
   }
   const std::shared_ptr<Connection> connection = this->connection();
-  const std::string bytes = take_drawings(connection->encoding(), connection->message_limit());
-  connection->tell(bytes);  // even without drawings, since it throws if the connection is lost
+  begin_with_drawings(*connection);
+  connection->tell(outgoing_);  // even without drawings, since it throws if the connection is lost
 }
 
 std::uint64_t MessageSender::begin_wait(json& request, std::shared_ptr<Connection>& on) {
@@ -158,8 +166,7 @@ json MessageSender::ask(json& request, Connection::WaitPolicy policy, bool waits
   std::uint64_t sent = 0;
   {
     const Lock lock(send_mutex_);
-    std::string drawings = take_drawings(connection->encoding(), connection->message_limit());
-    id = connection->ask(request, std::move(drawings));
+    id = send_request(*connection, request);
     sent = sent_;
     // Time stands still until the server has read this request, and so the messages before it.
     if (waits && joined_) acknowledged_ = sent;
@@ -187,8 +194,9 @@ void MessageSender::tell(const json& message) {
   const Lock lock(send_mutex_);
   const std::shared_ptr<Connection> connection = this->connection();
   sent_.fetch_add(1);
-  connection->tell(take_drawings(connection->encoding(), connection->message_limit()) +
-                   protocol::encode(message, connection->encoding()));
+  begin_with_drawings(*connection);
+  protocol::append_encoded(message, connection->encoding(), outgoing_);
+  connection->tell(outgoing_);
 }
 
 void MessageSender::flush_and_confirm() noexcept {
@@ -267,8 +275,7 @@ void MessageSender::close() noexcept {
       json bye = {{"do", "bye"}};
       {
         const Lock lock(send_mutex_);
-        std::string drawings = take_drawings(connection->encoding(), connection->message_limit());
-        id = connection->ask(bye, std::move(drawings));
+        id = send_request(*connection, bye);
       }
       static_cast<void>(connection->answer(id, Connection::WaitPolicy::kTimeout, kGoodBye));
     }

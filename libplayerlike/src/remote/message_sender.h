@@ -69,8 +69,10 @@ class MessageSender : public std::enable_shared_from_this<MessageSender> {
 
  private:
   using Lock = std::unique_lock<std::mutex>;
-  /// Encodes the draw queue. The caller holds `send_mutex_`.
-  [[nodiscard]] std::string take_drawings(protocol::Encoding encoding, std::size_t limit);
+  /// Replaces `outgoing_` by the encoded draw queue. The caller holds `send_mutex_`.
+  void begin_with_drawings(const Connection& connection);
+  /// Sends the draw queue and a request. The caller holds `send_mutex_`.
+  [[nodiscard]] std::uint64_t send_request(Connection& connection, nlohmann::json& request);
   nlohmann::json ask(nlohmann::json& request, Connection::WaitPolicy policy, bool waits,
                      std::shared_ptr<Connection>* answered_by);
   void start_flusher();
@@ -84,6 +86,7 @@ class MessageSender : public std::enable_shared_from_this<MessageSender> {
 
   std::mutex send_mutex_;  // guards the consumer's end of the draw queue and the order of messages
   DrawQueue drawings_;
+  std::string outgoing_;  // guarded by send_mutex_; kept, see Spare
   bool has_room_ = false;
   std::atomic<std::uint64_t> sent_{0};          // messages without answers so far
   std::atomic<std::uint64_t> acknowledged_{0};  // how many of them have arrived

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "playerlike/session/layer_registry.h"
+#include "protocol/request_codec.h"
 #include "remote/message_sender.h"
 #include "remote/socket_session.h"
 #include "sim/core/number_text.h"
@@ -38,27 +39,46 @@ void SocketSession::set_cells(const SetCellsRequest& what) const {
   const auto rows =
       static_cast<int>(std::min({most / std::max<std::size_t>(most_columns, 1), kMaxMapSide,
                                  static_cast<std::size_t>(rect.height)}));
-  if (columns == rect.width && rows == rect.height) {
-    static_cast<void>(ask_for(what));
-    return;
-  }
   const std::span<const sim::CellValue> values = what.cells;
+  if (values.empty()) return set_cells(what.layer, rect, values);  // it may be refused
   std::vector<sim::CellValue> cells;
   for (int row = 0; row < rect.height; row += rows) {
     for (int column = 0; column < rect.width; column += columns) {
       const sim::CellRect part{rect.column + column, rect.row + row,
                                std::min(columns, rect.width - column),
                                std::min(rows, rect.height - row)};
+      const auto lines = values.subspan(static_cast<std::size_t>(row) * width);
+      if (part.width == rect.width) {
+        set_cells(what.layer, part, lines.first(static_cast<std::size_t>(part.height) * width));
+        continue;
+      }
       cells.clear();
       for (int i = 0; i < part.height; ++i) {
-        const auto line = values.subspan(
-            static_cast<std::size_t>(row + i) * width + static_cast<std::size_t>(column),
-            static_cast<std::size_t>(part.width));
+        const auto line =
+            lines.subspan(static_cast<std::size_t>(i) * width + static_cast<std::size_t>(column),
+                          static_cast<std::size_t>(part.width));
         cells.insert(cells.end(), line.begin(), line.end());
       }
-      static_cast<void>(ask_for(SetCellsRequest{what.layer, part, cells}));
+      set_cells(what.layer, part, cells);
     }
   }
+}
+
+void SocketSession::set_cells(sim::LayerId layer, const sim::CellRect& rect,
+                              std::span<const sim::CellValue> cells) const {
+  const Encoding encoding = sender_->connection()->encoding();
+  json message = protocol::encode_request(SetCellsRequest{layer, rect, {}}, encoding);
+  std::vector<std::uint8_t> bytes;
+  {
+    const Lock lock(mutex_);
+    bytes = spare_bytes_.take();
+  }
+  const auto* const begin = reinterpret_cast<const std::uint8_t*>(cells.data());
+  bytes.assign(begin, begin + cells.size_bytes());
+  message["cells"] = protocol::bytes(std::move(bytes), encoding);
+  static_cast<void>(ask(message));
+  const Lock lock(mutex_);
+  protocol::keep_bytes(message, spare_bytes_);
 }
 
 WorldMap SocketSession::world_map(double cell_size_m) const {

@@ -229,7 +229,8 @@ void SocketSession::resume(const std::shared_ptr<Connection>& connection) const 
   }
   for (const Request& request : requests) {
     json message = protocol::encode_request(request, connection->encoding());
-    static_cast<void>(connection->answer(connection->ask(message)));
+    std::string bytes;
+    static_cast<void>(connection->answer(connection->ask(message, bytes)));
   }
 }
 
@@ -261,7 +262,7 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
 
 // --- Messages and requests
 
-json SocketSession::ask(json request) const {
+json SocketSession::ask(json& request) const {
   json answer = with_connection([&] { return sender_->ask(request); });
   note(answer);
   throw_async_error();

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -104,7 +105,8 @@ class SocketSession final : public Session {
   bool pause(double seconds) const;
 
   /// Sends drawings and a request; waits for the answer.
-  nlohmann::json ask(nlohmann::json request) const;
+  nlohmann::json ask(nlohmann::json& request) const;
+  nlohmann::json ask(nlohmann::json&& request) const { return ask(request); }
   /// Sends a request to the server and decodes its answer.
   [[nodiscard]] Answer ask_for(const Request& request) const;
   /// Sends a `read`, which may let time pass.
@@ -119,6 +121,9 @@ class SocketSession final : public Session {
   void throw_async_error() const;
   void unsubscribe(DeviceId device);
   void set_cells(const SetCellsRequest& what) const;
+  /// Sends cells that fit one message.
+  void set_cells(sim::LayerId layer, const sim::CellRect& rect,
+                 std::span<const sim::CellValue> cells) const;
   [[nodiscard]] WorldMap world_map(double cell_size_m) const;
   /// Attaches the session to the clock of virtual time, if the settings and the server allow it.
   void take_part_in_turns(const TimeStatistics& time, std::uint64_t session);
@@ -162,6 +167,7 @@ class SocketSession final : public Session {
   bool over_ = false;  ///< the run is over
   int reads_after_end_ = 0;
   mutable CanvasInfo canvas_;
+  mutable Spare<std::uint8_t> spare_bytes_;  ///< for images
   std::atomic<std::uint32_t> overflow_{0};
   mutable std::atomic<std::uint64_t> canvas_generation_{0};
 };

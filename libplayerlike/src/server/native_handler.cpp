@@ -118,9 +118,10 @@ void NativeHandler::on_message(std::string_view bytes) {
   json id;
   std::string name;
   guarded(id, name, [&] {
-    const json message = protocol::decode(bytes, terms_.encoding);
+    json message = protocol::decode(bytes, terms_.encoding, &spare_bytes_);
     if (message.contains("id")) id = protocol::require_integer(message, "id", 0, kMaxInteger);
     execute(message, id, name);
+    protocol::keep_bytes(message, spare_bytes_);
   });
 }
 
@@ -150,12 +151,8 @@ void NativeHandler::execute(const json& message, const json& id, std::string& na
     throw ProtocolError("access/denied", "this connection only watches, as its hello said");
   }
   if (type) {
-    Request request = protocol::decode_request(*type, message, terms_.encoding);
-    guard_.check(request);
-    if (native_work_cells(request, session(), hub_.host()) > kInlineCells) {
-      return answer_elsewhere(std::move(request), id, name);
-    }
-    return answer(id, protocol::encode_answer(request, session().answer(request), terms_.encoding));
+    return handle_request(protocol::decode_request(*type, message, terms_.encoding, &spare_cells_),
+                          id, name);
   }
   protocol::refuse_unknown_keys(message, own->keys, "this request");
   if (own->handle != nullptr) {
@@ -169,6 +166,17 @@ void NativeHandler::execute(const json& message, const json& id, std::string& na
   require_drawing(drawings);
   if (draw_here(drawings)) return answer(id, json::object());
   draw_elsewhere(std::move(drawings), id, name, [this, id] { answer(id, json::object()); });
+}
+
+void NativeHandler::handle_request(Request request, const json& id, const std::string& name) {
+  guard_.check(request);
+  if (native_work_cells(request, session(), hub_.host()) > kInlineCells) {
+    return answer_elsewhere(std::move(request), id, name);
+  }
+  answer(id, protocol::encode_answer(request, session().answer(request), terms_.encoding));
+  if (auto* const image = std::get_if<SetCellsRequest>(&request)) {
+    spare_cells_.keep(std::move(image->cells));
+  }
 }
 
 // --- Work

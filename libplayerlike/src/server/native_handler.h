@@ -66,6 +66,8 @@ class NativeHandler final : public Handler {
   };
 
   void execute(const json& message, const json& id, std::string& name);
+  /// Answers a request at once, or has the worker thread answer it if it takes long.
+  void handle_request(Request request, const json& id, const std::string& name);
   /// Runs an action for a request; answers its exceptions.
   template <typename Action>
   void guarded(const json& id, const std::string& name, Action action);
@@ -135,6 +137,9 @@ class NativeHandler final : public Handler {
   bool ending_ = false;                  ///< the client has sent bye
   std::uint64_t canvas_generation_ = 0;  ///< the generation that the client knows
   LightDrawings light_drawings_;
+  // For images, which come one after another.
+  Spare<std::uint8_t> spare_bytes_;
+  Spare<sim::CellValue> spare_cells_;
 };
 
 }  // namespace playerlike::server

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "messages/spare.h"
 #include "print_encoding.h"
 #include "protocol/codec.h"
 #include "protocol/framing.h"
@@ -511,6 +512,33 @@ TEST(Cbor, FalseLengths_Refused) {
   }
   EXPECT_EQ(decode_error(cbor_of("\xd8\x56\x5b\xff\xff\xff\xff\xff\xff\xff\xf8"s), Encoding::kCbor),
             "protocol/syntax");
+}
+
+TEST(Cbor, LargeBytes_InKeptMemory) {
+  const auto message_of = [](std::size_t size, std::uint8_t value) {
+    return encode({{"cells", json::binary(std::vector<std::uint8_t>(size, value))}},
+                  Encoding::kCbor)
+        .substr(4);
+  };
+  Spare<std::uint8_t> spare;
+  json first = decode(message_of(100'000, 7), Encoding::kCbor, &spare);
+  const std::uint8_t* const memory = first.at("cells").get_binary().data();
+  keep_bytes(first, spare);
+  const json small = decode(message_of(100, 9), Encoding::kCbor, &spare);
+  EXPECT_NE(small.at("cells").get_binary().data(), memory);
+  const json second = decode(message_of(50'000, 8), Encoding::kCbor, &spare);
+  EXPECT_EQ(second.at("cells").get_binary().data(), memory);
+  EXPECT_EQ(second.at("cells"), json::binary(std::vector<std::uint8_t>(50'000, 8)));
+}
+
+TEST(Spare, TooLargeOrSmallerLists_NotKept) {
+  Spare<char> spare;
+  spare.keep(std::vector<char>(Spare<char>::kMostBytes + 1));
+  EXPECT_EQ(spare.take().capacity(), 0U);
+  spare.keep(std::vector<char>(100));
+  spare.keep(std::vector<char>(10));
+  EXPECT_GE(spare.take().capacity(), 100U);
+  EXPECT_EQ(spare.take().capacity(), 0U);
 }
 
 TEST(Cbor, NonFiniteOrLargeNumbers_Refused) {
