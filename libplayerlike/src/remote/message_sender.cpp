@@ -18,6 +18,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kFlushPeriod(20);
 // How long to wait for the server's good-bye.
 constexpr milliseconds kGoodBye(1000);
+// More bytes than this are not held back.
+constexpr std::size_t kMostHeldBack = std::size_t{32} << 10U;
 // Maximum size of a `draw` message without its drawings, and of one drawing [bytes].
 constexpr std::size_t kCallOverhead = 256;
 constexpr std::size_t drawing_bytes(Encoding encoding) {
@@ -108,6 +110,7 @@ void MessageSender::replace(std::shared_ptr<Connection> connection, const std::s
   connection_ = std::move(connection);
   simulation_ = now;
   joined_ = false;
+  holds_back_ = false;
 }
 
 std::string MessageSender::take_drawings(Encoding encoding, std::size_t limit) {
@@ -126,6 +129,12 @@ std::string MessageSender::take_drawings(Encoding encoding, std::size_t limit) {
   return bytes;
 }
 
+std::string MessageSender::take_waiting(const Connection& connection) {
+  std::string bytes = std::exchange(held_back_, {});
+  bytes += take_drawings(connection.encoding(), connection.message_limit());
+  return bytes;
+}
+
 void MessageSender::flush() {
   const Lock lock(send_mutex_);
   if (!has_room_) {
@@ -134,7 +143,7 @@ void MessageSender::flush() {
     start_flusher();
   }
   const std::shared_ptr<Connection> connection = this->connection();
-  const std::string bytes = take_drawings(connection->encoding(), connection->message_limit());
+  const std::string bytes = take_waiting(*connection);
   connection->tell(bytes);  // even without drawings, since it throws if the connection is lost
 }
 
@@ -142,8 +151,7 @@ std::uint64_t MessageSender::begin_wait(json& request, std::shared_ptr<Connectio
   confirm_others();
   on = connection();
   const Lock lock(send_mutex_);
-  std::string drawings = take_drawings(on->encoding(), on->message_limit());
-  const std::uint64_t id = on->ask(request, std::move(drawings));
+  const std::uint64_t id = on->ask(request, take_waiting(*on));
   // No time passes until the server has read this request, and so the messages before it.
   acknowledged_.store(sent_);
   joined_ = true;
@@ -158,8 +166,7 @@ json MessageSender::ask(json& request, Connection::WaitPolicy policy, bool waits
   std::uint64_t sent = 0;
   {
     const Lock lock(send_mutex_);
-    std::string drawings = take_drawings(connection->encoding(), connection->message_limit());
-    id = connection->ask(request, std::move(drawings));
+    id = connection->ask(request, take_waiting(*connection));
     sent = sent_;
     // Time stands still until the server has read this request, and so the messages before it.
     if (waits && joined_) acknowledged_ = sent;
@@ -187,8 +194,13 @@ void MessageSender::tell(const json& message) {
   const Lock lock(send_mutex_);
   const std::shared_ptr<Connection> connection = this->connection();
   sent_.fetch_add(1);
-  connection->tell(take_drawings(connection->encoding(), connection->message_limit()) +
-                   protocol::encode(message, connection->encoding()));
+  std::string bytes = take_waiting(*connection);
+  bytes += protocol::encode(message, connection->encoding());
+  if (holds_back_ && bytes.size() < kMostHeldBack) {
+    held_back_ = std::move(bytes);
+    bytes.clear();
+  }
+  connection->tell(bytes);  // even without bytes, since it throws if the connection is lost
 }
 
 void MessageSender::flush_and_confirm() noexcept {
@@ -267,8 +279,7 @@ void MessageSender::close() noexcept {
       json bye = {{"do", "bye"}};
       {
         const Lock lock(send_mutex_);
-        std::string drawings = take_drawings(connection->encoding(), connection->message_limit());
-        id = connection->ask(bye, std::move(drawings));
+        id = connection->ask(bye, take_waiting(*connection));
       }
       static_cast<void>(connection->answer(id, Connection::WaitPolicy::kTimeout, kGoodBye));
     }
