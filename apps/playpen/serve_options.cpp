@@ -73,9 +73,9 @@ void add_serve(CommandLine& line) {
   playerlike::ServerSettings& server = request->server;
   CLI::App& command = line.add_command("serve", "Offer a world to client programs over TCP");
   command.footer(
-      "Clients connect with PLAYPEN_WORLD=tcp://HOST:PORT or unix:PATH, or as MORSE's do: see\n"
-      "'playpen doc remote'. With --port 6665, Player's clients find each robot on its\n"
-      "own port.\n"
+      "Clients connect with PLAYPEN_WORLD=tcp://HOST:PORT or unix:PATH, or as MORSE's\n"
+      "do: see 'playpen doc remote'. With --port 6665, Player's clients find each robot\n"
+      "on its own port.\n"
       "Ends on Ctrl-C (SIGINT) or SIGTERM, with reports and pictures written.");
   add_world(line, command, request->world);
   add_robot_port(command, request->settings,

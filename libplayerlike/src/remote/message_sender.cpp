@@ -18,6 +18,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kFlushPeriod(20);
 // How long to wait for the server's good-bye.
 constexpr milliseconds kGoodBye(1000);
+// More bytes than this are not held back.
+constexpr std::size_t kMostHeldBack = std::size_t{32} << 10U;
 // Maximum size of a `draw` message without its drawings, and of one drawing [bytes].
 constexpr std::size_t kCallOverhead = 256;
 constexpr std::size_t drawing_bytes(Encoding encoding) {
@@ -108,13 +110,15 @@ void MessageSender::replace(std::shared_ptr<Connection> connection, const std::s
   connection_ = std::move(connection);
   simulation_ = now;
   joined_ = false;
+  holds_back_ = false;
 }
 
-void MessageSender::begin_with_drawings(const Connection& connection) {
+void MessageSender::begin_with_waiting(const Connection& connection) {
   const Encoding encoding = connection.encoding();
   const std::size_t limit = connection.message_limit();
   if (outgoing_.capacity() > Spare<char>::kMostBytes) outgoing_ = {};
-  outgoing_.clear();
+  outgoing_ = held_back_;
+  held_back_.clear();
   const std::size_t room = limit > kCallOverhead ? limit - kCallOverhead : 0;
   const std::size_t most = std::max<std::size_t>(room / drawing_bytes(encoding), 1);
   drawings_.drain([&](std::span<const sim::DrawOperation> drawings) {
@@ -130,7 +134,7 @@ void MessageSender::begin_with_drawings(const Connection& connection) {
 }
 
 std::uint64_t MessageSender::send_request(Connection& connection, json& request) {
-  begin_with_drawings(connection);
+  begin_with_waiting(connection);
   return connection.ask(request, outgoing_);
 }
 
@@ -142,7 +146,7 @@ void MessageSender::flush() {
     start_flusher();
   }
   const std::shared_ptr<Connection> connection = this->connection();
-  begin_with_drawings(*connection);
+  begin_with_waiting(*connection);
   connection->tell(outgoing_);  // even without drawings, since it throws if the connection is lost
 }
 
@@ -150,8 +154,7 @@ std::uint64_t MessageSender::begin_wait(json& request, std::shared_ptr<Connectio
   confirm_others();
   on = connection();
   const Lock lock(send_mutex_);
-  std::string drawings = take_drawings(on->encoding(), on->message_limit());
-  const std::uint64_t id = on->ask(request, std::move(drawings));
+  const std::uint64_t id = send_request(*on, request);
   // No time passes until the server has read this request, and so the messages before it.
   acknowledged_.store(sent_);
   joined_ = true;
@@ -194,9 +197,13 @@ void MessageSender::tell(const json& message) {
   const Lock lock(send_mutex_);
   const std::shared_ptr<Connection> connection = this->connection();
   sent_.fetch_add(1);
-  begin_with_drawings(*connection);
+  begin_with_waiting(*connection);
   protocol::append_encoded(message, connection->encoding(), outgoing_);
-  connection->tell(outgoing_);
+  if (holds_back_ && outgoing_.size() < kMostHeldBack) {
+    held_back_.swap(outgoing_);
+    outgoing_.clear();
+  }
+  connection->tell(outgoing_);  // even without bytes, since it throws if the connection is lost
 }
 
 void MessageSender::flush_and_confirm() noexcept {

@@ -50,12 +50,17 @@ class MessageSender : public std::enable_shared_from_this<MessageSender> {
   /// As wait(), but returns at once. @param on  receives the connection for
   /// Connection::answer_within(). @return the id for it.
   std::uint64_t begin_wait(nlohmann::json& request, std::shared_ptr<Connection>& on);
-  /// Sends a message without an answer. @throws ConnectionLost.
+  /// Sends a message without an answer, at once or with the next one that has an answer, see
+  /// hold_back(). @throws ConnectionLost.
   void tell(const nlohmann::json& message);
   /// Makes sure that all messages sent so far have arrived.
   void flush_and_confirm() noexcept;
   /// Calls flush_and_confirm() for all other sessions of this process in the same simulation.
   void confirm_others() noexcept;
+
+  /// Sets whether messages without answers are sent with the next message that has one. That is
+  /// equivalent, and saves a system call for each, while no time can pass without this program.
+  void hold_back(bool holds) noexcept { holds_back_ = holds; }
 
   /// Sets whether time follows the wall clock; then a thread flushes the draw queue periodically.
   void set_paced(bool paced);
@@ -69,9 +74,10 @@ class MessageSender : public std::enable_shared_from_this<MessageSender> {
 
  private:
   using Lock = std::unique_lock<std::mutex>;
-  /// Replaces `outgoing_` by the encoded draw queue. The caller holds `send_mutex_`.
-  void begin_with_drawings(const Connection& connection);
-  /// Sends the draw queue and a request. The caller holds `send_mutex_`.
+  /// Replaces `outgoing_` by the messages that are held back, and the encoded draw queue. The
+  /// caller holds `send_mutex_`.
+  void begin_with_waiting(const Connection& connection);
+  /// Sends these and a request. The caller holds `send_mutex_`.
   [[nodiscard]] std::uint64_t send_request(Connection& connection, nlohmann::json& request);
   nlohmann::json ask(nlohmann::json& request, Connection::WaitPolicy policy, bool waits,
                      std::shared_ptr<Connection>* answered_by);
@@ -88,6 +94,8 @@ class MessageSender : public std::enable_shared_from_this<MessageSender> {
   DrawQueue drawings_;
   std::string outgoing_;  // guarded by send_mutex_; kept, see Spare
   bool has_room_ = false;
+  std::string held_back_;  // guarded by send_mutex_; see hold_back()
+  std::atomic<bool> holds_back_{false};
   std::atomic<std::uint64_t> sent_{0};          // messages without answers so far
   std::atomic<std::uint64_t> acknowledged_{0};  // how many of them have arrived
   std::atomic<bool> joined_{false};             // this client has joined the lockstep

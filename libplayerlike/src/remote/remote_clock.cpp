@@ -309,7 +309,9 @@ void RemoteClock::apply(const Advance& advance, json answer) {
     now_ns_.store(std::max(now_ns(), server_ns - start_ns_), std::memory_order_release);
     over_ = over_ || protocol::require_bool(answer, "finished");
     const json& ready = protocol::require(answer, "ready");
+    const bool alone = protocol::require_bool(answer, "alone");
     for (const ClientPointer& client : clients_) {
+      client->sender->hold_back(alone);
       client->has_data =
           client->fetched || std::find(ready.begin(), ready.end(), client->number) != ready.end();
     }

@@ -100,6 +100,8 @@ class NativeHandler final : public Handler {
   /// @param take  see Waiting.
   json round(Wait wait, Outcome outcome, bool take = true);
   json round_of_turns(bool take);
+  /// Whether all connections to the server are those of this process's sessions.
+  [[nodiscard]] bool is_only_program() const;
   /// The wait of a program in virtual time, see docs/protocol.md#virtual-time.
   [[nodiscard]] EventClient::TurnsWait turns_wait(const json& request) const;
   /// Notes reasons why another run may differ, which the request tells.

@@ -86,9 +86,16 @@ json NativeHandler::ready_sessions() const {
   return ready;
 }
 
+bool NativeHandler::is_only_program() const {
+  return state_->open.size() == hub_.connections() &&
+         std::all_of(state_->open.begin(), state_->open.end(),
+                     [this](const auto& entry) { return entry.second.process == terms_.process; });
+}
+
 json NativeHandler::round_of_turns(bool take) {
   json answer = {{"readings", take ? readings() : json::array()}, {"data", take}};
   answer["ready"] = ready_sessions();
+  answer["alone"] = is_only_program();
   const TimeStatistics time = hub_.host().time();
   answer["t"] = time.sim_time_ns;
   answer["finished"] = time.finished;

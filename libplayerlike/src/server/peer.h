@@ -172,6 +172,9 @@ class Hub {
   /// such a callback, this happens after the return, without another wake-up.
   virtual void pump() = 0;
 
+  /// Number of open connections; 0: unknown.
+  [[nodiscard]] virtual std::size_t connections() const noexcept { return 0; }
+
   /// TCP ports of Player's protocol by the robots' ports in the world; empty if it is not offered.
   [[nodiscard]] virtual const std::map<int, int>& player_ports() const noexcept = 0;
   /// Opens another port on the server's addresses, with its own kind of handler.

@@ -118,7 +118,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   [[nodiscard]] const std::map<int, int>& player_ports() const noexcept override {
     return player_ports_;
   }
-  [[nodiscard]] std::size_t connections() const noexcept { return open_connections_; }
+  [[nodiscard]] std::size_t connections() const noexcept override { return open_connections_; }
   [[nodiscard]] bool done() const noexcept {
     return quit_ || (open_connections_ == 0 && host_->finished());
   }

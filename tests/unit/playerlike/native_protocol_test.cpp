@@ -147,6 +147,8 @@ class FakeHub final : public Hub {
     }
     for (const auto& task : tasks) task();
   }
+  [[nodiscard]] std::size_t connections() const noexcept override { return handlers.size(); }
+
   void fire() {
     const auto all = std::exchange(timers, {});
     for (const auto& timer : all) timer.second();
@@ -682,6 +684,7 @@ TEST_P(NativeProtocol, Turns_EndWithDataOfProcessesOtherSessions) {
   request["others"] = {two.welcome["session"], stranger.welcome["session"]};
   request["joined"] = {two.welcome["session"]};
   const json answer = one.read("turns", request);
+  EXPECT_EQ(answer["alone"], false);
   EXPECT_EQ(answer["t"], 100'000'000);
   EXPECT_THAT(answer["ready"],
               testing::UnorderedElementsAre(one.welcome["session"], two.welcome["session"]));
@@ -695,6 +698,7 @@ TEST_P(NativeProtocol, Turns_AfterLeaveLetTimePass) {
   const double driven_m = program.ask("object_pose", {{"name", "r1"}})["pose"]["x"];
   EXPECT_EQ(program.error("leave"), "");
   EXPECT_EQ(program.read("turns", turns(5'000'000'000, false, false))["t"], 5'000'000'000);
+  EXPECT_EQ(program.read("turns", turns(5'000'000'000, false, false))["alone"], true);
   // The robot stopped when its session ended.
   EXPECT_NEAR(program.ask("object_pose", {{"name", "r1"}})["pose"]["x"], driven_m, 0.05);
 }
