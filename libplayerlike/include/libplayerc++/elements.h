@@ -69,6 +69,13 @@ class Elements {
     aCount = own->mCount;
     return true;
   }
+  /// Reads the owner of the elements, as Count() reads their number.
+  bool Owner(const void*& aOwner) const {
+    const View* const own = Own();
+    if (own == nullptr || own->mCount == 0) return false;
+    aOwner = own->mOwner.get();
+    return true;
+  }
   /// Reads the bearing of an element, as Count() reads their number. Bearings come from a table,
   /// because programs may be compiled with fused multiplication and addition, which would change
   /// the last bit.

@@ -89,7 +89,12 @@ uint32_t LaserProxy::LockedCount() const {
   return static_cast<uint32_t>(mLink->newest.as<LaserReading>().ranges_m.size());
 }
 
-double LaserProxy::GetMaxRange() const { return Look(&LaserReading::range_max_m); }
+// Programs compare each beam with it.
+double LaserProxy::GetMaxRange() const {
+  const void* owner = nullptr;
+  if (!mElements.Owner(owner)) return Look(&LaserReading::range_max_m);
+  return static_cast<const LaserReading&>(*static_cast<const sim::Reading*>(owner)).range_max_m;
+}
 
 double LaserProxy::GetScanRes() const {
   return Look(&LaserReading::resolution_rad, "LaserProxy::GetScanRes");

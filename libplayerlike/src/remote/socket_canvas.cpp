@@ -66,8 +66,8 @@ void SocketSession::set_cells(const SetCellsRequest& what) const {
 
 void SocketSession::set_cells(sim::LayerId layer, const sim::CellRect& rect,
                               std::span<const sim::CellValue> cells) const {
-  const Encoding encoding = sender_->connection()->encoding();
-  json message = protocol::encode_request(SetCellsRequest{layer, rect, {}}, encoding);
+  const protocol::Encoding encoding = sender_->connection()->encoding();
+  nlohmann::json message = protocol::encode_request(SetCellsRequest{layer, rect, {}}, encoding);
   std::vector<std::uint8_t> bytes;
   {
     const Lock lock(mutex_);

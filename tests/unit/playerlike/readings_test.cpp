@@ -153,6 +153,7 @@ class Looks : public testing::Test {
         const double seen = laser[i];
         EXPECT_GE(seen, last);
         EXPECT_NEAR(laser.GetBearing(i), 0.5 * i - 1.0, 1e-12);
+        EXPECT_EQ(laser.GetMaxRange(), 5.0);
         last = seen;
       }
       const double x = position.GetXPos();
