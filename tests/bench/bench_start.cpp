@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Cost of starting: the libraries that a plain client loads, the processor time from exec to the
 // end of its first Read(), and the processor time of a whole run of a minute with its pictures and
-// of one with a film. The times are user and kernel time of the child processes, as getrusage()
-// reports them, not wall-clock time.
+// of one with a film; and the parts of a graded run. The times are user and kernel time of the
+// child processes, as getrusage() reports them, not wall-clock time.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr int kRuns = 50;
 constexpr int kFilms = 3;
+constexpr int kGrades = 10;
 constexpr int kFilm_s = 20;
 
 double milliseconds(const timeval& time) {
@@ -80,6 +81,30 @@ std::vector<double> medians_ms(const std::vector<std::vector<std::string>>& comm
   return result;
 }
 
+#ifdef SOLUTION
+/// A graded run of the introduction, 120 s long, and its parts.
+void grade_figures(const std::string& out) {
+  const std::string world = PLAYPEN_SOURCE_DIR "/worlds/tasks/par_intro.json";
+  const auto run = [&](const std::string& seconds) {
+    return std::vector<std::string>{PLAYPEN_COMMAND, "run",   world, "--quiet", "--out", out,
+                                    "--duration",    seconds, "--",  SOLUTION};
+  };
+  const std::vector<double> ms = medians_ms({{PLAYPEN_COMMAND, "grade", world, "--seeds", "1,",
+                                              "--jobs", "1", "--out", out, "--", SOLUTION},
+                                             run("120"),
+                                             run("0.1")},
+                                            kGrades);
+  std::printf(
+      "processor time, medians of %d: a graded run of 120 s %.0f ms, of which start and pictures\n"
+      "%.0f ms, the program and the simulation %.0f ms, the grade %.0f ms\n",
+      kGrades, ms[0], ms[2], ms[1] - ms[2], ms[0] - ms[1]);
+  sim::bench::figure("graded_120s_cpu_ms", ms[0]);
+  sim::bench::figure("graded_start_and_pictures_cpu_ms", ms[2]);
+  sim::bench::figure("graded_driving_cpu_ms", ms[1] - ms[2]);
+  sim::bench::figure("graded_judging_cpu_ms", ms[0] - ms[1]);
+}
+#endif
+
 /// The number after the last blank of the last line that a command prints.
 double last_number(const std::string& command) {
   std::FILE* const pipe = popen(command.c_str(), "r");
@@ -132,6 +157,9 @@ int main() {
                 film_memory_mb);
     sim::bench::figure("film_cpu_ms_per_s", (films[1] - films[0]) / kFilm_s);
     sim::bench::figure("film_memory_mb", film_memory_mb);
+#ifdef SOLUTION
+    grade_figures(out.string());
+#endif
     fs::remove_all(out);
     fs::remove(out.string() + ".mp4");
     return 0;

@@ -45,6 +45,10 @@ ROWS = [
      "program; shared libraries loaded", "{start_cpu_ms:.2} ms; {libraries_loaded:.0f}"),
     ("processor time of `playpen run cave --duration 60` with a sonar wanderer and its pictures",
      "{run_60s_cpu_ms:.0f} ms"),
+    ("processor time of `playpen grade par_intro` for one run of 120 s; of these the start and the "
+     "pictures / the program and the simulation / the grade",
+     "{graded_120s_cpu_ms:.0f} ms; {graded_start_and_pictures_cpu_ms:.0f} / "
+     "{graded_driving_cpu_ms:.0f} / {graded_judging_cpu_ms:.0f} ms"),
     ("processor time of a film, for each simulated second at 25 frames a second; memory",
      "{film_cpu_ms_per_s:.0f} ms; {film_memory_mb:.0f} MB"),
     ("cells a second drawn with single `SetPixel()` calls of a window, one thread",
