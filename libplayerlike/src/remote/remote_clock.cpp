@@ -45,7 +45,7 @@ RemoteClock::RemoteClock(const Settings& settings) : settings_(settings) {}
 RemoteClock::ClientPointer RemoteClock::add(std::shared_ptr<MessageSender> sender,
                                             std::uint64_t number, bool follower,
                                             sim::SimTime server_ns) {
-  const auto client = std::make_shared<Client>();
+  auto client = std::make_shared<Client>();
   client->sender = std::move(sender);
   client->number = number;
   client->follower = follower;

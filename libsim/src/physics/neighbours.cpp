@@ -2,7 +2,9 @@
 #include "physics/neighbours.h"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <span>
 #include <utility>
 
@@ -23,7 +25,8 @@ constexpr double kCoarseWallDistance_m = 0.05;
 
 template <typename Plain>
 bool same_bits(const Plain& a, const Plain& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  using Bytes = std::array<std::byte, sizeof(Plain)>;
+  return std::bit_cast<Bytes>(a) == std::bit_cast<Bytes>(b);
 }
 
 }  // namespace
