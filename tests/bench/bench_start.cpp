@@ -84,16 +84,18 @@ std::vector<double> medians_ms(const std::vector<std::vector<std::string>>& comm
 #ifdef SOLUTION
 /// A graded run of the introduction, 120 s long, and its parts.
 void grade_figures(const std::string& out) {
-  const std::string world = PLAYPEN_SOURCE_DIR "/worlds/tasks/par_intro.json";
+  const std::string task = PLAYPEN_SOURCE_DIR "/worlds/tasks/par_intro";
   const auto run = [&](const std::string& seconds) {
-    return std::vector<std::string>{PLAYPEN_COMMAND, "run",   world, "--quiet", "--out", out,
-                                    "--duration",    seconds, "--",  SOLUTION};
+    return std::vector<std::string>{
+        PLAYPEN_COMMAND, "run",   task + ".json", "--quiet", "--out", out,
+        "--duration",    seconds, "--",           SOLUTION};
   };
-  const std::vector<double> ms = medians_ms({{PLAYPEN_COMMAND, "grade", world, "--seeds", "1,",
-                                              "--jobs", "1", "--out", out, "--", SOLUTION},
-                                             run("120"),
-                                             run("0.1")},
-                                            kGrades);
+  const std::vector<double> ms =
+      medians_ms({{PLAYPEN_COMMAND, "grade", task + ".task.json", "--seeds", "1,", "--jobs", "1",
+                   "--out", out, "--", SOLUTION},
+                  run("120"),
+                  run("0.1")},
+                 kGrades);
   std::printf(
       "processor time, medians of %d: a graded run of 120 s %.0f ms, of which start and pictures\n"
       "%.0f ms, the program and the simulation %.0f ms, the grade %.0f ms\n",
