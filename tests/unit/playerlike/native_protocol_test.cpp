@@ -681,8 +681,8 @@ TEST_P(NativeProtocol, Turns_EndWithDataOfProcessesOtherSessions) {
     each->ask("subscribe", {{"device", each->device("r1", "pose")}});
   }
   json request = turns(1'000'000'000, false, false);
-  request["others"] = {two.welcome["session"], stranger.welcome["session"]};
-  request["joined"] = {two.welcome["session"]};
+  request["others"] = json::array({two.welcome["session"], stranger.welcome["session"]});
+  request["joined"] = json::array({two.welcome["session"]});
   const json answer = one.read("turns", request);
   EXPECT_EQ(answer["alone"], false);
   EXPECT_EQ(answer["t"], 100'000'000);
@@ -717,9 +717,10 @@ TEST_P(NativeProtocol, Turns_FaultyRequests_Refused) {
   };
   for (const Case& c :
        {Case{"until", -1}, Case{"until", "soon"}, Case{"data", 1}, Case{"take", nullptr},
-        Case{"others", "all"}, Case{"others", {-1}}, Case{"joined", {"x"}},
-        Case{"others", std::vector<int>(257, 1)}, Case{"unrepeatable", {7}},
-        Case{"unrepeatable", {"a\nb"}}, Case{"unrepeatable", {std::string(301, 'a')}}}) {
+        Case{"others", "all"}, Case{"others", json::array({-1})},
+        Case{"joined", json::array({"x"})}, Case{"others", std::vector<int>(257, 1)},
+        Case{"unrepeatable", json::array({7})}, Case{"unrepeatable", json::array({"a\nb"})},
+        Case{"unrepeatable", json::array({std::string(301, 'a')})}}) {
     json request = turns(10'000'000, false, false);
     request[c.key] = c.value;
     EXPECT_EQ(client->error("read", (request["wait"] = "turns", request)), "protocol/bad-value")
