@@ -19,6 +19,8 @@ namespace playerlike::protocol {
 inline constexpr int kVersion = 1;
 /// The server's default TCP port, equal to MORSE's.
 inline constexpr int kDefaultTcpPort = 4000;
+/// Maximum length of the path of a Unix socket, on Linux [bytes].
+inline constexpr std::size_t kMaxUnixPath = 107;
 /// Maximum nesting depth of lists and objects in a message.
 inline constexpr int kMaxDepth = 32;
 /// CBOR tag of a typed array of little-endian doubles (RFC 8746). As a json value, such an array is

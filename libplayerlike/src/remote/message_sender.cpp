@@ -45,11 +45,6 @@ std::shared_ptr<RemoteSimulation> RemoteSimulation::of(const std::string& name) 
   return simulation;
 }
 
-std::shared_ptr<RemoteClock> RemoteSimulation::clock() const {
-  const std::lock_guard lock(mutex_);
-  return clock_;
-}
-
 std::shared_ptr<RemoteClock> RemoteSimulation::clock_or(
     const std::function<std::shared_ptr<RemoteClock>()>& make) {
   const std::lock_guard lock(mutex_);

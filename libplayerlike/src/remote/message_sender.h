@@ -113,9 +113,7 @@ class RemoteSimulation {
   /// The simulation of a name; one object as long as it is in use.
   [[nodiscard]] static std::shared_ptr<RemoteSimulation> of(const std::string& name);
 
-  /// Its clock in virtual time; null until set_clock().
-  [[nodiscard]] std::shared_ptr<RemoteClock> clock() const;
-  /// @param make  makes the clock if there is none. @return the clock.
+  /// Its clock in virtual time. @param make  makes the clock if there is none.
   std::shared_ptr<RemoteClock> clock_or(const std::function<std::shared_ptr<RemoteClock>()>& make);
 
   void add(const std::shared_ptr<MessageSender>& sender);

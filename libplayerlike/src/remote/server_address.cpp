@@ -49,9 +49,9 @@ ServerAddress parse_unix_address(const std::string& text) {
   }
   if (rest.empty()) refuse_unix(text, "the path is missing");
   if (rest.starts_with('@')) refuse_unix(text, "abstract sockets have no permissions");
-  if (rest.size() > kMaxUnixPath) {
+  if (rest.size() > protocol::kMaxUnixPath) {
     refuse_unix(text, "the path has " + std::to_string(rest.size()) + " bytes, and at most " +
-                          std::to_string(kMaxUnixPath) + " are possible");
+                          std::to_string(protocol::kMaxUnixPath) + " are possible");
   }
   address.path = rest;
   return address;

@@ -31,9 +31,6 @@ inline constexpr std::string_view kPlayerPrefix = "player://";
 /// descriptor that is connected to a server already.
 inline constexpr std::string_view kUnixPrefix = "unix:";
 
-/// Maximum length of a Unix socket's path [bytes].
-inline constexpr std::size_t kMaxUnixPath = 107;
-
 /// Parses "unix:PATH", "unix:fd=N", "tcp://HOST[:PORT]", "player://HOST[:PORT]" or "HOST[:PORT]";
 /// an IPv6 address is in brackets.
 /// @param default_port  of an address without a port.

@@ -192,20 +192,6 @@ void SocketSession::require_open() const {
   if (closed_) throw_closed();
 }
 
-template <typename Use>
-auto SocketSession::with_connection(Use use) const {
-  for (;;) {
-    require_open();
-    const std::shared_ptr<Connection> connection = sender_->connection();
-    try {
-      return use();
-    } catch (const ConnectionLost&) {
-      require_open();
-      if (!recover(connection)) throw;
-    }
-  }
-}
-
 bool SocketSession::pause(double seconds) const {
   Lock lock(mutex_);
   // Always wait a little, so that a server that refuses is not asked in a tight loop.

@@ -18,6 +18,7 @@
 #include "playerlike/session/session.h"
 #include "protocol/codec.h"
 #include "remote/connection.h"
+#include "remote/message_sender.h"
 #include "remote/remote_clock.h"
 
 namespace playerlike {
@@ -43,8 +44,6 @@ struct SocketSettings {
 
 /// The error for an answer that cannot be decoded.
 [[nodiscard]] SessionError misunderstood(const std::string& why);
-
-class MessageSender;
 
 /// A session with a simulation on a server, in Playpen's protocol (docs/protocol.md).
 ///
@@ -91,7 +90,18 @@ class SocketSession final : public Session {
   [[nodiscard]] nlohmann::json hello() const;
   /// Calls use(); repeats it after a reconnection if the connection is lost.
   template <typename Use>
-  auto with_connection(Use use) const;
+  auto with_connection(Use use) const {
+    for (;;) {
+      require_open();
+      const std::shared_ptr<Connection> connection = sender_->connection();
+      try {
+        return use();
+      } catch (const ConnectionLost&) {
+        require_open();
+        if (!recover(connection)) throw;
+      }
+    }
+  }
   /// Replaces a lost connection. @return whether there is one now.
   bool recover(const std::shared_ptr<Connection>& lost) const;
   [[nodiscard]] std::shared_ptr<Connection> connect() const;
@@ -128,9 +138,6 @@ class SocketSession final : public Session {
   /// Attaches the session to the clock of virtual time, if the settings and the server allow it.
   void take_part_in_turns(const TimeStatistics& time, std::uint64_t session);
   void note_wait() const;
-  /// Calls wait(), a function of the clock; repeats it after a reconnection.
-  template <typename Wait>
-  auto wait_in_turns(Wait wait);
   /// The waits in virtual time. @return whether it was done; otherwise time is real now.
   [[nodiscard]] bool wait_for_data_in_turns();
   [[nodiscard]] bool peek_in_turns(std::chrono::milliseconds timeout, bool& result);

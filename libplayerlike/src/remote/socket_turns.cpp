@@ -4,7 +4,6 @@
 #include <string>
 
 #include "process/thread_end.h"
-#include "remote/message_sender.h"
 #include "remote/socket_session.h"
 #include "virtual_time/virtual_time.h"
 
@@ -37,23 +36,9 @@ void SocketSession::note_wait() const {
   virtual_time::note_wait();
 }
 
-template <typename Wait>
-auto SocketSession::wait_in_turns(Wait wait) {
-  for (;;) {
-    require_open();
-    const std::shared_ptr<Connection> connection = sender_->connection();
-    try {
-      return wait();
-    } catch (const ConnectionLost&) {
-      require_open();
-      if (!recover(connection)) throw;
-    }
-  }
-}
-
 bool SocketSession::wait_for_data_in_turns() {
   note_wait();
-  if (wait_in_turns([this] { return clock_->wait(*turns_); }) != RemoteClock::Outcome::kOver) {
+  if (with_connection([this] { return clock_->wait(*turns_); }) != RemoteClock::Outcome::kOver) {
     return false;
   }
   throw_async_error();
@@ -64,13 +49,13 @@ bool SocketSession::wait_for_data_in_turns() {
 
 bool SocketSession::peek_in_turns(std::chrono::milliseconds timeout, bool& result) {
   note_wait();
-  return wait_in_turns([&] { return clock_->peek(*turns_, timeout, result); }) ==
+  return with_connection([&] { return clock_->peek(*turns_, timeout, result); }) ==
          RemoteClock::Outcome::kOver;
 }
 
 bool SocketSession::sleep_in_turns(double seconds) {
   note_wait();
-  return wait_in_turns([&] { return clock_->sleep(*turns_, sim::from_seconds(seconds)); }) ==
+  return with_connection([&] { return clock_->sleep(*turns_, sim::from_seconds(seconds)); }) ==
          RemoteClock::Outcome::kOver;
 }
 

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "protocol/framing.h"
 #include "sim/core/error.h"
 
 namespace playerlike::server {
@@ -19,8 +20,6 @@ namespace {
 
 using asio::ip::tcp;
 using UnixProtocol = asio::local::stream_protocol;
-
-constexpr std::size_t kLongestUnixPath = 107;  // bytes, of Linux's sockaddr_un
 
 }  // namespace
 
@@ -187,9 +186,9 @@ bool has_listener(const std::string& path) {
 
 /// Checks a path. @return whether a socket's file must be removed, since nobody listens there.
 bool is_left_over(const std::string& path) {
-  if (path.empty() || path.size() > kLongestUnixPath) {
+  if (path.empty() || path.size() > protocol::kMaxUnixPath) {
     refuse_unix_socket(path, std::to_string(path.size()) + " bytes",
-                       "the system takes 1 to " + std::to_string(kLongestUnixPath) +
+                       "the system takes 1 to " + std::to_string(protocol::kMaxUnixPath) +
                            " bytes; /tmp or $XDG_RUNTIME_DIR have short paths");
   }
   struct stat status {};

@@ -152,8 +152,8 @@ TEST(ServerAddresses, UnixSockets_ParsedInTheirForms) {
   EXPECT_EQ(descriptor.descriptor, 7);
   EXPECT_EQ(descriptor.path, "");
   EXPECT_EQ(descriptor.text(), "unix:fd=7");
-  EXPECT_EQ(parse_server_address("unix:" + std::string(kMaxUnixPath, 'a')).path.size(),
-            kMaxUnixPath);
+  EXPECT_EQ(parse_server_address("unix:" + std::string(protocol::kMaxUnixPath, 'a')).path.size(),
+            protocol::kMaxUnixPath);
 }
 
 TEST(ServerAddresses, InvalidAddresses_RefusedWithReason) {
@@ -927,8 +927,9 @@ TEST(UnixSockets, InvalidNames_RefusedWithReason) {
 }
 
 TEST(UnixSockets, LongPath_RefusedWithItsLength) {
-  const SessionError error = error_of(
-      [] { static_cast<void>(open_session("unix:/" + std::string(kMaxUnixPath, 'a'), 6665)); });
+  const SessionError error = error_of([] {
+    static_cast<void>(open_session("unix:/" + std::string(protocol::kMaxUnixPath, 'a'), 6665));
+  });
   EXPECT_EQ(error.code(), kBadArgument);
   EXPECT_THAT(error.what(), AllOf(HasSubstr("108 bytes"), HasSubstr("107")));
 }
