@@ -63,6 +63,7 @@ CommandLine::CommandLine(std::string name)
   add_token(*this);
   add_doc(*this);
   add_doctor(*this);
+  add_contain(*this);
   add_completion(*this);
   add_help(*this);
 }

@@ -73,5 +73,6 @@ void add_doc(CommandLine& line);
 void add_doctor(CommandLine& line);
 void add_help(CommandLine& line);
 void add_completion(CommandLine& line);
+void add_contain(CommandLine& line);
 
 }  // namespace playpen

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "isolation.h"
 #include "playerlike/host/run_settings.h"
 #include "playerlike/server/server_settings.h"
 #include "sim/core/log.h"
@@ -26,6 +27,7 @@ struct RunRequest {
   bool quiet = false;
   bool view = false;        ///< in a window, in real time unless the settings say otherwise
   bool real_sleep = false;  ///< the program's sleeps take wall time, not simulated time
+  IsolationSettings isolation;
   std::vector<std::string> command;  ///< program and arguments
   /// the call of `playpen run` up to "--", as the user wrote it, for advice
   std::vector<std::string> call;
@@ -41,8 +43,9 @@ struct GradeRequest {
   std::optional<sim::Realism> realism;  ///< empty: that of each world
   std::string output_folder;            ///< "": out/grade/TASK
   std::string json_file;                ///< "": grade.json in the output folder
-  std::vector<std::string> command;     ///< program and arguments
-  std::string invocation;               ///< how the user calls playpen, for advice
+  IsolationSettings isolation;
+  std::vector<std::string> command;  ///< program and arguments
+  std::string invocation;            ///< how the user calls playpen, for advice
 };
 
 /// Runs a client program on the worlds of a task, grades it, prints a table and writes a JSON file.

@@ -26,6 +26,8 @@
 #include "playerlike/host/program.h"
 #include "preload.h"
 #include "project.h"
+#include "sandbox.h"
+#include "scratch_folder.h"
 #include "shipped.h"
 #include "sim/core/error.h"
 #include "sim/render/render.h"
@@ -38,30 +40,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kInstallAgain =
     "install Playpen again: cmake --install BUILD --prefix PREFIX";
-
-/// A temporary folder, removed with its content by the destructor.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::error_code error;
-    std::string pattern = (fs::temp_directory_path(error) / "playpen-doctor-XXXXXX").string();
-    if (error || mkdtemp(pattern.data()) == nullptr) {
-      throw std::runtime_error("no folder can be made in the folder for temporary files");
-    }
-    folder_ = pattern;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-
-  [[nodiscard]] fs::path operator/(const std::string& name) const { return folder_ / name; }
-
- private:
-  fs::path folder_;
-};
 
 /// The output of a program, and whether it ended with status 0.
 struct Outcome {

@@ -63,6 +63,13 @@ std::string short_name_of(const std::string& file) {
   }
 }
 
+/// What an isolated program must not see: results, and what the task and its worlds consist of.
+std::vector<std::string> hidden_files(const grade::GradeSettings& settings) {
+  std::vector<std::string> files = {settings.output_folder, settings.task.file};
+  for (const grade::TaskWorld& world : settings.task.worlds) files.push_back(world.file);
+  return files;
+}
+
 /// What helps to find out why a run has failed.
 class Advice {
  public:
@@ -108,6 +115,7 @@ class Advice {
     if (settings_.task.duration_s) {
       call.insert(call.end(), {"--duration", sim::shortest_text(*settings_.task.duration_s)});
     }
+    if (!settings_.launcher.empty()) call.emplace_back("--isolated=required");
     if (settings_.realism) {
       call.insert(call.end(), {"--realism", std::string(sim::to_string(*settings_.realism))});
     }
@@ -121,6 +129,7 @@ class Advice {
 }  // namespace
 
 int grade_program(GradeRequest request) {
+  const IsolatedPrograms isolated(request.isolation);
   grade::GradeSettings settings;
   settings.task = load_task(request.task);
   for (std::string& world : request.worlds) world = find_world(world);
@@ -134,10 +143,11 @@ int grade_program(GradeRequest request) {
                       ? request.jobs
                       : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const PreloadedLibrary virtual_time;
-  virtual_time.add_to(settings.virtual_time);
-  add_libraries_folder(settings.virtual_time);
+  if (!isolated.isolated()) virtual_time.add_to(settings.environment);
+  add_libraries_folder(settings.environment);
   settings.output_folder =
       request.output_folder.empty() ? "out/grade/" + settings.task.name : request.output_folder;
+  settings.launcher = isolated.launcher(virtual_time.file(), hidden_files(settings));
 
   const fs::path file = request.json_file.empty() ? fs::path(settings.output_folder) / "grade.json"
                                                   : fs::path(request.json_file);

@@ -67,6 +67,7 @@ void add_grade(CommandLine& line) {
                return good;
              });
   add_realism(line, command, request->realism);
+  add_isolation(line, command, request->isolation);
   CLI::Option* const out =
       command.add_option("--out", request->output_folder, "Folder for results [out/grade/<task>]");
   line.takes(out->type_name("DIR"), ValueKind::Kind::kFolder);

@@ -167,6 +167,7 @@ int run(RunRequest request) {
   request.settings.apply_to(world);  // reports settings that do not match the world before the run
   request.command.front() = playerlike::find_program(request.command.front());
   playerlike::RunSettings& settings = request.settings;
+  const IsolatedPrograms isolated(request.isolation);
   if (settings.player_port) {
     // Before results of an earlier run are removed; the program's simulation opens the ports.
     playerlike::Server::check(playerlike::onlooker_settings(*settings.player_port), world);
@@ -188,7 +189,10 @@ int run(RunRequest request) {
   settings.kept_run = kept.file();
   playerlike::EnvironmentChanges environment = playerlike::run_environment(world_file, settings);
   add_libraries_folder(environment);
-  if (settings.virtual_time) virtual_time.emplace().add_to(environment);
+  if (settings.virtual_time) {
+    virtual_time.emplace();
+    if (!isolated.isolated()) virtual_time->add_to(environment);
+  }
   ServedWorld served(world, settings);
   playerlike::ProgramDesk desk(settings.clients.value_or(1) > 1 || !in_lockstep(settings, world),
                                [&served] { return served.serve(); });
@@ -210,7 +214,10 @@ int run(RunRequest request) {
       std::cerr << "playpen: results of the run are missing: " << e.what() << '\n';
     }
   };
-  const playerlike::ProgramEnd end = playerlike::run_program(request.command, environment, watch);
+  std::vector<std::string> command = isolated.launcher(
+      virtual_time ? virtual_time->file() : std::string(), {settings.output_folder, world_file});
+  command.insert(command.end(), request.command.begin(), request.command.end());
+  const playerlike::ProgramEnd end = playerlike::run_program(command, environment, watch);
 
   viewer.reset();  // the window has nothing left to show
 

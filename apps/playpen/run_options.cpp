@@ -228,6 +228,7 @@ void add_run(CommandLine& line) {
                    "Watch and steer in a window, in real time unless --time says otherwise");
   command.add_flag("--real-sleep", request->real_sleep,
                    "In lockstep: the program's sleeps and clocks are real, not simulated time");
+  add_isolation(line, command, request->isolation);
   command.add_flag("--quiet", request->quiet, "No progress, no summary");
   command.callback([request, &line] {
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");

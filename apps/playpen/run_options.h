@@ -6,6 +6,7 @@
 #include <string>
 
 #include "command_line.h"
+#include "isolation.h"
 #include "parsed_option.h"
 #include "playerlike/host/run_settings.h"
 
@@ -38,6 +39,9 @@ void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::View
 
 /// Adds --realism.
 void add_realism(CommandLine& line, CLI::App& command, std::optional<sim::Realism>& level);
+
+/// Adds --isolated and --readable.
+void add_isolation(CommandLine& line, CLI::App& command, IsolationSettings& settings);
 
 /// Adds an option that takes a TCP port, 0..65535.
 /// @param port  an int or an optional int that receives the value; must outlive the command.

@@ -64,7 +64,7 @@ playerlike::RunSettings settings_of_run(const GradeSettings& settings, std::uint
   run.duration_s = settings.task.duration_s;
   run.output_folder = folder.string();
   run.quiet_end = true;
-  run.virtual_time = !settings.virtual_time.empty();
+  run.virtual_time = settings.virtual_time;
   return run;
 }
 
@@ -78,12 +78,13 @@ playerlike::ProgramJob job_for(const GradeSettings& settings, const TaskWorld& w
   asked = playerlike::grading_of(new_nonce(), rules, as_run);
   run.grading = asked;
   playerlike::ProgramJob job;
-  job.command = settings.program;
+  job.command = settings.launcher;
+  job.command.insert(job.command.end(), settings.program.begin(), settings.program.end());
   for (const auto* more : {&settings.task.arguments, &world.arguments}) {
     job.command.insert(job.command.end(), more->begin(), more->end());
   }
   job.environment = playerlike::run_environment(world.file, run);
-  job.environment.insert(settings.virtual_time.begin(), settings.virtual_time.end());
+  job.environment.insert(settings.environment.begin(), settings.environment.end());
   job.output_file = (folder / "program.log").string();
   job.folder = folder.string();
   job.folder_limit = kMostOutput;

@@ -21,8 +21,11 @@ struct GradeSettings {
   int jobs = 1;                         ///< number of programs that run in parallel, >= 1
   std::string output_folder;            ///< gets a folder WORLD_seedN for each run
   std::optional<sim::Realism> realism;  ///< level of realism; empty: that of each world
-  /// environment changes that preload virtual time (docs/virtual_time.md); empty: sleeps are real
-  playerlike::EnvironmentChanges virtual_time;
+  bool virtual_time = true;             ///< false: sleeps are real (docs/virtual_time.md)
+  /// What programs need for virtual time and to find libraries, besides what the run needs.
+  playerlike::EnvironmentChanges environment = {};
+  /// Words before the program: a command that runs it in a sandbox; empty: none.
+  std::vector<std::string> launcher = {};
 };
 
 /// Progress of a grading.

@@ -73,8 +73,10 @@ std::string full_path(const std::string& file) {
 }
 
 /// The simulation of a world file. The caller has locked the registry.
-/// @param renew  replaces a simulation that all clients have left by a new one.
-std::shared_ptr<Host> host_of(Registry& registry, const std::string& file, bool renew) {
+/// @param renew    replaces a simulation that all clients have left by a new one.
+/// @param watches  whether the program is in this process.
+std::shared_ptr<Host> host_of(Registry& registry, const std::string& file, bool renew,
+                              bool watches = true) {
   std::shared_ptr<Host>& host = registry.hosts[full_path(file)];
   if (host && !(renew && host->is_abandoned())) return host;
   if (host) {
@@ -120,7 +122,7 @@ std::shared_ptr<Host> host_of(Registry& registry, const std::string& file, bool 
     if (settings.player_port) {
       registry.onlookers = open_onlookers(host, *settings.player_port, log);
     }
-    host->watch_program();
+    if (watches) host->watch_program();
     ++registry.results;
     if (virtual_time_wanted) registry.clock_host = host.get();
     if (settings.virtual_time) {
@@ -369,6 +371,18 @@ std::unique_ptr<Session> open_real_robot(const RealRobotPlace& place) {
   SocketSettings settings = SocketSettings::from_environment(parse_server_address(server), port);
   settings.connect_timeout_s = timeout_s;
   return std::make_unique<SocketSession>(std::move(settings));
+}
+
+std::shared_ptr<Host> open_host_of_run() {
+  const virtual_time::Inside inside;
+  const std::string world(variable("PLAYPEN_WORLD"));
+  if (names_server(world) || world.starts_with(kPlayerPrefix)) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "PLAYPEN_WORLD=" + world + " is a server, not the file of a world");
+  }
+  Registry& registry = Registry::instance();
+  const std::lock_guard lock(registry.mutex);
+  return host_of(registry, world, /*renew=*/false, /*watches=*/false);
 }
 
 void close_embedded_hosts() {

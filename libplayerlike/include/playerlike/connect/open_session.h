@@ -35,6 +35,11 @@ namespace playerlike {
 /// @throws SessionError, sim::ConfigError.
 [[nodiscard]] std::unique_ptr<Session> open_session(const std::string& host, int port);
 
+/// The simulation that clients of "localhost" share, without a session: for a process that serves
+/// it to a program (`playpen run --isolated`). It is made if there is none yet.
+/// @throws sim::ConfigError; SessionError kBadArgument if PLAYPEN_WORLD names a server.
+[[nodiscard]] std::shared_ptr<Host> open_host_of_run();
+
 /// Opens a session with a real robot, for RunSettings::open_real_robot: with the server that
 /// "player://HOST[:PORT]" or "tcp://HOST[:PORT]" names. RealRobotPlace::port is also the default
 /// port of a Player server.

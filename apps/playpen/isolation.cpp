@@ -1,0 +1,52 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "isolation.h"
+
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "sandbox.h"
+
+namespace playpen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_path(std::vector<std::string>& words, const char* option, const std::string& path) {
+  words.insert(words.end(), {option, fs::absolute(path).lexically_normal().string()});
+}
+
+}  // namespace
+
+IsolatedPrograms::IsolatedPrograms(const IsolationSettings& settings) {
+  if (settings.level == Isolation::kOff) return;
+  if (const std::string obstacle = obstacle_to_isolation(); !obstacle.empty()) {
+    if (settings.level == Isolation::kRequired) {
+      throw std::runtime_error("the program cannot be isolated: " + obstacle);
+    }
+    std::cerr << "playpen: programs are not isolated: " << obstacle << '\n';
+    return;
+  }
+  launcher_ = {fs::read_symlink("/proc/self/exe").string(), "contain"};
+  for (const std::string& path : settings.readable) {
+    if (!fs::exists(path)) {
+      throw std::runtime_error("--readable names '" + path + "', which does not exist");
+    }
+    add_path(launcher_, "--readable", path);
+  }
+}
+
+std::vector<std::string> IsolatedPrograms::launcher(const std::string& preloaded,
+                                                    const std::vector<std::string>& hidden) const {
+  std::vector<std::string> words = launcher_;
+  if (words.empty()) return words;
+  for (const std::string& path : hidden) {
+    if (!path.empty()) add_path(words, "--hidden", path);
+  }
+  if (!preloaded.empty()) words.insert(words.end(), {"--preload", preloaded});
+  words.emplace_back("--");
+  return words;
+}
+
+}  // namespace playpen
