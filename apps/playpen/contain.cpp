@@ -2,10 +2,12 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -55,6 +57,7 @@ class Door {
       std::memcpy(address.sun_path, name.c_str(), name.size() + 1);
       constexpr int kWaiting = 64;
       good = bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
+             chmod(name.c_str(), 0666) == 0 &&  // for the sandbox's user; others see no folder
              listen(descriptor_, kWaiting) == 0;
     }
     if (!good) throw std::runtime_error("the socket " + name + " cannot be opened");
@@ -93,15 +96,14 @@ class ServedRun {
     server_->adopt(connection);
   }
 
-  /// Notes who has requested the end, if anybody.
-  void note_end_request(int signal) {
-    if (host_ && signal != 0) host_->note_end_request(signal);
-  }
-
   /// Handles what programs sent before their end, and closes the server. The simulation remains
-  /// and writes its results when this process exits.
-  void close() {
+  /// and writes its results when this process exits, or now if a signal has requested the end.
+  void close(int signal) {
     if (!server_) return;
+    if (signal != 0) {
+      host_->note_end_request(signal);
+      host_->finish();
+    }
     const auto end = Clock::now() + kLastMessages;
     while (server_->connections() > 0 && Clock::now() < end)
       std::this_thread::sleep_for(kShortLook);
@@ -198,13 +200,17 @@ int run_contained(const ContainRequest& request) {
   const ScratchFolder folder;
   const Door door(folder / "robots");
   SandboxedProgram program(sandbox_of(request, door), mask);
-  signals.listen([&program](int /*signal*/) { program.kill_all(); },
-                 [](int signal) { end_by(signal); });
+  std::atomic<int> end_request{0};
+  signals.listen(
+      [&](int signal) {
+        end_request = signal;
+        program.kill_all();
+      },
+      [](int signal) { end_by(signal); });
   ServedRun run;
   const int status = wait_for_end(program, door, run);
-  run.note_end_request(signals.first());
-  run.close();
-  return signals.first() != 0 ? kOk : status;
+  run.close(end_request);
+  return end_request != 0 ? kOk : status;
 }
 
 }  // namespace

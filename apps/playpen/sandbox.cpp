@@ -41,7 +41,15 @@ class Arguments {
   }
   /// Shows a file or folder at its own place, unless the system's folders contain it.
   void show(const fs::path& path) {
-    if (!is_inside(path, kSystem) && shown_.insert(path).second) add("--ro-bind", path, path);
+    if (is_inside(path, kSystem) || !shown_.insert(path).second) return;
+    make_folder(path.parent_path());
+    add("--ro-bind", path, path);
+  }
+  /// Makes a folder that everybody in the sandbox may look into, and those above it.
+  void make_folder(const fs::path& path) {
+    if (!path.has_relative_path() || !made_.insert(path).second) return;
+    make_folder(path.parent_path());
+    add("--dir", path);
   }
   /// Hides a file or folder, if it is inside something that is shown.
   void hide(const fs::path& path) {
@@ -67,7 +75,19 @@ class Arguments {
  private:
   std::vector<std::string> words_;
   std::set<fs::path> shown_;
+  std::set<fs::path> made_;
 };
+
+bool is_root() { return geteuid() == 0; }
+
+/// The user of a sandbox that root makes. The kernel does not limit the processes of root, nor of a
+/// user of a namespace who is root outside. So each sandbox has a user of its own, of those that
+/// systemd keeps free for dynamic users (systemd.exec(5), "DynamicUser=").
+unsigned user_of_sandbox() {
+  constexpr unsigned kFirst = 61184;
+  constexpr unsigned kCount = 65519 - kFirst + 1;
+  return kFirst + static_cast<unsigned>(getpid()) % kCount;
+}
 
 /// The system's folders: /usr, and links such as /lib that lead into it or are folders themselves.
 void add_system(Arguments& arguments) {
@@ -161,24 +181,43 @@ int memory_file(const std::string& content) {
 std::vector<std::string> sandbox_command(const SandboxSettings& settings, int filter, int info) {
   const std::string size = std::to_string(settings.limits.files_bytes);
   Arguments arguments;
-  arguments.add("bwrap", "--unshare-all", "--unshare-user", "--die-with-parent", "--new-session",
-                "--uid", "1000", "--gid", "1000", "--hostname", "playpen", "--cap-drop", "ALL",
-                "--seccomp", std::to_string(filter), "--info-fd", std::to_string(info));
+  arguments.add("bwrap", "--unshare-ipc", "--unshare-pid", "--unshare-net", "--unshare-uts",
+                "--unshare-cgroup-try", "--die-with-parent", "--new-session", "--hostname",
+                "playpen", "--seccomp", std::to_string(filter), "--info-fd", std::to_string(info),
+                "--cap-drop", "ALL");
+  if (is_root()) {
+    arguments.add("--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID");
+  } else {
+    arguments.add("--unshare-user", "--uid", "1000", "--gid", "1000");
+  }
   add_system(arguments);
-  arguments.add("--proc", "/proc", "--dev", "/dev");
-  arguments.add("--size", size, "--tmpfs", "/dev/shm", "--size", size, "--tmpfs", "/tmp");
-  arguments.add("--dir", kHome, "--dir", settings.folder);
+  // Whoever runs this as root owns the files of /proc/sys, in the sandbox too.
+  arguments.add("--proc", "/proc", "--ro-bind", "/proc/sys", "/proc/sys", "--dev", "/dev");
+  for (const char* folder : {"/dev/shm", "/tmp"}) {
+    arguments.add("--perms", "1777", "--size", size, "--tmpfs", folder);
+  }
+  arguments.add("--perms", "0777", "--dir", kHome);
+  arguments.make_folder(settings.folder);
   for (const std::string& path : settings.readable) arguments.show(path);
   add_program(arguments, settings.command, settings.folder);
   for (const std::string& path : settings.hidden) arguments.hide(path);
-  if (!settings.socket.empty()) arguments.add("--bind", settings.socket, kSandboxSocket);
+  if (!settings.socket.empty()) {
+    arguments.make_folder(fs::path(kSandboxSocket).parent_path());
+    arguments.add("--bind", settings.socket, kSandboxSocket);
+  }
   arguments.add("--remount-ro", "/dev", "--remount-ro", "/", "--chdir", settings.folder);
   arguments.add("--clearenv", "--setenv", "HOME", kHome, "--setenv", "PATH",
                 "/usr/local/bin:/usr/bin:/bin");
   for (const auto& [name, value] : settings.environment) arguments.add("--setenv", name, value);
+  arguments.add("--");
+  if (is_root()) {
+    const std::string user = std::to_string(user_of_sandbox());
+    arguments.add("setpriv", "--reuid", user, "--regid", user, "--clear-groups", "--");
+  }
   // Of this user in the sandbox only, so other programs of the user do not count.
-  arguments.add("--", "prlimit", "--core=0", "--nproc=" + std::to_string(settings.limits.tasks),
-                "--fsize=" + size, "--nofile=1024", "--cpu=" + std::to_string(settings.limits.processor_s), "--");
+  arguments.add("prlimit", "--core=0", "--nproc=" + std::to_string(settings.limits.tasks),
+                "--fsize=" + size, "--nofile=1024",
+                "--cpu=" + std::to_string(settings.limits.processor_s), "--");
   std::vector<std::string> all = arguments.take();
   all.insert(all.end(), settings.command.begin(), settings.command.end());
   return all;
@@ -203,8 +242,10 @@ SandboxedProgram::SandboxedProgram(const SandboxSettings& settings, const sigset
   posix_spawn_file_actions_adddup2(&actions, filter, kFilter);
   posix_spawn_file_actions_adddup2(&actions, info_, kInfo);
   posix_spawn_file_actions_addclosefrom_np(&actions, kFirstOther);
+  // The first process in the sandbox is bubblewrap's, and the program can read its environment.
+  char* const no_environment[] = {nullptr};
   const int failure =
-      posix_spawnp(&process_, "bwrap", &actions, &attributes, words.data(), environ);
+      posix_spawnp(&process_, "bwrap", &actions, &attributes, words.data(), no_environment);
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   close(filter);
@@ -260,8 +301,8 @@ std::string SandboxedProgram::excess() {
     all.threads += one.threads;
     all.own_bytes += one.own_bytes;
   }
-  if (all.threads > limits_.tasks) {
-    return "more than " + std::to_string(limits_.tasks) + " processes and threads";
+  if (all.threads >= limits_.tasks) {
+    return "at least " + std::to_string(limits_.tasks) + " processes and threads";
   }
   if (all.own_bytes > limits_.memory_bytes) {
     return "more than " + std::to_string(limits_.memory_bytes / 1'000'000) + " MB of memory";

@@ -36,8 +36,9 @@ struct SandboxSettings {
 inline constexpr const char* kSandboxSocket = "/run/playpen/robots";
 
 /// The command line that runs a program in bubblewrap: with user, process, network, host name and
-/// IPC namespaces of its own; the system's programs and libraries, the program's folder and what
-/// the settings name, all of it read-only; and folders in memory as home and for temporary files.
+/// IPC namespaces of its own (for root, instead of the first, as a user of its own); the system's
+/// programs and libraries, the program's folder and what the settings name, all of it read-only;
+/// and folders in memory as home and for temporary files.
 /// @param filter  descriptor from which bubblewrap reads syscall_filter().
 /// @param info    descriptor to which it writes the number of the first process in the sandbox.
 [[nodiscard]] std::vector<std::string> sandbox_command(const SandboxSettings& settings, int filter,
@@ -63,7 +64,7 @@ class SandboxedProgram {
   [[nodiscard]] std::optional<int> poll();
   /// Kills all of its processes. Any thread may call it.
   void kill_all() noexcept;
-  /// Which limit its processes exceed, for the user: "more than 512 processes and threads"; empty:
+  /// Which limit its processes exceed, for the user: "at least 512 processes and threads"; empty:
   /// none. Call it some times a second.
   [[nodiscard]] std::string excess();
 
