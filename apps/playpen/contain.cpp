@@ -147,6 +147,7 @@ SandboxSettings sandbox_of(const ContainRequest& request, const Door& door) {
   settings.folder = fs::current_path();
   settings.readable = request.readable;
   settings.hidden = request.hidden;
+  settings.sized = !request.unsized;
   settings.environment = environment_of_program(request.preloaded);
   // The libraries of the package: beside the folder of this command, or anywhere in a build.
   const fs::path package = own_folders().at(1);

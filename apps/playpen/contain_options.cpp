@@ -38,6 +38,7 @@ void add_contain(CommandLine& line) {
   command.add_option("--preload", request->preloaded);
   command.add_option("--readable", request->readable)->expected(1)->take_all();
   command.add_option("--hidden", request->hidden)->expected(1)->take_all();
+  command.add_flag("--unsized", request->unsized);
   command.callback([request, &line] {
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
     request->command = line.program;

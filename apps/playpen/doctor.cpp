@@ -22,6 +22,7 @@ constexpr Section kSections[] = {
     {"Installation", check_installation},
     {"A run", check_run},
     {"Building programs", check_building},
+    {"Isolated programs (--isolated)", check_isolation},
     {"The live window (--view)", check_display},
     {"Films (--record)", check_films},
     {"Core dumps", check_core_dumps},

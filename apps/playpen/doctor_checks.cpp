@@ -412,6 +412,13 @@ Findings check_films() {
   }
 }
 
+Findings check_isolation() {
+  const IsolationAbility ability = try_isolation();
+  if (ability.obstacle.empty()) return {{Health::kGood, "bubblewrap makes a sandbox", ""}};
+  return {{Health::kWarning, "programs cannot be isolated: " + ability.obstacle,
+           "playpen doc isolation explains what it needs"}};
+}
+
 Findings check_core_dumps() {
   rlimit limit{};
   if (getrlimit(RLIMIT_CORE, &limit) != 0) return {};

@@ -31,6 +31,8 @@ using Findings = std::vector<Finding>;
 [[nodiscard]] Findings check_run();
 /// Checks the programs that a build needs, and builds a program.
 [[nodiscard]] Findings check_building();
+/// Whether programs can be isolated from this machine.
+[[nodiscard]] Findings check_isolation();
 /// Whether --view can open a window.
 [[nodiscard]] Findings check_display();
 /// Whether films can be written, and how.

@@ -21,14 +21,16 @@ void add_path(std::vector<std::string>& words, const char* option, const std::st
 
 IsolatedPrograms::IsolatedPrograms(const IsolationSettings& settings) {
   if (settings.level == Isolation::kOff) return;
-  if (const std::string obstacle = obstacle_to_isolation(); !obstacle.empty()) {
+  const IsolationAbility ability = try_isolation();
+  if (!ability.obstacle.empty()) {
     if (settings.level == Isolation::kRequired) {
-      throw std::runtime_error("the program cannot be isolated: " + obstacle);
+      throw std::runtime_error("the program cannot be isolated: " + ability.obstacle);
     }
-    std::cerr << "playpen: programs are not isolated: " << obstacle << '\n';
+    std::cerr << "playpen: programs are not isolated: " << ability.obstacle << '\n';
     return;
   }
   launcher_ = {fs::read_symlink("/proc/self/exe").string(), "contain"};
+  if (!ability.sized) launcher_.emplace_back("--unsized");
   for (const std::string& path : settings.readable) {
     if (!fs::exists(path)) {
       throw std::runtime_error("--readable names '" + path + "', which does not exist");

@@ -46,6 +46,7 @@ struct ContainRequest {
   std::string preloaded;              ///< library to preload; "": none
   std::vector<std::string> readable;  ///< absolute paths
   std::vector<std::string> hidden;    ///< absolute paths
+  bool unsized = false;               ///< the opposite of SandboxSettings::sized
   std::vector<std::string> command;   ///< program and arguments
 };
 

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/statvfs.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -31,6 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kHome = "/tmp/home";
 constexpr const char* kSystem = "/usr";
+constexpr std::uint64_t kMega = 1'000'000;
 
 /// Builds the arguments of bubblewrap.
 class Arguments {
@@ -194,7 +196,9 @@ std::vector<std::string> sandbox_command(const SandboxSettings& settings, int fi
   // Whoever runs this as root owns the files of /proc/sys, in the sandbox too.
   arguments.add("--proc", "/proc", "--ro-bind", "/proc/sys", "/proc/sys", "--dev", "/dev");
   for (const char* folder : {"/dev/shm", "/tmp"}) {
-    arguments.add("--perms", "1777", "--size", size, "--tmpfs", folder);
+    arguments.add("--perms", "1777");
+    if (settings.sized) arguments.add("--size", size);
+    arguments.add("--tmpfs", folder);
   }
   arguments.add("--perms", "0777", "--dir", kHome);
   arguments.make_folder(settings.folder);
@@ -224,7 +228,7 @@ std::vector<std::string> sandbox_command(const SandboxSettings& settings, int fi
 }
 
 SandboxedProgram::SandboxedProgram(const SandboxSettings& settings, const sigset_t& mask, int error)
-    : limits_(settings.limits) {
+    : limits_(settings.limits), sized_(settings.sized) {
   const int filter = memory_file(syscall_filter());
   info_ = memory_file({});
   const std::vector<std::string> command = sandbox_command(settings, kFilter, kInfo);
@@ -278,22 +282,22 @@ void SandboxedProgram::kill_all() noexcept {
   if (!killed_.exchange(true)) syscall(SYS_pidfd_send_signal, pidfd_, SIGKILL, nullptr, 0);
 }
 
-std::string SandboxedProgram::folder_of_processes() {
-  if (!processes_.empty()) return processes_;
+std::string SandboxedProgram::folder_of_sandbox() {
+  if (!root_.empty()) return root_;
   const std::string info = text_of(info_);
   const std::size_t begin = info.find_first_of("0123456789", info.find("child-pid"));
   if (info.empty() || info.back() != '}' || begin == std::string::npos) return {};
   const std::size_t end = info.find_first_not_of("0123456789", begin);
-  processes_ = "/proc/" + info.substr(begin, end - begin) + "/root/proc";
-  return processes_;
+  root_ = "/proc/" + info.substr(begin, end - begin) + "/root";
+  return root_;
 }
 
 std::string SandboxedProgram::excess() {
-  const std::string folder = folder_of_processes();
-  if (folder.empty()) return {};
+  const std::string root = folder_of_sandbox();
+  if (root.empty()) return {};
   Status all;
   std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+  for (fs::directory_iterator entry(root + "/proc", error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
@@ -305,32 +309,45 @@ std::string SandboxedProgram::excess() {
     return "at least " + std::to_string(limits_.tasks) + " processes and threads";
   }
   if (all.own_bytes > limits_.memory_bytes) {
-    return "more than " + std::to_string(limits_.memory_bytes / 1'000'000) + " MB of memory";
+    return "more than " + std::to_string(limits_.memory_bytes / kMega) + " MB of memory";
+  }
+  for (const char* place : {"/tmp", "/dev/shm"}) {
+    struct statvfs files {};
+    if (sized_ || statvfs((root + place).c_str(), &files) != 0) continue;
+    if ((files.f_blocks - files.f_bfree) * files.f_frsize > limits_.files_bytes) {
+      return "more than " + std::to_string(limits_.files_bytes / kMega) + " MB in " + place;
+    }
   }
   return {};
 }
 
-std::string obstacle_to_isolation() {
+IsolationAbility try_isolation() {
   SandboxSettings settings;
   settings.command = {"/usr/bin/true"};
   settings.folder = "/tmp";
+  sigset_t mask;
+  pthread_sigmask(SIG_SETMASK, nullptr, &mask);
   try {
-    const int said = memory_file({});
-    sigset_t mask;
-    pthread_sigmask(SIG_SETMASK, nullptr, &mask);
-    SandboxedProgram program(settings, mask, said);
-    pollfd end{program.descriptor(), POLLIN, 0};
-    while (::poll(&end, 1, -1) < 0 && errno == EINTR) {
+    std::string said;
+    for (const bool sized : {true, false}) {
+      settings.sized = sized;
+      const int error = memory_file({});
+      SandboxedProgram program(settings, mask, error);
+      pollfd end{program.descriptor(), POLLIN, 0};
+      while (::poll(&end, 1, -1) < 0 && errno == EINTR) {
+      }
+      const std::optional<int> status = program.poll();
+      const std::string text = text_of(error);
+      close(error);
+      if (status == 0) return {{}, sized};
+      if (sized || said.find("--size") != std::string::npos) {
+        said = text.empty() ? "status " + std::to_string(status.value_or(-1)) : text;
+      }
     }
-    const std::optional<int> status = program.poll();
-    const std::string text = text_of(said);
-    close(said);
-    if (status == 0) return {};
-    return "bubblewrap cannot make a sandbox here (" +
-           (text.empty() ? "status " + std::to_string(status.value_or(-1)) : text) +
-           "); it needs user namespaces, which the machine or the container may forbid";
+    return {"bubblewrap cannot make a sandbox here (" + said +
+            "); it needs user namespaces, which the machine or the container may forbid"};
   } catch (const std::exception& e) {
-    return e.what();
+    return {e.what()};
   }
 }
 

@@ -31,6 +31,8 @@ struct SandboxSettings {
   std::string folder;                              ///< the working directory
   std::map<std::string, std::string> environment;  ///< the whole of it
   SandboxLimits limits;
+  /// Whether bubblewrap limits folders in memory (0.7 and newer). Otherwise excess() finds out.
+  bool sized = true;
 };
 
 inline constexpr const char* kSandboxSocket = "/run/playpen/robots";
@@ -69,19 +71,25 @@ class SandboxedProgram {
   [[nodiscard]] std::string excess();
 
  private:
-  [[nodiscard]] std::string folder_of_processes();
+  [[nodiscard]] std::string folder_of_sandbox();
 
   SandboxLimits limits_;
+  bool sized_;
   pid_t process_ = -1;
   int pidfd_ = -1;
   int info_ = -1;
-  std::string processes_;  ///< the sandbox's /proc, seen from here; "": not known yet
+  std::string root_;  ///< the sandbox's root, seen from here; "": not known yet
   std::atomic<bool> killed_{false};
   bool ended_ = false;
 };
 
-/// Why programs cannot be isolated on this machine, with what to do about it; empty: they can.
+/// What this machine can do to isolate programs.
+struct IsolationAbility {
+  std::string obstacle;  ///< why it cannot, with what to do about it; empty: it can
+  bool sized = true;     ///< see SandboxSettings::sized
+};
+
 /// Tries it.
-[[nodiscard]] std::string obstacle_to_isolation();
+[[nodiscard]] IsolationAbility try_isolation();
 
 }  // namespace playpen

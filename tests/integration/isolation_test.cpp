@@ -96,9 +96,7 @@ TEST_F(IsolatedRuns, Course_SameAsTogether) {
 }
 
 TEST_F(IsolatedRuns, ProgramWithThreads_SameAsTogether) {
-  expect_same_as_together("par_intro",
-                          {THREAD_PROGRAMS, "use_futures"},
-                          {"--duration", "10"});
+  expect_same_as_together("par_intro", {THREAD_PROGRAMS, "use_futures"}, {"--duration", "10"});
 }
 
 TEST_F(IsolatedRuns, OtherEnds_SameAsTogether) {

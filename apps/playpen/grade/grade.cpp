@@ -270,7 +270,7 @@ void choose_worlds(Task& task, const std::vector<std::string>& files) {
 
 Grade grade(const GradeSettings& settings,
             const std::function<void(const Progress&, const Grade&)>& on_progress) {
-  Grade result{settings.task, settings.program, {}};
+  Grade result{settings.task, settings.program, {}, !settings.launcher.empty()};
   Runs runs(settings, result);
   playerlike::JobLimits limits;
   limits.at_once = settings.jobs;

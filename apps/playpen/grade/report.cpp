@@ -331,11 +331,10 @@ std::string json_text(const Grade& grade) {
         spread ? ordered_json{{"min", spread->least}, {"mean", spread->mean}, {"max", spread->most}}
                : ordered_json(nullptr);
   }
-  const ordered_json whole = {{"task", grade.task.name},
-                              {"program", grade.program},
-                              {"passed", grade.passed() == grade.runs.size()},
-                              {"summary", summary},
-                              {"runs", runs}};
+  const ordered_json whole = {
+      {"task", grade.task.name},    {"program", grade.program},
+      {"isolated", grade.isolated}, {"passed", grade.passed() == grade.runs.size()},
+      {"summary", summary},         {"runs", runs}};
   // Arguments and folders may contain bytes that are not valid UTF-8.
   return whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }

@@ -16,6 +16,7 @@ struct Grade {
   Task task;
   std::vector<std::string> program;  ///< including the arguments that the user gave
   std::vector<GradedRun> runs;
+  bool isolated = false;  ///< whether the programs ran in a sandbox
 
   [[nodiscard]] std::size_t passed() const noexcept;
 };
