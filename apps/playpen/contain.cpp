@@ -28,6 +28,7 @@
 #include "playerlike/connect/open_session.h"
 #include "playerlike/process/log.h"
 #include "playerlike/server/server.h"
+#include "preload.h"
 #include "sandbox.h"
 #include "scratch_folder.h"
 
@@ -149,12 +150,13 @@ SandboxSettings sandbox_of(const ContainRequest& request, const Door& door) {
   settings.hidden = request.hidden;
   settings.sized = !request.unsized;
   settings.environment = environment_of_program(request.preloaded);
-  // The libraries of the package: beside the folder of this command, or anywhere in a build.
   const fs::path package = own_folders().at(1);
-  if (fs::exists(package / "CMakeCache.txt")) {
-    settings.readable.push_back(package);
-  } else if (!request.preloaded.empty()) {
-    settings.readable.push_back(fs::path(request.preloaded).parent_path().parent_path());
+  std::error_code error;
+  if (fs::exists(package / "CMakeCache.txt", error)) {
+    settings.readable.push_back(package);  // a build, where libraries are in many folders
+  }
+  for (const fs::path& folder : library_folders()) {
+    if (fs::is_directory(folder, error)) settings.readable.push_back(folder.parent_path());
   }
   return settings;
 }

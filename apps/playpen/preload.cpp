@@ -22,18 +22,6 @@ constexpr const char* kFolderVariable = "PLAYPEN_LIBRARIES";
 // These characters are special to the loader, which has no way to escape them.
 constexpr const char* kSpecial = " :;$\t\n";
 
-/// Folders that may contain Playpen's own libraries, relative to this program's folder, so that an
-/// installed tree can be moved.
-std::vector<fs::path> library_folders() {
-  const std::vector<fs::path> own = own_folders();
-  const fs::path folder = own.empty() ? fs::path() : own.front();
-  std::vector<fs::path> folders;
-  for (const char* place : {PLAYPEN_LIBRARY_PLACES}) {
-    folders.push_back((folder / place / "playpen").lexically_normal());
-  }
-  return folders;
-}
-
 fs::path find_library() {
   std::error_code error;
   std::string places;
@@ -53,6 +41,16 @@ std::string environment(const char* name) {
 }
 
 }  // namespace
+
+std::vector<fs::path> library_folders() {
+  const std::vector<fs::path> own = own_folders();
+  const fs::path folder = own.empty() ? fs::path() : own.front();
+  std::vector<fs::path> folders;
+  for (const char* place : {PLAYPEN_LIBRARY_PLACES}) {
+    folders.push_back((folder / place / "playpen").lexically_normal());
+  }
+  return folders;
+}
 
 void add_libraries_folder(playerlike::EnvironmentChanges& environment_changes) {
   if (!environment(kFolderVariable).empty()) return;

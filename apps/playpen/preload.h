@@ -1,11 +1,17 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "playerlike/host/program.h"
 
 namespace playpen {
+
+/// Folders that may contain Playpen's loadable libraries, relative to this program's folder, so
+/// that an installed tree can be moved. The libraries that programs link are beside these folders.
+[[nodiscard]] std::vector<std::filesystem::path> library_folders();
 
 /// Passes the folder of the loadable libraries to a program in PLAYPEN_LIBRARIES; a statically
 /// linked program cannot find it by itself. Keeps a folder that the user has set.

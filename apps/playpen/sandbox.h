@@ -15,7 +15,7 @@ namespace playpen {
 
 /// Limits of all processes of a sandbox together, unless they say otherwise.
 struct SandboxLimits {
-  std::size_t tasks = 512;                     ///< processes and threads
+  std::size_t tasks = 256;                     ///< processes and threads
   std::uint64_t memory_bytes = 2'000'000'000;  ///< of their own, not shared with others
   std::uint64_t files_bytes = 64'000'000;      ///< in each of /tmp and /dev/shm
   std::uint64_t processor_s = 3600;            ///< of one process
@@ -66,7 +66,7 @@ class SandboxedProgram {
   [[nodiscard]] std::optional<int> poll();
   /// Kills all of its processes. Any thread may call it.
   void kill_all() noexcept;
-  /// Which limit its processes exceed, for the user: "at least 512 processes and threads"; empty:
+  /// Which limit its processes exceed, for the user: "at least 256 processes and threads"; empty:
   /// none. Call it some times a second.
   [[nodiscard]] std::string excess();
 

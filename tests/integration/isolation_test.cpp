@@ -131,6 +131,18 @@ TEST_F(IsolatedRuns, ReadablePaths_VisibleToProgram) {
   EXPECT_THAT(missing.err, HasSubstr("--readable names '" + folder_ / "none"));
 }
 
+TEST_F(IsolatedRuns, WorldAndResults_HiddenInVisibleFolders) {
+  const std::string world = folder_.write("world.json", test_support::room_world());
+  static_cast<void>(folder_.write("seen.txt", "seen by the program"));
+  fs::permissions(folder_.path(), fs::perms::others_read | fs::perms::others_exec,
+                  fs::perm_options::add);  // if root runs the test
+  const ProcessResult apart =
+      playpen({"run", world, "--isolated", "required", "--readable", folder_.path(), "--out",
+               folder_ / "out", "--", "sh", "-c",
+               "cd " + folder_.path().string() + "; cat seen.txt world.json; ls out | wc -l"});
+  EXPECT_EQ(apart.out, "seen by the program0\n");
+}
+
 TEST(IsolationLevels, WithoutBubblewrap_RequiredStopsAndBestSaysSo) {
   const TemporaryFolder folder;
   ProcessOptions options;
