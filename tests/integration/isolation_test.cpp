@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "nightly.h"
 #include "playpen_process.h"
 #include "run_files.h"
 #include "temporary_folder.h"
@@ -93,6 +94,60 @@ TEST_F(IsolatedRuns, Course_SameAsTogether) {
   expect_same_as_together("par_intro", {AVOID_PROGRAM}, {"--duration", "30"});
   expect_same_as_together("par_planning", {DIJKSTRA_PROGRAM, "--goal-x=3.1", "--goal-y=3.3"});
   expect_same_as_together("par_exploration", {NEAREST_PROGRAM}, {"--duration", "10"});
+}
+
+// Grades of the course: solutions, which pass, and templates, which do not.
+class IsolatedGrades : public Isolation {
+ protected:
+  /// grade.json without what differs, and the trajectories of its runs.
+  json grade(const std::string& task, const std::string& program, const std::string& level) {
+    const std::string out = folder_ / level;
+    const std::string path = fs::path(AVOID_PROGRAM).parent_path() / program;
+    const ProcessResult result =
+        playpen({"grade", task, "--isolated", level, "--seeds", test_support::cases("1,", "3"),
+                 "--timeout", "9999", "--out", out, "--", path});
+    json whole = json::parse(read_bytes(out + "/grade.json"));
+    EXPECT_EQ(whole.at("isolated"), level == "required");
+    EXPECT_EQ(result.status == 0, whole.at("passed").get<bool>()) << result.err;
+    whole.erase("isolated");
+    for (json& run : whole.at("runs")) {
+      run.erase("wall_time");
+      run["trajectory"] =
+          read_bytes(fs::path(out) / run.at("folder").get<std::string>() / "trajectory.csv");
+    }
+    return whole;
+  }
+};
+
+TEST_F(IsolatedGrades, Course_SameAsTogether) {
+  struct Case {
+    const char* task;
+    const char* program;
+    bool passes;
+  };
+  const std::vector<Case> at_night = {
+      {"par_intro", "par_intro_solution_avoid", true},
+      {"par_intro", "par_intro_solution_wall", true},
+      {"par_planning", "par_planning_solution_dijkstra", true},
+      {"par_planning", "par_planning_solution_theta", true},
+      {"par_planning", "par_planning_template", false},
+      {"par_exploration", "par_exploration_solution_nearest", true},
+      {"par_exploration", "par_exploration_solution_gain", true},
+      {"par_exploration", "par_exploration_template", false},
+      {"par_exploration_changing", "par_exploration_changing_solution_again", true},
+      {"par_traps", "par_traps_solution_learn", true},
+      {"par_chase", "par_chase_solution_patrol", true},
+      {"par_chase", "par_chase_template", false},
+      {"par_localization", "par_localization_solution_amcl", true},
+      {"par_localization", "par_localization_solution_particles", true}};
+  const std::vector<Case> on_a_merge = {{"par_traps", "par_traps_template", false},
+                                        {"par_chase", "par_chase_solution_patrol", true}};
+  for (const Case& one : test_support::cases(on_a_merge, at_night)) {
+    SCOPED_TRACE(one.program);
+    const json together = grade(one.task, one.program, "off");
+    EXPECT_EQ(together.at("passed"), one.passes);
+    EXPECT_TRUE(grade(one.task, one.program, "required") == together);
+  }
 }
 
 TEST_F(IsolatedRuns, ProgramWithThreads_SameAsTogether) {
