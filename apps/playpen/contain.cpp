@@ -38,7 +38,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSignals = 128;  // the status of a program that a signal has ended is that much more
 constexpr int kLook_ms = 50;
 constexpr auto kShortLook = std::chrono::milliseconds(1);
 // How long the server may take to read what ended programs have sent.
@@ -192,7 +191,7 @@ int wait_for_end(SandboxedProgram& program, const Door& door, ServedRun& run) {
   sigaddset(&one, signal);
   pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
   raise(signal);
-  std::_Exit(kSignals + signal);  // a signal that does not end a process
+  std::_Exit(kSignalStatus + signal);  // a signal that does not end a process
 }
 
 /// @return the program's status in the form of a shell; 0 if a signal has ended the run.
@@ -220,7 +219,7 @@ int run_contained(const ContainRequest& request) {
 
 int contain(const ContainRequest& request) {
   const int status = run_contained(request);
-  if (status > kSignals && status - kSignals < NSIG) end_by(status - kSignals);
+  if (status > kSignalStatus && status - kSignalStatus < NSIG) end_by(status - kSignalStatus);
   return status;
 }
 

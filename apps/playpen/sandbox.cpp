@@ -273,8 +273,7 @@ std::optional<int> SandboxedProgram::poll() {
   int status = 0;
   if (waitpid(process_, &status, WNOHANG) != process_) return std::nullopt;
   ended_ = true;
-  constexpr int kSignals = 128;
-  return WIFSIGNALED(status) ? kSignals + WTERMSIG(status) : WEXITSTATUS(status);
+  return WIFSIGNALED(status) ? kSignalStatus + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
 void SandboxedProgram::kill_all() noexcept {

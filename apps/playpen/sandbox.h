@@ -37,6 +37,9 @@ struct SandboxSettings {
 
 inline constexpr const char* kSandboxSocket = "/run/playpen/robots";
 
+/// A program that a signal has ended has the signal's number and this as its status, as in a shell.
+inline constexpr int kSignalStatus = 128;
+
 /// The command line that runs a program in bubblewrap: with user, process, network, host name and
 /// IPC namespaces of its own (for root, instead of the first, as a user of its own); the system's
 /// programs and libraries, the program's folder and what the settings name, all of it read-only;
