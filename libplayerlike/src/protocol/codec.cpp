@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "protocol/cbor_items.h"
 #include "sim/core/base64.h"
 
 namespace playerlike::protocol {
@@ -376,6 +377,26 @@ json encode_drawings(std::span<const sim::DrawOperation> drawings, Encoding enco
     std::memcpy(out.data() + i * sizeof wire, &wire, sizeof wire);
   }
   return bytes(std::move(out), encoding);
+}
+
+void append_draw_request(std::span<const sim::DrawOperation> drawings, Encoding encoding,
+                         std::string& out) {
+  if (encoding == Encoding::kJson) {
+    return append_encoded({{"do", "draw"}, {"drawings", encode_drawings(drawings, encoding)}},
+                          encoding, out);
+  }
+  append_frame(out, [&] {
+    CborWriter writer(out);
+    writer.object(2);
+    writer.text("do");
+    writer.text("draw");
+    writer.text("drawings");
+    writer.head(CborMajor::kBytes, drawings.size() * sizeof(WireDrawing));
+    for (const sim::DrawOperation& drawing : drawings) {
+      const WireDrawing wire = to_wire(drawing);
+      writer.raw({reinterpret_cast<const char*>(&wire), sizeof wire});
+    }
+  });
 }
 
 std::vector<sim::DrawOperation> decode_drawings(const json& drawings, Encoding encoding) {

@@ -121,7 +121,7 @@ struct Connection::Impl {
     std::vector<json> messages;
     const auto take = [&] {
       while (const auto message = splitter.next()) {
-        messages.push_back(protocol::decode(*message, encoding));
+        messages.push_back(protocol::decode(*message, encoding, nullptr, "readings"));
       }
     };
     take();  // messages that arrived together with the answer to hello

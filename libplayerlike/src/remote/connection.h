@@ -62,7 +62,7 @@ class Connection {
   /// the request.
   /// @return the id for answer(), which must be called. @throws ConnectionLost.
   [[nodiscard]] std::uint64_t ask(nlohmann::json& request, std::string& bytes);
-  /// Waits for an answer.
+  /// Waits for an answer. In CBOR its `readings` are not decoded, see protocol::kEncodedItemTag.
   /// @param at_most  replaces the request timeout if it is shorter.
   /// @throws ConnectionLost; SessionError for an error answer.
   [[nodiscard]] nlohmann::json answer(std::uint64_t id, WaitPolicy policy = WaitPolicy::kTimeout,

@@ -121,7 +121,6 @@ class SocketSession final : public Session {
   [[nodiscard]] Answer ask_for(const Request& request) const;
   /// Sends a `read`, which may let time pass.
   nlohmann::json read(nlohmann::json request) const;
-  void tell(const nlohmann::json& message) const;
   /// Caches the values that any answer may contain.
   void note(const nlohmann::json& answer) const;
   /// Stores the contents of an answer to a `read`.

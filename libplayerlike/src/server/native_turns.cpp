@@ -93,7 +93,10 @@ bool NativeHandler::is_only_program() const {
 }
 
 json NativeHandler::round_of_turns(bool take) {
-  json answer = {{"readings", take ? readings() : json::array()}, {"data", take}};
+  json answer = json::object();
+  answer["readings"] = json::array();
+  if (take) take_readings(answer);
+  answer["data"] = take;
   answer["ready"] = ready_sessions();
   answer["alone"] = is_only_program();
   const TimeStatistics time = hub_.host().time();
