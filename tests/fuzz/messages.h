@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -35,6 +36,44 @@ inline json sent_on(const json& message, Encoding encoding) {
   const auto bytes = splitter.next();
   require_true(bytes.has_value());
   return decode(*bytes, encoding);
+}
+
+/// Reads bytes as a reading without a tree of values: the result is that of the tree.
+inline void take_cbor_bytes(std::string_view bytes) {
+  std::optional<DecodedReading> expected;
+  std::string type;
+  attempt([&] {
+    const json tree = decode(bytes, Encoding::kCbor);
+    expected = decode_reading(tree, Encoding::kCbor);
+    type = require_text(tree, "type");
+  });
+  std::optional<DecodedReading> read;
+  attempt([&] {
+    std::string_view rest = bytes;
+    DecodedReading decoded = take_cbor_reading(rest);
+    if (rest.empty()) read = std::move(decoded);
+  });
+  require_true(read.has_value() == expected.has_value());
+  if (!read) return;
+  const auto encoded = [&](const DecodedReading& decoded) {
+    return encode_reading(decoded.device, type, *decoded.reading, Encoding::kCbor);
+  };
+  require_true(encoded(*read) == encoded(*expected));
+  std::string written;
+  append_cbor_reading(read->device, type, *read->reading, written);
+  require_true(decode(written, Encoding::kCbor) == encoded(*read));
+}
+
+/// Reads a list of readings that is not decoded.
+inline void take_kept_readings(std::string_view bytes) {
+  attempt([&] {
+    const json message = decode(bytes, Encoding::kCbor, nullptr, "readings");
+    const auto list = message.find("readings");
+    if (list == message.end()) return;
+    const auto& kept = list->get_binary();
+    static_cast<void>(
+        decode_cbor_readings({reinterpret_cast<const char*>(kept.data()), kept.size()}));
+  });
 }
 
 /// Reads a value as every type that it could represent.

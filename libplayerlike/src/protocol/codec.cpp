@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "protocol/cbor_items.h"
 #include "sim/core/base64.h"
 
 namespace playerlike::protocol {
@@ -376,6 +377,54 @@ json encode_drawings(std::span<const sim::DrawOperation> drawings, Encoding enco
     std::memcpy(out.data() + i * sizeof wire, &wire, sizeof wire);
   }
   return bytes(std::move(out), encoding);
+}
+
+void append_draw_request(std::span<const sim::DrawOperation> drawings, Encoding encoding,
+                         std::string& out) {
+  if (encoding == Encoding::kJson) {
+    return append_encoded({{"do", "draw"}, {"drawings", encode_drawings(drawings, encoding)}},
+                          encoding, out);
+  }
+  append_frame(out, [&] {
+    CborWriter writer(out);
+    writer.object(2);
+    writer.text("do");
+    writer.text("draw");
+    writer.text("drawings");
+    writer.head(CborMajor::kBytes, drawings.size() * sizeof(WireDrawing));
+    for (const sim::DrawOperation& drawing : drawings) {
+      const WireDrawing wire = to_wire(drawing);
+      writer.raw({reinterpret_cast<const char*>(&wire), sizeof wire});
+    }
+  });
+}
+
+void append_set_cells_request(sim::LayerId layer, const sim::CellRect& rect,
+                              std::span<const sim::CellValue> cells, Encoding encoding,
+                              std::string& out) {
+  if (encoding == Encoding::kJson) {
+    return append_encoded({{"do", "set_cells"},
+                           {"layer", layer},
+                           {"rect", {rect.column, rect.row, rect.width, rect.height}},
+                           {"cells", encode_cells(cells, encoding)}},
+                          encoding, out);
+  }
+  append_frame(out, [&] {
+    CborWriter writer(out);
+    writer.object(4);
+    writer.text("do");
+    writer.text("set_cells");
+    writer.text("layer");
+    writer.integer(layer);
+    writer.text("rect");
+    writer.list(4);
+    for (const int number : {rect.column, rect.row, rect.width, rect.height}) {
+      writer.integer(number);
+    }
+    writer.text("cells");
+    writer.head(CborMajor::kBytes, cells.size_bytes());
+    writer.raw({reinterpret_cast<const char*>(cells.data()), cells.size_bytes()});
+  });
 }
 
 std::vector<sim::DrawOperation> decode_drawings(const json& drawings, Encoding encoding) {

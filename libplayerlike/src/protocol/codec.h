@@ -84,6 +84,33 @@ struct DecodedReading {
 };
 [[nodiscard]] DecodedReading decode_reading(const json& reading, Encoding encoding);
 
+/// @name Readings and commands in CBOR, without a tree of values
+/// What these functions write and read is what the trees say; only the order of members differs.
+/// @{
+/// Appends a reading, see encode_reading().
+void append_cbor_reading(DeviceId device, std::string_view type, const sim::Reading& reading,
+                         std::string& out);
+/// Removes a reading from the front of `rest`. @throws ProtocolError as decode() and
+/// decode_reading().
+[[nodiscard]] DecodedReading take_cbor_reading(std::string_view& rest);
+/// A list of encoded items as a value, see kEncodedItemTag.
+[[nodiscard]] json encoded_list(std::size_t count, std::string_view items);
+/// Decodes an encoded list of readings. @throws ProtocolError.
+[[nodiscard]] std::vector<DecodedReading> decode_cbor_readings(std::string_view list);
+/// @}
+
+/// Appends the request {"do": "command", ...}, which has no answer, with its length or line end.
+void append_command_request(DeviceId device, const sim::Command& command, Encoding encoding,
+                            std::string& out);
+/// Appends the request {"do": "draw", ...} likewise.
+void append_draw_request(std::span<const sim::DrawOperation> drawings, Encoding encoding,
+                         std::string& out);
+
+/// Appends the request {"do": "set_cells", ...} likewise. @param cells  row by row from the top.
+void append_set_cells_request(sim::LayerId layer, const sim::CellRect& rect,
+                              std::span<const sim::CellValue> cells, Encoding encoding,
+                              std::string& out);
+
 /// Encodes a command: {"kind": "twist", ...}.
 [[nodiscard]] json encode_command(const sim::Command& command);
 [[nodiscard]] sim::Command decode_command(const json& command);

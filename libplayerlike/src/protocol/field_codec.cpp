@@ -30,11 +30,6 @@ std::pair<const Field&, const Field&> key_and_value(const Field& field) {
   return {field.table().fields[0], field.table().fields[1]};
 }
 
-bool is_in_place(const Field& field) {
-  const std::string_view name = field.name;
-  return name.empty() || name.ends_with('_');
-}
-
 template <typename Json>
 Json written(const Field& field, const void* value, Encoding encoding);
 
@@ -296,9 +291,6 @@ void read_value(const Field& field, const Json& in, const char* key, Encoding en
   }
 }
 
-/// The position of the dot in "own.ip"; null if there is none.
-const char* dot_in(const Field& field) { return std::strchr(field.name, '.'); }
-
 /// The object that holds a field: "own" for "own.ip".
 template <typename Json>
 const Json& require_owner(const Field& field, const char* dot, const Json& in) {
@@ -310,15 +302,15 @@ const Json& require_owner(const Field& field, const char* dot, const Json& in) {
   return object;
 }
 
-const sim::DeviceKind& kind_with_readings(std::string_view type) {
+}  // namespace
+
+const sim::ReadingKind& reading_kind(std::string_view type) {
   const sim::DeviceKind* kind = sim::find_device_kind(type);
   if (kind == nullptr || kind->reading.fields == nullptr) {
     refuse_value("type", "a type of device that makes readings", std::string(type));
   }
-  return *kind;
+  return kind->reading;
 }
-
-}  // namespace
 
 template <typename Json>
 void write_fields(const sim::FieldTable& table, const void* object, Json& out, Encoding encoding) {
@@ -356,6 +348,21 @@ void read_fields(const sim::FieldTable& table, const Json& in, Encoding encoding
     refuse_value(error->key, error->expected, json(member_of(in, error->key)));
   }
 }
+
+json encode_field(const Field& field, const void* value, Encoding encoding) {
+  return written<json>(field, value, encoding);
+}
+
+void decode_field(const Field& field, const json& in, Encoding encoding, void* value) {
+  read_value(field, in, field.name, encoding, value);
+}
+
+bool is_in_place(const Field& field) noexcept {
+  const std::string_view name = field.name;
+  return name.empty() || name.ends_with('_');
+}
+
+const char* dot_in(const Field& field) noexcept { return std::strchr(field.name, '.'); }
 
 template void write_fields(const sim::FieldTable&, const void*, json&, Encoding);
 template void write_fields(const sim::FieldTable&, const void*, ordered_json&, Encoding);
@@ -400,7 +407,7 @@ json encode_reading(DeviceId device, std::string_view type, const sim::Reading& 
               {"seq", reading.sequence},
               {"t", reading.time_ns},
               {"type", type}};
-  const sim::ReadingKind& kind = kind_with_readings(type).reading;
+  const sim::ReadingKind& kind = reading_kind(type);
   write_fields(*kind.fields, kind.object(reading), out, encoding);
   return out;
 }
@@ -409,7 +416,7 @@ DecodedReading decode_reading(const json& reading, Encoding encoding) {
   DecodedReading decoded;
   decoded.device = require_device_id(reading, "device");
   const std::string type = require_text(reading, "type");
-  const sim::ReadingKind& kind = kind_with_readings(type).reading;
+  const sim::ReadingKind& kind = reading_kind(type);
   decoded.reading = kind.make();
   read_fields(*kind.fields, reading, encoding, kind.object(*decoded.reading));
   decoded.reading->sequence =

@@ -9,6 +9,7 @@
 
 #include "protocol/codec.h"
 #include "sim/core/fields.h"
+#include "sim/devices/builtin.h"
 
 /// How messages write and read the values of a type that is not a FieldType.
 struct sim::MessageForm {
@@ -35,12 +36,24 @@ void write_fields(const sim::FieldTable& table, const void* object, Json& out, E
 template <typename Json>
 void read_fields(const sim::FieldTable& table, const Json& in, Encoding encoding, void* object);
 
+/// The value of a field that has a name. @pre it is not empty.
+[[nodiscard]] json encode_field(const sim::Field& field, const void* value, Encoding encoding);
+/// Reads the member of `in` that encode_field() has made. @throws ProtocolError protocol/bad-value.
+void decode_field(const sim::Field& field, const json& in, Encoding encoding, void* value);
+/// Whether the components of a field's value are members of the message itself.
+[[nodiscard]] bool is_in_place(const sim::Field& field) noexcept;
+/// The position of the dot in "own.ip"; null if there is none.
+[[nodiscard]] const char* dot_in(const sim::Field& field) noexcept;
+
 /// The keys of a struct's message in the table's order.
 [[nodiscard]] std::vector<std::string> keys_of(const sim::FieldTable& table);
 
 /// Refuses keys that are neither in `more` nor in the table; see refuse_unknown_keys() in codec.h.
 void refuse_unknown_keys(const json& object, std::initializer_list<std::string_view> more,
                          const sim::FieldTable& table, std::string_view what);
+
+/// The readings of a type of device. @throws ProtocolError protocol/bad-value if it makes none.
+[[nodiscard]] const sim::ReadingKind& reading_kind(std::string_view type);
 
 /// A list of texts. @param expected  describes it in errors; nullptr: a list of names.
 [[nodiscard]] std::vector<std::string> require_texts(const json& in, const char* key,

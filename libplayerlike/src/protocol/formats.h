@@ -16,7 +16,9 @@ void append_cbor(const nlohmann::json& value, std::string& out);
 
 /// @param splice_lists  whether long lists of numbers become typed arrays.
 [[nodiscard]] nlohmann::json parse_json(std::string_view text, bool splice_lists);
-/// @param spare  see decode(); may be null.
-[[nodiscard]] nlohmann::json parse_cbor(std::string_view bytes, Spare<std::uint8_t>* spare);
+/// @param spare    see decode(); may be null.
+/// @param encoded  see decode(); may be empty.
+[[nodiscard]] nlohmann::json parse_cbor(std::string_view bytes, Spare<std::uint8_t>* spare,
+                                        std::string_view encoded);
 
 }  // namespace playerlike::protocol

@@ -120,10 +120,7 @@ void append_encoded(const json& message, Encoding encoding, std::string& out) {
     out += '\n';
     return;
   }
-  const std::size_t begin = out.size();
-  out.resize(begin + kLengthBytes);
-  append_cbor(message, out);
-  write_big_endian(out.size() - begin - kLengthBytes, out.data() + begin);
+  append_frame(out, [&] { append_cbor(message, out); });
 }
 
 std::string encode(const json& message, Encoding encoding) {
@@ -138,8 +135,10 @@ void keep_bytes(json& message, Spare<std::uint8_t>& spare) {
   }
 }
 
-json decode(std::string_view bytes, Encoding encoding, Spare<std::uint8_t>* spare) {
-  json message = encoding == Encoding::kJson ? parse_json(bytes, true) : parse_cbor(bytes, spare);
+json decode(std::string_view bytes, Encoding encoding, Spare<std::uint8_t>* spare,
+            std::string_view encoded) {
+  json message =
+      encoding == Encoding::kJson ? parse_json(bytes, true) : parse_cbor(bytes, spare, encoded);
   if (!message.is_object()) {
     throw ProtocolError("protocol/not-an-object",
                         std::string("a message is an object, found ") + message.type_name());

@@ -27,6 +27,11 @@ inline constexpr int kMaxDepth = 32;
 /// a binary value with this subtype.
 inline constexpr std::uint8_t kDoublesTag = 86;
 
+/// CBOR tag of an encoded item (RFC 8949, section 3.4.5.1). As a json value, a binary value with
+/// this subtype is a part of a message that is encoded already, or not decoded yet; it is never on
+/// the wire.
+inline constexpr std::uint8_t kEncodedItemTag = 24;
+
 /// Encodings of messages on the wire.
 enum class Encoding {
   kJson,  ///< one JSON object per line, ended by \n (a preceding \r is ignored)
@@ -109,6 +114,16 @@ class MessageSplitter {
 /// decode() restores numbers exactly. @pre numbers are finite: JSON cannot represent others (null
 /// is written), and decode() refuses them.
 [[nodiscard]] std::string encode(const nlohmann::json& message, Encoding encoding);
+/// Appends a frame: calls write(), which appends the message in CBOR, and puts its length before
+/// it.
+template <typename Write>
+void append_frame(std::string& out, Write write) {
+  constexpr std::size_t kLengthBytes = 4;
+  const std::size_t begin = out.size();
+  out.resize(begin + kLengthBytes);
+  write();
+  write_big_endian(out.size() - begin - kLengthBytes, out.data() + begin);
+}
 /// Appends what encode() returns.
 void append_encoded(const nlohmann::json& message, Encoding encoding, std::string& out);
 
@@ -121,9 +136,12 @@ void append_encoded(const nlohmann::json& message, Encoding encoding, std::strin
 /// array of doubles, see kDoublesTag; require_doubles() accepts both forms.
 /// @throws ProtocolError protocol/syntax, protocol/too-deep (more than kMaxDepth levels),
 /// protocol/duplicate-key, protocol/not-an-object, protocol/number (not finite, or too large).
-/// @param spare  gives its memory to a large byte string in CBOR; see keep_bytes(). May be null.
+/// @param spare    gives its memory to a large byte string in CBOR; see keep_bytes(). May be null.
+/// @param encoded  in CBOR, the member of this name is not decoded, see kEncodedItemTag. Only its
+///                 structure is checked.
 [[nodiscard]] nlohmann::json decode(std::string_view bytes, Encoding encoding,
-                                    Spare<std::uint8_t>* spare = nullptr);
+                                    Spare<std::uint8_t>* spare = nullptr,
+                                    std::string_view encoded = {});
 /// Gives the memory of a message's byte strings to `spare`. Their content is undefined afterwards.
 void keep_bytes(nlohmann::json& message, Spare<std::uint8_t>& spare);
 /// Minimum length of a list that decode() converts to a typed array.

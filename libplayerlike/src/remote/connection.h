@@ -49,6 +49,9 @@ class Connection {
   [[nodiscard]] protocol::Encoding encoding() const noexcept;
   /// Maximum length of a message to the server [bytes].
   [[nodiscard]] std::size_t message_limit() const noexcept;
+  /// Sets whether answers come so soon that it is worth looking for them before a thread sleeps,
+  /// see ShortWait.
+  void expect_soon(bool soon) noexcept;
   /// Sets the maximum time to wait for an answer.
   void set_request_timeout(Clock::duration timeout) noexcept;
 
@@ -62,7 +65,7 @@ class Connection {
   /// the request.
   /// @return the id for answer(), which must be called. @throws ConnectionLost.
   [[nodiscard]] std::uint64_t ask(nlohmann::json& request, std::string& bytes);
-  /// Waits for an answer.
+  /// Waits for an answer. In CBOR its `readings` are not decoded, see protocol::kEncodedItemTag.
   /// @param at_most  replaces the request timeout if it is shorter.
   /// @throws ConnectionLost; SessionError for an error answer.
   [[nodiscard]] nlohmann::json answer(std::uint64_t id, WaitPolicy policy = WaitPolicy::kTimeout,

@@ -120,9 +120,7 @@ void MessageSender::begin_with_waiting(const Connection& connection) {
     while (!drawings.empty()) {
       const auto part = drawings.first(std::min(drawings.size(), most));
       drawings = drawings.subspan(part.size());
-      protocol::append_encoded(
-          json{{"do", "draw"}, {"drawings", protocol::encode_drawings(part, encoding)}}, encoding,
-          outgoing_);
+      protocol::append_draw_request(part, encoding, outgoing_);
       sent_.fetch_add(1);
     }
   });
@@ -188,17 +186,21 @@ json MessageSender::wait(json& request) {
   return ask(request, Connection::WaitPolicy::kWhileAlive, true, nullptr);
 }
 
-void MessageSender::tell(const json& message) {
+void MessageSender::tell(const Append& append) {
   const Lock lock(send_mutex_);
   const std::shared_ptr<Connection> connection = this->connection();
   sent_.fetch_add(1);
   begin_with_waiting(*connection);
-  protocol::append_encoded(message, connection->encoding(), outgoing_);
+  append(connection->encoding(), outgoing_);
   if (holds_back_ && outgoing_.size() < kMostHeldBack) {
     held_back_.swap(outgoing_);
     outgoing_.clear();
   }
   connection->tell(outgoing_);  // even without bytes, since it throws if the connection is lost
+}
+
+void MessageSender::hold_back(bool holds) noexcept {
+  if (holds_back_.exchange(holds) != holds) connection()->expect_soon(holds);
 }
 
 void MessageSender::flush_and_confirm() noexcept {

@@ -50,17 +50,20 @@ class MessageSender : public std::enable_shared_from_this<MessageSender> {
   /// As wait(), but returns at once. @param on  receives the connection for
   /// Connection::answer_within(). @return the id for it.
   std::uint64_t begin_wait(nlohmann::json& request, std::shared_ptr<Connection>& on);
+  /// Appends a message, with its length or line end.
+  using Append = std::function<void(protocol::Encoding encoding, std::string& out)>;
   /// Sends a message without an answer, at once or with the next one that has an answer, see
   /// hold_back(). @throws ConnectionLost.
-  void tell(const nlohmann::json& message);
+  void tell(const Append& append);
   /// Makes sure that all messages sent so far have arrived.
   void flush_and_confirm() noexcept;
   /// Calls flush_and_confirm() for all other sessions of this process in the same simulation.
   void confirm_others() noexcept;
 
   /// Sets whether messages without answers are sent with the next message that has one. That is
-  /// equivalent, and saves a system call for each, while no time can pass without this program.
-  void hold_back(bool holds) noexcept { holds_back_ = holds; }
+  /// equivalent, and saves a system call for each, while no time can pass without this program. The
+  /// server then computes for this program only, so answers are expected soon.
+  void hold_back(bool holds) noexcept;
 
   /// Sets whether time follows the wall clock; then a thread flushes the draw queue periodically.
   void set_paced(bool paced);

@@ -226,12 +226,13 @@ bool RemoteClock::prepare(Advance& advance) {
   }
   const sim::SimTime most_ns = now_ns() + kMostSteps * step_ns();
   const sim::SimTime until_ns = std::min(earliest_wake().value_or(most_ns), most_ns);
-  advance.request = {{"do", "read"},
-                     {"wait", "turns"},
-                     {"thread", kProgram},
-                     {"until", start_ns_ + until_ns},
-                     {"data", advance.wants_data},
-                     {"take", advance.fetches}};
+  json& request = advance.request;  // member by member, since a list of pairs is copied
+  request["do"] = "read";
+  request["wait"] = "turns";
+  request["thread"] = kProgram;
+  request["until"] = start_ns_ + until_ns;
+  request["data"] = advance.wants_data;
+  request["take"] = advance.fetches;
   if (!others.empty()) advance.request["others"] = std::move(others);
   if (!joined.empty()) advance.request["joined"] = std::move(joined);
   const std::vector<std::string> reasons = Turns::instance().unrepeatable();

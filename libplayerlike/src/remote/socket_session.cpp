@@ -32,8 +32,10 @@ constexpr int kReadsAfterEnd = 1000;
 // Tells the server that a thread has ended, so that nobody waits for it.
 void say_goodbye(void* sender) {
   try {
-    static_cast<MessageSender*>(sender)->tell(
-        json{{"do", "thread_ended"}, {"thread", this_thread_id()}});
+    static_cast<MessageSender*>(sender)->tell([](Encoding encoding, std::string& out) {
+      protocol::append_encoded({{"do", "thread_ended"}, {"thread", this_thread_id()}}, encoding,
+                               out);
+    });
   } catch (const std::exception&) {
     // The server notices the lost connection itself.
   }
@@ -67,6 +69,19 @@ auto understood(Read read) -> decltype(read()) {
   } catch (const protocol::ProtocolError& e) {
     throw misunderstood(e.what());
   }
+}
+
+std::vector<protocol::DecodedReading> decoded_readings(const json& list) {
+  if (list.is_binary() && list.get_binary().subtype() == protocol::kEncodedItemTag) {
+    const auto& bytes = list.get_binary();
+    return protocol::decode_cbor_readings(
+        {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+  std::vector<protocol::DecodedReading> readings;
+  for (const json& reading : protocol::require_list(list, "readings")) {
+    readings.push_back(protocol::decode_reading(reading, Encoding::kJson));
+  }
+  return readings;
 }
 
 std::uint64_t session_number(const json& welcome) {
@@ -260,10 +275,6 @@ json SocketSession::read(json request) const {
   return with_connection([&] { return sender_->wait(request); });
 }
 
-void SocketSession::tell(const json& message) const {
-  with_connection([&] { sender_->tell(message); });
-}
-
 void SocketSession::note(const json& answer) const {
   const auto canvas = answer.find("canvas");
   if (canvas == answer.end() || canvas->is_null()) return;
@@ -373,12 +384,7 @@ void SocketSession::store_answer(const json& answer, bool round) {
   understood([&] {
     std::vector<protocol::DecodedReading> readings;
     if (const auto list = answer.find("readings"); list != answer.end()) {
-      if (!list->is_array()) protocol::refuse_value("readings", "a list", *list);
-      readings.reserve(list->size());
-      const Encoding encoding = sender_->connection()->encoding();
-      for (const json& reading : *list) {
-        readings.push_back(protocol::decode_reading(reading, encoding));
-      }
+      readings = decoded_readings(*list);
     }
     constexpr std::int64_t kMost = 0xffffffff;
     if (answer.contains("overflow")) {
@@ -543,9 +549,11 @@ void SocketSession::send(DeviceId device, const sim::Command& command) {
   require_device(robots_, device);
   require_finite(command);
   if (turns_) clock_->touch(*turns_);
-  tell({{"do", "command"},
-        {"device", protocol::encode_device_id(device)},
-        {"command", protocol::encode_command(command)}});
+  with_connection([&] {
+    sender_->tell([&](Encoding encoding, std::string& out) {
+      protocol::append_command_request(device, command, encoding, out);
+    });
+  });
 }
 
 std::unique_ptr<Session> SocketSession::open_follower() {
@@ -618,6 +626,15 @@ struct SocketSession::RequestHandler {
     session.with_connection([&] { session.sender_->flush(); });
   }
   void operator()(const SetCellsRequest& what) const { session.set_cells(what); }
+  void operator()(const RemoveLayerRequest& what) const {
+    session.forget_layers();
+    static_cast<void>(session.ask_for(what));
+  }
+  void operator()(const RestoreStateRequest& what) const {
+    session.forget_layers();
+    session.sender_->confirm_others();  // earlier images of other sessions are replaced, too
+    static_cast<void>(session.ask_for(what));
+  }
   CanvasInfo operator()(const CanvasInfoRequest&) const {
     const Lock lock(session.mutex_);
     return session.canvas_;
@@ -643,9 +660,18 @@ struct SocketSession::RequestHandler {
     for (const double number : *numbers) require_finite(sim::RotateCommand{number});
   }
 
+  /// Requests about what all sessions have drawn. Whole images, which need no answer, are part of
+  /// it at once.
+  template <typename One>
+  static constexpr bool kSeesImages =
+      std::is_same_v<One, CanvasImageRequest> || std::is_same_v<One, SaveImageRequest> ||
+      std::is_same_v<One, CellsRequest> || std::is_same_v<One, CellRequest> ||
+      std::is_same_v<One, SaveStateRequest>;
+
   template <typename One>
   typename One::Result operator()(const One& what) const {
     if constexpr (requires { check(what); }) check(what);
+    if constexpr (kSeesImages<One>) session.sender_->confirm_others();
     if constexpr (!requires { One::kName; }) {
       throw SessionError(SessionError::Code::kNotAvailable,
                          "a server does this for clients in MORSE's protocol only");

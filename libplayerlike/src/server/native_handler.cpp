@@ -292,14 +292,25 @@ class NativeHandler::ReadingList final : public ReadingSink {
   void on_reading(DeviceId device, const sim::SharedReading& reading) override {
     const RobotInfo& robot = robots_[static_cast<std::size_t>(device.robot)];
     const DeviceInfo& info = robot.devices[static_cast<std::size_t>(device.device)];
-    list_.push_back(protocol::encode_reading(device, info.type, *reading, encoding_));
+    ++count_;
+    if (encoding_ == protocol::Encoding::kCbor) {
+      protocol::append_cbor_reading(device, info.type, *reading, items_);
+    } else {
+      list_.push_back(protocol::encode_reading(device, info.type, *reading, encoding_));
+    }
   }
-  [[nodiscard]] json take() { return std::move(list_); }
+  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+  [[nodiscard]] json take() {
+    if (encoding_ != protocol::Encoding::kCbor) return std::move(list_);
+    return protocol::encoded_list(count_, items_);
+  }
 
  private:
   const std::vector<RobotInfo>& robots_;
   protocol::Encoding encoding_;
+  std::size_t count_ = 0;
   json list_ = json::array();
+  std::string items_;
 };
 
 ThreadId NativeHandler::thread_id(const json& request) {
@@ -433,9 +444,10 @@ json NativeHandler::round(Wait wait, Outcome outcome, bool take) {
   if (wait == Wait::kTurns) return round_of_turns(take && outcome == Outcome::kData);
   const bool looks = wait == Wait::kData || wait == Wait::kPeek || wait == Wait::kNone;
   const bool takes = looks && (outcome == Outcome::kData || outcome == Outcome::kFinished);
-  json answer = {{"readings", takes ? readings() : json::array()}};
+  json answer = json::object();
   const TimeStatistics time = hub_.host().time();
-  const bool some = !answer["readings"].empty();
+  const bool some = takes && take_readings(answer) > 0;
+  if (!takes) answer["readings"] = json::array();
   answer["data"] = some || (wait != Wait::kNone && takes);
   answer["t"] = time.sim_time_ns;
   answer["finished"] = time.finished;
@@ -443,10 +455,11 @@ json NativeHandler::round(Wait wait, Outcome outcome, bool take) {
   return answer;
 }
 
-json NativeHandler::readings() {
+std::size_t NativeHandler::take_readings(json& answer) {
   ReadingList list(hub_.host().robots(), terms_.encoding);
   session().take(list);
-  return list.take();
+  answer["readings"] = list.take();
+  return list.count();
 }
 
 // --- Commands

@@ -108,7 +108,8 @@ class NativeHandler final : public Handler {
   void note_unrepeatable(const json& request);
   /// Numbers of the process's sessions that have data.
   [[nodiscard]] json ready_sessions() const;
-  json readings();
+  /// Adds the session's readings to an answer. @return their number.
+  std::size_t take_readings(json& answer);
 
   /// Opens the connection's session in the simulation.
   void open_session(EventRole role);

@@ -731,6 +731,128 @@ TEST_P(EachEncoding, Readings_RoundTripExactly) {
   EXPECT_GE(sensors, 9);
 }
 
+/// The fields of a reading as a text.
+std::string text_of(const sim::ReadingKind& kind, const DecodedReading& decoded) {
+  return std::to_string(decoded.device.robot) + ',' + std::to_string(decoded.device.device) + ',' +
+         std::to_string(decoded.reading->sequence) + ',' +
+         std::to_string(decoded.reading->time_ns) + ',' +
+         FieldText::of(*kind.fields, kind.object(*decoded.reading));
+}
+
+TEST(CborReadings, WithoutTree_SameAsTree) {
+  RandomFields fields(7);
+  for (const sim::DeviceKind& kind : sim::device_kinds()) {
+    if (kind.reading.fields == nullptr) continue;
+    for (int i = 0; i < 20; ++i) {
+      const std::unique_ptr<sim::Reading> sent = any_reading(kind.reading, fields);
+      std::string written;
+      append_cbor_reading({2, 5}, kind.name, *sent, written);
+      const json tree = encode_reading({2, 5}, kind.name, *sent, Encoding::kCbor);
+      ASSERT_EQ(decode(written, Encoding::kCbor), tree) << kind.name;
+      std::string_view rest = written;
+      const DecodedReading read = take_cbor_reading(rest);
+      EXPECT_TRUE(rest.empty());
+      ASSERT_EQ(text_of(kind.reading, read),
+                text_of(kind.reading, decode_reading(tree, Encoding::kCbor)))
+          << kind.name;
+    }
+  }
+}
+
+// Readings that the reader without a tree does not take itself.
+TEST(CborReadings, UnusualOrWrong_SameAsTree) {
+  RandomFields fields(8);
+  std::mt19937_64 random(9);
+  int refused = 0;
+  int taken = 0;
+  for (const sim::DeviceKind& kind : sim::device_kinds()) {
+    if (kind.reading.fields == nullptr) continue;
+    for (int i = 0; i < 300; ++i) {
+      const json whole =
+          encode_reading({0, 1}, kind.name, *any_reading(kind.reading, fields), Encoding::kCbor);
+      std::string bytes = encode(whole, Encoding::kCbor).substr(4);
+      for (auto changes = random() % 4; changes > 0; --changes) {
+        bytes[random() % bytes.size()] = static_cast<char>(random());
+      }
+      std::string expected;
+      std::string tree_error;
+      std::string error;
+      const std::string tree_id = error_of(
+          [&] {
+            const json tree = decode(bytes, Encoding::kCbor);
+            expected = text_of(kind.reading, decode_reading(tree, Encoding::kCbor));
+          },
+          &tree_error);
+      std::string read;
+      const std::string id = error_of(
+          [&] {
+            std::string_view rest = bytes;
+            const DecodedReading decoded = take_cbor_reading(rest);
+            if (!rest.empty()) throw ProtocolError("protocol/syntax", "bytes follow");
+            read = text_of(kind.reading, decoded);
+          },
+          &error);
+      ASSERT_EQ(id.empty(), tree_id.empty()) << kind.name << ": " << error << " / " << tree_error;
+      ASSERT_EQ(read, expected) << kind.name;
+      ++(id.empty() ? taken : refused);
+    }
+  }
+  EXPECT_GT(refused, 1000);
+  EXPECT_GT(taken, 1000);
+}
+
+TEST(CborReadings, Lists_DecodedOrRefused) {
+  std::string items;
+  append_cbor_reading({0, 4}, "pose", sim::PoseReading(), items);
+  append_cbor_reading({0, 0}, "laser", sim::LaserReading(), items);
+  const std::string message =
+      encode({{"id", 1}, {"readings", encoded_list(2, items)}}, Encoding::kCbor).substr(4);
+  EXPECT_EQ(decode(message, Encoding::kCbor)["readings"].size(), 2U);
+  const json kept = decode(message, Encoding::kCbor, nullptr, "readings");
+  const auto bytes_in = [](const json& value) {
+    return std::string(value.get_binary().begin(), value.get_binary().end());
+  };
+  EXPECT_EQ(kept["id"], 1);
+  EXPECT_EQ(kept["readings"].get_binary().subtype(), kEncodedItemTag);
+  const std::string list = bytes_in(kept["readings"]);
+  ASSERT_EQ(decode_cbor_readings(list).size(), 2U);
+  EXPECT_EQ(decode_cbor_readings(list)[1].device, (DeviceId{0, 0}));
+  for (const std::string& wrong :
+       {list.substr(0, list.size() - 1), list + '\x01', '\x83' + list.substr(1),
+        '\x9b' + std::string(8, '\x7f'), std::string("\xa0"), std::string("\x81\x05"),
+        std::string("\x81\xa0"), std::string()}) {
+    EXPECT_NE(error_of([&] { static_cast<void>(decode_cbor_readings(wrong)); }), "");
+  }
+}
+
+TEST(CborRequests, CommandsAndDrawings_SameAsTree) {
+  RandomFields fields(10);
+  const std::vector<sim::DrawOperation> drawings = {
+      {sim::DrawOperation::Kind::kLine, 3, 1, 2, 3, 4, {5}},
+      {sim::DrawOperation::Kind::kFill, 0, 1, 2, 3, 4, {6}}};
+  const auto sent = [](const std::string& bytes, Encoding encoding) {
+    MessageSplitter splitter(encoding, bytes.size());
+    splitter.add(bytes);
+    return decode(splitter.next().value(), encoding);
+  };
+  for (const Encoding encoding : {Encoding::kJson, Encoding::kCbor}) {
+    std::string drawn;
+    append_draw_request(drawings, encoding, drawn);
+    EXPECT_EQ(sent(drawn, encoding),
+              (json{{"do", "draw"}, {"drawings", encode_drawings(drawings, encoding)}}));
+    for (const auto& kind : sim::command_kinds()) {
+      sim::Command command = kind.make();
+      fields.fill(kind.fields(), sim::object_in(command));
+      std::string bytes;
+      append_command_request({1, 2}, command, encoding, bytes);
+      const json tree = {{"do", "command"},
+                         {"device", encode_device_id({1, 2})},
+                         {"command", encode_command(command)}};
+      EXPECT_EQ(sent(bytes, encoding), sent(encode(tree, encoding), encoding)) << kind.name;
+    }
+  }
+}
+
 TEST(Readings, TrueLaserPose_NotSent) {
   sim::LaserReading reading;
   reading.X_WB = {1.0, 2.0, 3.0};
