@@ -32,7 +32,7 @@ build_packages=(
   "g++=g++" cmake=cmake ninja-build=ninja make=make pkg-config=pkg-config
   libbox2d-dev libeigen3-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
-  libopencv-highgui-dev libavformat-dev libavcodec-dev libswscale-dev
+  libopencv-highgui-dev libavformat-dev libavcodec-dev
   libx11-dev libpng-dev libjpeg-dev libfreetype-dev fonts-dejavu-core
   libasio-dev nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev zlib1g-dev
 )

@@ -32,7 +32,7 @@ void draw_cells(const RenderRequest& request, int width, int height,
   cells.width = width;
   cells.height = height;
   const int scale = std::max(1, request.size_px / std::max(width, height));
-  sim::render::write_png(sim::render::draw_canvas(cells, rgba, scale), request.file);
+  sim::render::write_canvas_png(cells, rgba, scale, request.file);
 }
 
 /// White is free, black is occupied, grey is between.

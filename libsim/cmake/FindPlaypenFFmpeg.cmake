@@ -3,7 +3,7 @@
 # programs load them with its module for films, when they make one.
 include(FindPackageHandleStandardArgs)
 set(_playpen_ffmpeg_libraries)
-foreach(_library IN ITEMS avformat avcodec swscale avutil)
+foreach(_library IN ITEMS avformat avcodec avutil)
   find_library(PLAYPEN_${_library}_LIBRARY ${_library})
   mark_as_advanced(PLAYPEN_${_library}_LIBRARY)
   list(APPEND _playpen_ffmpeg_libraries PLAYPEN_${_library}_LIBRARY)
@@ -12,7 +12,7 @@ find_path(PLAYPEN_FFMPEG_INCLUDE_DIR libavformat/avformat.h)
 mark_as_advanced(PLAYPEN_FFMPEG_INCLUDE_DIR)
 find_package_handle_standard_args(PlaypenFFmpeg
   REQUIRED_VARS ${_playpen_ffmpeg_libraries} PLAYPEN_FFMPEG_INCLUDE_DIR
-  REASON_FAILURE_MESSAGE "install lib{avformat,avcodec,swscale}-dev")
+  REASON_FAILURE_MESSAGE "install lib{avformat,avcodec}-dev")
 if(PlaypenFFmpeg_FOUND AND NOT TARGET playpen_ffmpeg)
   add_library(playpen_ffmpeg INTERFACE IMPORTED)
   target_include_directories(playpen_ffmpeg SYSTEM INTERFACE ${PLAYPEN_FFMPEG_INCLUDE_DIR})

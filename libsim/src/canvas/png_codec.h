@@ -27,7 +27,9 @@ struct PngRow {
 /// Encodes RGB bytes (row-major from the top left, 3 * width * height values) as a PNG: with a
 /// palette if there are at most 256 colours, as canvases have, which is both smaller and faster.
 /// Equal pictures give equal bytes, since the PNG contains no time or name.
+/// @param copies  how often each row appears in the PNG, at least 1; it is `copies` * height high.
 /// @return the file's bytes; empty if memory runs out.
-[[nodiscard]] std::vector<std::uint8_t> encode_png(int width, int height, const std::uint8_t* rgb);
+[[nodiscard]] std::vector<std::uint8_t> encode_png(int width, int height, const std::uint8_t* rgb,
+                                                   int copies = 1);
 
 }  // namespace sim

@@ -3,8 +3,30 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace sim::render {
+namespace {
+
+PixelRect whole(const Image& image) { return {0, 0, image.width, image.height}; }
+
+// The place with only the pixels that a picture has.
+CanvasView::Place clamped(CanvasView::Place place, const Image& picture) {
+  PixelRect& part = place.part;
+  part.left = std::clamp(part.left, 0, picture.width);
+  part.right = std::clamp(part.right, part.left, picture.width);
+  part.top = std::clamp(part.top, 0, picture.height);
+  part.bottom = std::clamp(part.bottom, part.top, picture.height);
+  return place;
+}
+
+}  // namespace
+
+std::size_t canvas_bytes(const CanvasDescription& description) {
+  if (description.width < 1 || description.height < 1) return 0;
+  return 4 * static_cast<std::size_t>(description.width) *
+         static_cast<std::size_t>(description.height);
+}
 
 // Span of cells under [begin, end), in cells from the canvas's edge. The weights sum up to the
 // fraction of the pixel that lies on the canvas.
@@ -21,11 +43,9 @@ CanvasView::Span CanvasView::span(double begin, double end, int cells) {
   return span;
 }
 
-void CanvasView::start(const Place& place, const Image& below, const Overlay* above) {
+void CanvasView::start(const Place& place) {
   place_ = place;
   const PixelRect& part = place_.part;
-  picture_ = below;
-  if (above != nullptr) above->draw_on(picture_, {0, 0, below.width, below.height});
   cells_.assign(4 * static_cast<std::size_t>(place.columns) * static_cast<std::size_t>(place.rows),
                 0);
   // Division instead of multiplication by the inverse gives integer positions for integer scales.
@@ -136,16 +156,9 @@ void CanvasView::mix_line(const Span& row, int x_begin, int x_end) {
   }
 }
 
-const Image& CanvasView::update(const Place& place, const std::vector<std::uint8_t>& cells,
-                                const Image& below, const Overlay* above) {
-  Place asked = place;
-  asked.part.left = std::clamp(place.part.left, 0, below.width);
-  asked.part.right = std::clamp(place.part.right, asked.part.left, below.width);
-  asked.part.top = std::clamp(place.part.top, 0, below.height);
-  asked.part.bottom = std::clamp(place.part.bottom, asked.part.top, below.height);
-  if (!valid_ || !(asked == place_)) start(asked, below, above);
-  if (!find_changes(cells)) return picture_;
-
+// Draws the changed cells on the picture: with a background where they were drawn before, else over
+// what the picture shows.
+void CanvasView::draw_changes(const Image* below, const Overlay* above) {
   struct Line {
     int row = -1;
     int begin = 0;
@@ -172,13 +185,36 @@ const Image& CanvasView::update(const Place& place, const std::vector<std::uint8
         3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
              static_cast<std::size_t>(begin));
     std::uint8_t* pixel = picture_.rgb.data() + at;
-    std::memcpy(pixel, below.rgb.data() + at, 3 * static_cast<std::size_t>(end - begin));
+    if (below != nullptr) {
+      std::memcpy(pixel, below->rgb.data() + at, 3 * static_cast<std::size_t>(end - begin));
+    }
     for (int x = begin; x < end; ++x, pixel += 3) {
       line_[static_cast<std::size_t>(x - part.left)].apply(pixel);
     }
     if (above != nullptr) above->draw_on(picture_, {begin, y, end, y + 1});
   }
+}
+
+const Image& CanvasView::update(const Place& place, const std::vector<std::uint8_t>& cells,
+                                const Image& below, const Overlay* above) {
+  const Place inside = clamped(place, below);
+  if (!valid_ || !(inside == place_)) {
+    start(inside);
+    picture_ = below;
+    if (above != nullptr) above->draw_on(picture_, whole(picture_));
+  }
+  if (find_changes(cells)) draw_changes(&below, above);
   return picture_;
+}
+
+Image CanvasView::draw_once(const Place& place, const std::vector<std::uint8_t>& cells, Image below,
+                            const Overlay* above) {
+  start(clamped(place, below));
+  picture_ = std::move(below);
+  if (find_changes(cells)) draw_changes(nullptr, nullptr);
+  if (above != nullptr) above->draw_on(picture_, whole(picture_));
+  forget();
+  return std::move(picture_);
 }
 
 }  // namespace sim::render

@@ -11,6 +11,9 @@
 
 namespace sim::render {
 
+/// The number of bytes of a canvas's cells; 0 if it has none.
+[[nodiscard]] std::size_t canvas_bytes(const CanvasDescription& description);
+
 /// A cached picture of the grid-map over a background. Only pixels of cells that have changed are
 /// drawn again.
 ///
@@ -40,6 +43,10 @@ class CanvasView {
   const Image& update(const Place& place, const std::vector<std::uint8_t>& cells,
                       const Image& below, const Overlay* above);
 
+  /// Makes one picture, the same as update()'s, without the copies that would help the next one.
+  Image draw_once(const Place& place, const std::vector<std::uint8_t>& cells, Image below,
+                  const Overlay* above);
+
  private:
   // The weights of the cells in each pixel along one axis.
   struct Span {
@@ -52,8 +59,9 @@ class CanvasView {
     int end = 0;
   };
   static Span span(double begin, double end, int cells);
-  void start(const Place& place, const Image& below, const Overlay* above);
+  void start(const Place& place);
   [[nodiscard]] bool find_changes(const std::vector<std::uint8_t>& cells);
+  void draw_changes(const Image* below, const Overlay* above);
   void mix_line(const Span& row, int x_begin, int x_end);
 
   bool valid_ = false;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <numbers>
+#include <numeric>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -60,16 +60,6 @@ std::vector<Word> words_of(const std::string& text, const TextStyle& style) {
   return words;
 }
 
-double signed_area(const std::vector<Vec2>& points) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec2& a = points[i];
-    const Vec2& b = points[(i + 1) % points.size()];
-    twice += a.x() * b.y() - b.x() * a.y();
-  }
-  return 0.5 * twice;
-}
-
 // Most of a row is empty: skips eight cells at a time.
 int first_not_zero(const float* cells, int begin, int end) {
   constexpr int kAtOnce = 8;
@@ -82,29 +72,33 @@ int first_not_zero(const float* cells, int begin, int end) {
   return begin;
 }
 
-// Accumulates the contributions of edges to the pixels of a part of the picture. In each row that
-// it crosses, an edge covers what lies to its right, counted positive downwards and negative
-// upwards. Cell (x, y) holds the change of this coverage from pixel x - 1 to pixel x, so a running
-// sum along the row gives the covered area of each pixel exactly.
+// Accumulates the contributions of edges to the pixels of some rows. In each row that it crosses,
+// an edge covers what lies to its right, counted positive downwards and negative upwards. Cell (x,
+// y) holds the change of this coverage from pixel x - 1 to pixel x, so a running sum along the row
+// gives the covered area of each pixel exactly.
 class Accumulator {
  public:
-  // `cells` must hold (width + 1) * height zeros.
-  Accumulator(int width, int height, float* cells)
+  // `cells` must hold (width + 1) * (bottom - top) zeros, `extents` as many extents as rows.
+  Accumulator(int width, int top, int bottom, float* cells, Rasteriser::Extent* extents)
       : width_(width),
-        height_(height),
+        top_(top),
+        bottom_(bottom),
         stride_(static_cast<std::size_t>(width) + 1),
-        cells_(cells) {}
+        cells_(cells),
+        extents_(extents) {
+    std::fill_n(extents_, bottom - top, Rasteriser::Extent{width, 0});
+  }
 
   void add(Vec2 from, Vec2 to) {
     if (from.y() == to.y()) return;
     const bool up = from.y() > to.y();
     if (up) std::swap(from, to);
-    if (to.y() <= 0.0 || from.y() >= height_) return;
+    if (to.y() <= top_ || from.y() >= bottom_) return;
     const double slope = (to.x() - from.x()) / (to.y() - from.y());
-    const double y_end = std::min(to.y(), static_cast<double>(height_));
-    double y = std::max(from.y(), 0.0);
+    const double y_end = std::min(to.y(), static_cast<double>(bottom_));
+    double y = std::max(from.y(), static_cast<double>(top_));
     double x = from.x() + (y - from.y()) * slope;
-    for (int row = static_cast<int>(y); row < height_ && y < y_end; ++row) {
+    for (int row = static_cast<int>(y); row < bottom_ && y < y_end; ++row) {
       const double y_next = std::min(y_end, row + 1.0);
       const double x_next = y_next == to.y() ? to.x() : from.x() + (y_next - from.y()) * slope;
       add_in_row(row, x, x_next, up ? y - y_next : y_next - y);
@@ -118,14 +112,16 @@ class Accumulator {
   template <typename Visitor>
   void visit_and_clear(Visitor visit) {
     constexpr float kLeast = 1.0F / 2048.0F;  // less is rounding error and would be invisible
-    for (int y = 0; y < height_; ++y) {
-      float* const cell = cells_ + static_cast<std::size_t>(y) * stride_;
+    for (int y = top_; y < bottom_; ++y) {
+      float* const cell = cells_ + static_cast<std::size_t>(y - top_) * stride_;
+      const Rasteriser::Extent extent = extents_[y - top_];
       float total = 0.0F;
-      for (int x = 0; x < width_;) {
+      for (int x = extent.begin; x < width_;) {
         total += cell[x];
         cell[x] = 0.0F;
         const int begin = x++;
-        x = first_not_zero(cell, x, width_);
+        x = first_not_zero(cell, x, extent.end);
+        if (x >= extent.end) x = width_;  // the coverage no longer changes
         const float covered = std::abs(total);
         if (covered > kLeast) visit(y, begin, x, std::min(covered, 1.0F));
       }
@@ -136,16 +132,18 @@ class Accumulator {
  private:
   // Part of an edge within one row, from x0 to x1, of (signed) height dy.
   void add_in_row(int row, double x0, double x1, double dy) {
-    float* const cells = cells_ + static_cast<std::size_t>(row) * stride_;
+    float* const cells = cells_ + static_cast<std::size_t>(row - top_) * stride_;
+    Rasteriser::Extent& extent = extents_[row - top_];
     if (x0 > x1) std::swap(x0, x1);
     if (x0 >= width_) return;
     if (x1 <= 0.0) {
       cells[0] += static_cast<float>(dy);
+      extent = {0, std::max(extent.end, 1)};
       return;
     }
     const double dy_dx = x1 > x0 ? dy / (x1 - x0) : 0.0;
     if (x0 < 0.0) {
-      cells[0] += static_cast<float>(-x0 * dy_dx);
+      cells[0] += static_cast<float>(-x0 * dy_dx);  // in the extent, which begins at 0 then
       dy += x0 * dy_dx;
       x0 = 0.0;
     }
@@ -154,6 +152,8 @@ class Accumulator {
       x1 = width_;
     }
     const int last = std::min(static_cast<int>(x1), width_ - 1);
+    extent = {std::min(extent.begin, static_cast<int>(x0)),
+              std::max(extent.end, std::min(last + 2, width_))};
     for (int column = static_cast<int>(x0); column <= last; ++column) {
       const double x_next = column == last ? x1 : column + 1.0;
       const double part = x1 > x0 && column < last ? (x_next - x0) * dy_dx : dy;
@@ -166,10 +166,25 @@ class Accumulator {
   }
 
   int width_;
-  int height_;
+  int top_;
+  int bottom_;
   std::size_t stride_;
   float* cells_;
+  Rasteriser::Extent* extents_;
 };
+
+// The number of rows to accumulate at once. The cells of a large shape would be a page fault for
+// each page; those of a few rows stay in the processor's cache. But each edge is looked at once for
+// each band of rows.
+int rows_at_once(int width, int height, std::size_t edges) {
+  constexpr std::size_t kCells = std::size_t{1} << 16;
+  constexpr std::size_t kCellsAnEdge = 8;  // looking at an edge costs like so many cells
+  const std::size_t row = static_cast<std::size_t>(width) + 1;
+  const std::size_t all = row * static_cast<std::size_t>(height);
+  const std::size_t most_bands = std::max<std::size_t>(all / (kCellsAnEdge * edges), 1);
+  const std::size_t bands = std::min((all + kCells - 1) / kCells, most_bands);
+  return static_cast<int>((static_cast<std::size_t>(height) + bands - 1) / bands);
+}
 
 // The part of `clip` that the shape may cover.
 PixelRect bounds_within(const Shape& shape, const PixelRect& clip) {
@@ -194,6 +209,29 @@ std::uint32_t whole_weight(float share) {
   return static_cast<std::uint32_t>(share * 65536.0F + 0.5F);
 }
 
+// The elements of a vector by their rows `y`, in each row in the order of the vector.
+template <typename Span>
+std::vector<const Span*> sorted_by_row(const std::vector<Span>& spans, int height) {
+  std::vector<std::size_t> next(static_cast<std::size_t>(height) + 1);  // position of a row's next
+  for (const Span& span : spans) ++next[static_cast<std::size_t>(span.y) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<const Span*> sorted(spans.size());
+  for (const Span& span : spans) sorted[next[static_cast<std::size_t>(span.y)]++] = &span;
+  return sorted;
+}
+
+// Gives pixels a colour: the first one, then copies of what is already there.
+void fill_pixels(std::uint8_t* pixels, int count, Colour colour) {
+  if (count <= 0) return;
+  pixels[0] = colour.r;
+  pixels[1] = colour.g;
+  pixels[2] = colour.b;
+  const std::size_t size = 3 * static_cast<std::size_t>(count);
+  for (std::size_t done = 3; done < size; done *= 2) {
+    std::memcpy(pixels + done, pixels, std::min(done, size - done));
+  }
+}
+
 // Blends a colour over a pixel with the weight `weight` / 2^16.
 void blend_pixel(std::uint8_t* pixel, Colour colour, std::uint32_t weight) {
   constexpr std::uint32_t kOne = 1 << 16;
@@ -206,173 +244,143 @@ void blend_pixel(std::uint8_t* pixel, Colour colour, std::uint32_t weight) {
 
 }  // namespace
 
-void Shape::add_outline(const std::vector<Vec2>& points) {
-  for (const Vec2& point : points) {
-    if (!is_drawable(point)) return;
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    edges_.push_back({points[i], points[(i + 1) % points.size()]});
-  }
-}
-
-void Shape::add_piece(std::vector<Vec2> points) {
-  if (signed_area(points) < 0.0) std::reverse(points.begin(), points.end());
-  add_outline(points);
-}
-
-void Shape::add_disc(const Vec2& center, double radius_px) {
-  // The number of corners keeps the polygon within 1/20 pixel of the circle.
-  const int corners = std::clamp(static_cast<int>(std::ceil(10.0 * std::sqrt(radius_px))), 8, 256);
-  std::vector<Vec2> points;
-  points.reserve(static_cast<std::size_t>(corners));
-  for (int i = 0; i < corners; ++i) {
-    const double angle_rad = 2.0 * std::numbers::pi * i / corners;
-    points.emplace_back(center.x() + radius_px * std::cos(angle_rad),
-                        center.y() + radius_px * std::sin(angle_rad));
-  }
-  add_piece(std::move(points));
-}
-
-void Shape::add_line(const std::vector<Vec2>& points, double width_px, bool closed) {
-  const std::size_t segments = closed || points.empty() ? points.size() : points.size() - 1;
-  for (std::size_t i = 0; i < segments; ++i) {
-    const Vec2& a = points[i];
-    const Vec2& b = points[(i + 1) % points.size()];
-    const Vec2 along = b - a;
-    const double length = along.norm();
-    if (!(length > 0.0)) continue;
-    const Vec2 side = Vec2(-along.y(), along.x()) * (0.5 * width_px / length);
-    add_piece({a + side, b + side, b - side, a - side});
-  }
-  const double radius_px = 0.5 * width_px;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool end = !closed && (i == 0 || i + 1 == points.size());
-    if (!end) {
-      // At a joint that turns by t, the open wedge on the outside is radius (1 - cos(t / 2)) high.
-      constexpr double kLeastGap_px = 0.02;
-      const Vec2 in = points[i] - points[(i + points.size() - 1) % points.size()];
-      const Vec2 out = points[(i + 1) % points.size()] - points[i];
-      const double lengths = in.norm() * out.norm();
-      if (lengths > 0.0) {
-        const double half_angle_cosine =
-            std::sqrt(std::max(0.0, 0.5 * (1.0 + in.dot(out) / lengths)));
-        if (radius_px * (1.0 - half_angle_cosine) < kLeastGap_px) continue;
-      }
-    }
-    add_disc(points[i], radius_px);
-  }
-}
-
-void Shape::add_dashed_outline(const std::vector<Vec2>& points, double width_px, double dash_px) {
-  // Bounds the work for an outline far longer than the picture.
-  constexpr double kMostPeriods = 8000.0;
-  const double most_per_side = std::max(1.0, kMostPeriods / static_cast<double>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec2& a = points[i];
-    const Vec2& b = points[(i + 1) % points.size()];
-    // A side consists of half a dash, alternating gaps and dashes, and half a dash: n periods.
-    const double length = (b - a).norm();
-    if (!std::isfinite(length)) continue;
-    const int periods =
-        static_cast<int>(std::clamp(std::round(length / (2.0 * dash_px)), 1.0, most_per_side));
-    for (int k = 0; k <= periods; ++k) {
-      const double begin = std::max(0.0, (k - 0.25) / periods);
-      const double end = std::min(1.0, (k + 0.25) / periods);
-      add_line({a + (b - a) * begin, a + (b - a) * end}, width_px);
-    }
-  }
-}
-
-void Shape::append(const Shape& other, const Vec2& offset) {
-  for (const Edge& edge : other.edges_) edges_.push_back({edge.from + offset, edge.to + offset});
-}
-
-void Shape::cut(const Shape& hole) {
-  for (const Edge& edge : hole.edges_) edges_.push_back({edge.to, edge.from});
-}
-
 template <typename Visitor>
 void Rasteriser::rasterise(const Shape& shape, const PixelRect& clip, Visitor visit) {
   const PixelRect part = bounds_within(shape, clip);
   const int width = part.right - part.left;
   const int height = part.bottom - part.top;
   if (width <= 0 || height <= 0) return;
-  const std::size_t size = (static_cast<std::size_t>(width) + 1) * static_cast<std::size_t>(height);
+  const int rows = rows_at_once(width, height, shape.edges().size());
+  const std::size_t size = (static_cast<std::size_t>(width) + 1) * static_cast<std::size_t>(rows);
   if (cells_.size() < size) cells_.resize(size);
-  Accumulator accumulator(width, height, cells_.data());
-  const Vec2 corner(part.left, part.top);
-  for (const Shape::Edge& edge : shape.edges()) {
-    accumulator.add(edge.from - corner, edge.to - corner);
+  if (extents_.size() < static_cast<std::size_t>(rows)) {
+    extents_.resize(static_cast<std::size_t>(rows));
   }
-  accumulator.visit_and_clear([&](int y, int begin, int end, float coverage) {
-    visit(part.top + y, part.left + begin, part.left + end, coverage);
-  });
+  const Vec2 corner(part.left, part.top);
+  for (int top = 0; top < height; top += rows) {
+    Accumulator accumulator(width, top, std::min(top + rows, height), cells_.data(),
+                            extents_.data());
+    for (const Shape::Edge& edge : shape.edges()) {
+      accumulator.add(edge.from - corner, edge.to - corner);
+    }
+    accumulator.visit_and_clear([&](int y, int begin, int end, float coverage) {
+      visit(part.top + y, part.left + begin, part.left + end, coverage);
+    });
+  }
 }
 
 void Overlay::Canvas::fill(const Shape& shape, Colour colour, double opacity) {
   const float strength = static_cast<float>(opacity) * static_cast<float>(colour.a) / 255.0F;
-  const std::array<float, 3> channels = {static_cast<float>(colour.r), static_cast<float>(colour.g),
-                                         static_cast<float>(colour.b)};
-  rasteriser_.rasterise(shape, part_, [&](int y, int begin, int end, float coverage) {
-    const float share = coverage * strength;
-    Pixel* pixel = pixels_.data() + static_cast<std::size_t>(y - part_.top) *
-                                        static_cast<std::size_t>(part_.right - part_.left);
-    for (int x = begin; x < end; ++x) {
-      Pixel& out = pixel[x - part_.left];
-      for (std::size_t i = 0; i < 3; ++i) {
-        out.added[i] = out.added[i] * (1.0F - share) + channels[i] * share;
-      }
-      out.kept *= 1.0F - share;
-    }
+  rasteriser_.rasterise(shape, whole_, [&](int y, int begin, int end, float coverage) {
+    spans_.push_back({y, begin, end, coverage * strength, colour});
   });
 }
 
-Overlay::Overlay(int width, int height, const std::function<void(Canvas&)>& draw) {
-  constexpr int kBand_px = 1 << 17;  // 2 MB: the memory of larger bands costs more than drawing
-  const int rows = std::max(1, kBand_px / width);
-  bytes_.reserve(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  Canvas canvas;
-  for (int top = 0; top < height; top += rows) {
-    canvas.part_ = {0, top, width, std::min(top + rows, height)};
-    canvas.pixels_.assign(
-        static_cast<std::size_t>(canvas.part_.bottom - top) * static_cast<std::size_t>(width),
-        Canvas::Pixel{});
-    draw(canvas);
-    add_runs(canvas);
-  }
-}
+namespace {
 
-void Overlay::add_runs(const Canvas& canvas) {
-  constexpr float kLeastKept = 1.0F / 1024.0F;  // smaller values are invisible
-  const int width = canvas.part_.right - canvas.part_.left;
-  const Canvas::Pixel* pixel = canvas.pixels_.data();
-  for (int y = canvas.part_.top; y < canvas.part_.bottom; ++y, pixel += width) {
-    for (int x = 0; x < width;) {
-      if (pixel[x].kept == 1.0F) {
+// What an overlay does to the pixels of one row, before it is rounded.
+class OverlayRow {
+ public:
+  // What is added to the three channels, and the share that is kept of the pixel below.
+  using Pixel = std::array<float, 4>;
+
+  explicit OverlayRow(int width)
+      : width_(width),
+        touched_(static_cast<std::size_t>((width + kBlock_px - 1) / kBlock_px)),
+        pixels_(touched_.size() * kBlock_px) {}
+
+  void clear() { std::fill(touched_.begin(), touched_.end(), false); }
+
+  void fill(int begin, int end, Colour colour, float share) {
+    touch(begin, end);
+    const Pixel channels = {static_cast<float>(colour.r), static_cast<float>(colour.g),
+                            static_cast<float>(colour.b), 0.0F};
+    if (share == 1.0F) {
+      std::fill(pixels_.begin() + begin, pixels_.begin() + end, channels);
+      return;
+    }
+    for (auto pixel = pixels_.begin() + begin; pixel != pixels_.begin() + end; ++pixel) {
+      for (std::size_t i = 0; i < pixel->size(); ++i) {
+        (*pixel)[i] = (*pixel)[i] * (1.0F - share) + channels[i] * share;
+      }
+    }
+  }
+
+  // Calls visit(begin, pixels, opaque) for each run of changed pixels that are all opaque or all
+  // translucent.
+  template <typename Visitor>
+  void visit_runs(Visitor visit) const {
+    constexpr float kLeastKept = 1.0F / 1024.0F;  // smaller values are invisible
+    const auto kept = [this](int x) { return pixels_[static_cast<std::size_t>(x)][3]; };
+    int end = 0;  // of the touched blocks from x on
+    for (int x = 0; x < width_;) {
+      if (x >= end) {
+        const auto next = std::find(touched_.begin() + x / kBlock_px, touched_.end(), true);
+        const auto past = std::find(next, touched_.end(), false);
+        x = kBlock_px * static_cast<int>(next - touched_.begin());
+        end = std::min(kBlock_px * static_cast<int>(past - touched_.begin()), width_);
+        continue;
+      }
+      if (kept(x) == 1.0F) {
         ++x;
         continue;
       }
-      Run run;
-      run.begin = x;
-      run.opaque = pixel[x].kept < kLeastKept;
-      run.first = run.opaque ? bytes_.size() : blends_.size();
-      while (x < width && pixel[x].kept != 1.0F && (pixel[x].kept < kLeastKept) == run.opaque) ++x;
-      run.end = x;
-      runs_.push_back(run);
-      const std::span pixels(pixel + run.begin, pixel + run.end);
-      if (!run.opaque) {
-        for (const Canvas::Pixel& p : pixels) blends_.push_back(Blend::of(p.kept, p.added));
-        continue;
-      }
-      bytes_.resize(run.first + 3 * pixels.size());
-      std::uint8_t* to = bytes_.data() + run.first;
-      for (const Canvas::Pixel& p : pixels) {
-        for (const float channel : p.added) {
-          *to++ = static_cast<std::uint8_t>(std::min(channel + 0.5F, 255.0F));
-        }
-      }
+      const int begin = x;
+      const bool opaque = kept(x) < kLeastKept;
+      while (x < end && kept(x) != 1.0F && (kept(x) < kLeastKept) == opaque) ++x;
+      visit(begin, std::span(pixels_.begin() + begin, pixels_.begin() + x), opaque);
     }
-    row_.push_back(runs_.size());
+  }
+
+ private:
+  static constexpr int kBlock_px = 32;  // pixels that are initialised together
+
+  void touch(int begin, int end) {
+    for (int block = begin / kBlock_px; block <= (end - 1) / kBlock_px; ++block) {
+      if (std::exchange(touched_[static_cast<std::size_t>(block)], std::uint8_t{true}) != 0)
+        continue;
+      std::fill_n(pixels_.begin() + block * kBlock_px, kBlock_px, Pixel{0.0F, 0.0F, 0.0F, 1.0F});
+    }
+  }
+
+  int width_;
+  std::vector<std::uint8_t> touched_;  // whether a block has been drawn on
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace
+
+Overlay::Overlay(int width, int height, const std::function<void(Canvas&)>& draw) {
+  Canvas canvas;
+  canvas.whole_ = {0, 0, width, height};
+  draw(canvas);
+  const std::vector<const Canvas::Span*> spans = sorted_by_row(canvas.spans_, height);
+  row_.assign(static_cast<std::size_t>(height) + 1, 0);
+  OverlayRow row(width);
+  auto span = spans.begin();
+  for (int y = 0; y < height; ++y) {
+    row.clear();
+    for (; span != spans.end() && (*span)->y == y; ++span) {
+      row.fill((*span)->begin, (*span)->end, (*span)->colour, (*span)->share);
+    }
+    row.visit_runs([this](int begin, std::span<const OverlayRow::Pixel> pixels, bool opaque) {
+      add_run(begin, pixels, opaque);
+    });
+    row_[static_cast<std::size_t>(y) + 1] = runs_.size();
+  }
+}
+
+void Overlay::add_run(int begin, std::span<const std::array<float, 4>> pixels, bool opaque) {
+  runs_.push_back({begin, begin + static_cast<int>(pixels.size()), opaque,
+                   opaque ? bytes_.size() : blends_.size()});
+  for (const std::array<float, 4>& p : pixels) {
+    if (!opaque) {
+      blends_.push_back(Blend::of(p[3], {p[0], p[1], p[2]}));
+      continue;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      bytes_.push_back(static_cast<std::uint8_t>(std::min(p[i] + 0.5F, 255.0F)));
+    }
   }
 }
 
@@ -419,13 +427,10 @@ double Overlay::hidden_px(const PixelRect& part) const {
 Painter::Painter(int width, int height, Colour background) {
   image_.width = width;
   image_.height = height;
-  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  image_.rgb.resize(3 * count);
-  for (std::size_t i = 0; i < 3 * count; i += 3) {
-    image_.rgb[i] = background.r;
-    image_.rgb[i + 1] = background.g;
-    image_.rgb[i + 2] = background.b;
-  }
+  std::vector<std::uint8_t> row;
+  for (int x = 0; x < width; ++x) row.insert(row.end(), {background.r, background.g, background.b});
+  image_.rgb.reserve(row.size() * static_cast<std::size_t>(height));
+  for (int y = 0; y < height; ++y) image_.rgb.insert(image_.rgb.end(), row.begin(), row.end());
   clear_clip();
 }
 
@@ -440,6 +445,10 @@ void Painter::blend(int y, int x_begin, int x_end, Colour colour, float opacity)
   const std::uint32_t weight =
       whole_weight(opacity * static_cast<float>(colour.a) * (1.0F / 255.0F));
   std::uint8_t* at = pixel(x_begin, y);
+  if (weight == 1 << 16) {
+    fill_pixels(at, x_end - x_begin, colour);
+    return;
+  }
   for (int x = x_begin; x < x_end; ++x, at += 3) blend_pixel(at, colour, weight);
 }
 
@@ -480,29 +489,33 @@ void Painter::fill_fading(const Shape& shape, Colour colour, const Vec2& center,
 
 void Painter::accumulate(const Shape& shape, double opacity) {
   const auto strength = static_cast<float>(opacity);
-  if (accumulated_.empty()) accumulated_.resize(image_.rgb.size() / 3);
   rasteriser_.rasterise(shape, clip_, [&](int y, int begin, int end, float coverage) {
-    float* const row =
-        accumulated_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
-    for (int x = begin; x < end; ++x) row[x] = std::max(row[x], coverage * strength);
-    PixelRect& part = accumulated_part_;
-    const bool none = part.right == 0;
-    part = {none ? begin : std::min(part.left, begin), none ? y : std::min(part.top, y),
-            std::max(part.right, end), std::max(part.bottom, y + 1)};
+    accumulated_.push_back({y, begin, end, coverage * strength});
   });
 }
 
 void Painter::fill_accumulated(Colour colour) {
-  for (int y = accumulated_part_.top; y < accumulated_part_.bottom; ++y) {
-    float* const row =
-        accumulated_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
-    for (int x = first_not_zero(row, accumulated_part_.left, accumulated_part_.right);
-         x < accumulated_part_.right; x = first_not_zero(row, x + 1, accumulated_part_.right)) {
-      blend(y, x, x + 1, colour, row[x]);
-      row[x] = 0.0F;
+  std::vector<float> row(static_cast<std::size_t>(image_.width));  // opacities, zero between rows
+  const std::vector<const Stretch*> stretches = sorted_by_row(accumulated_, image_.height);
+  for (auto first = stretches.begin(); first != stretches.end();) {
+    const int y = (*first)->y;
+    int begin = image_.width;
+    int end = 0;
+    for (; first != stretches.end() && (*first)->y == y; ++first) {
+      const Stretch& stretch = **first;
+      begin = std::min(begin, stretch.begin);
+      end = std::max(end, stretch.end);
+      for (int x = stretch.begin; x < stretch.end; ++x) {
+        float& opacity = row[static_cast<std::size_t>(x)];
+        opacity = std::max(opacity, stretch.opacity);
+      }
+    }
+    for (int x = first_not_zero(row.data(), begin, end); x < end;
+         x = first_not_zero(row.data(), x + 1, end)) {
+      blend(y, x, x + 1, colour, std::exchange(row[static_cast<std::size_t>(x)], 0.0F));
     }
   }
-  accumulated_part_ = {};
+  accumulated_.clear();
 }
 
 double Painter::text_width_px(const std::string& text, const TextStyle& style) {

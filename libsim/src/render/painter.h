@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -107,8 +108,15 @@ class Rasteriser {
   template <typename Visitor>
   void rasterise(const Shape& shape, const PixelRect& clip, Visitor visit);
 
+  /// The columns [begin, end) of a row that edges have changed; begin is at least end if none.
+  struct Extent {
+    int begin = 0;
+    int end = 0;
+  };
+
  private:
   std::vector<float> cells_;  // all zero between calls
+  std::vector<Extent> extents_;
 };
 
 /// A precomputed drawing that can be laid over many pictures: its effect on each pixel.
@@ -122,18 +130,20 @@ class Overlay {
 
    private:
     friend class Overlay;
-    struct Pixel {
-      std::array<float, 3> added{};
-      float kept = 1.0F;
+    struct Span {
+      int y = 0;
+      int begin = 0;  // columns
+      int end = 0;
+      float share = 0.0F;  // of the colour
+      Colour colour;
     };
-    PixelRect part_;             // a band of the picture
-    std::vector<Pixel> pixels_;  // row-major
+    PixelRect whole_;
+    std::vector<Span> spans_;  // in the order of drawing
     Rasteriser rasteriser_;
   };
 
   Overlay() = default;
-  /// @param draw  called with a Canvas, once for each band of the picture (bands limit the memory
-  ///     for a large picture). It must draw the same each time.
+  /// @param draw  called once with a Canvas, on which it draws.
   Overlay(int width, int height, const std::function<void(Canvas&)>& draw);
 
   /// Applies the overlay to a part of a picture of its size.
@@ -148,7 +158,7 @@ class Overlay {
     bool opaque = false;
     std::size_t first = 0;  // index in bytes_ if opaque, otherwise in blends_
   };
-  void add_runs(const Canvas& canvas);
+  void add_run(int begin, std::span<const std::array<float, 4>> pixels, bool opaque);
 
   std::vector<Run> runs_;            // sorted by row, then by column
   std::vector<std::size_t> row_{0};  // index of the first run of each row, and the end
@@ -220,8 +230,14 @@ class Painter {
   Image image_;
   PixelRect clip_;
   Rasteriser rasteriser_;
-  std::vector<float> accumulated_;  ///< opacity of each pixel; all zero after fill_accumulated
-  PixelRect accumulated_part_;      ///< area where it may be non-zero
+  /// Pixels of a row with the same opacity.
+  struct Stretch {
+    int y;
+    int begin;  // columns
+    int end;
+    float opacity;
+  };
+  std::vector<Stretch> accumulated_;  ///< since the last fill_accumulated()
   std::map<std::string, TextMask> texts_;
 };
 

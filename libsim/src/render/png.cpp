@@ -6,6 +6,7 @@
 
 #include "canvas/png_codec.h"
 #include "render/modules/module_file.h"
+#include "render/png_file.h"
 #include "sim/core/replace_file.h"
 #include "sim/render/render.h"
 
@@ -18,6 +19,12 @@ namespace {
 
 }  // namespace
 
+void write_png_file(const std::vector<std::uint8_t>& png, const std::string& path) {
+  if (png.empty()) refuse_picture(path, "the PNG encoder failed");
+  const std::string_view text(reinterpret_cast<const char*>(png.data()), png.size());
+  if (const int error = replace_file(path, text)) refuse_picture(path, std::strerror(error));
+}
+
 void write_png(const Image& image, const std::string& path) {
   const std::size_t samples =
       3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
@@ -25,10 +32,7 @@ void write_png(const Image& image, const std::string& path) {
     refuse_picture(path, "it has no pixels, or not as many as its size says");
   }
   // Encoded in memory and written here, so that the reason of a failure is known.
-  const std::vector<std::uint8_t> bytes = encode_png(image.width, image.height, image.rgb.data());
-  if (bytes.empty()) refuse_picture(path, "the PNG encoder failed");
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (const int error = replace_file(path, text)) refuse_picture(path, std::strerror(error));
+  write_png_file(encode_png(image.width, image.height, image.rgb.data()), path);
 }
 
 }  // namespace sim::render

@@ -24,13 +24,6 @@ namespace {
 
 constexpr int kLeastSizePx = 64;
 constexpr int kGreatestSizePx = 8192;
-constexpr int kGreatestCanvasPicturePx = 32768;
-
-std::size_t canvas_bytes(const CanvasDescription& description) {
-  if (description.width < 1 || description.height < 1) return 0;
-  return 4 * static_cast<std::size_t>(description.width) *
-         static_cast<std::size_t>(description.height);
-}
 
 /// All properties of an arena that its picture depends on; equal keys give equal pictures.
 struct ArenaKey {
@@ -98,13 +91,15 @@ void fill_rectangle(Painter& painter, const Rectangle& place, double grown_px, C
 /// The cached parts of an arena's pictures.
 class ArenaView {
  public:
+  /// @param once  whether draw() is called only once, which needs fewer copies of the picture.
   ArenaView(const ArenaDescription& arena, const RenderOptions& options,
-            const std::optional<ScenePart>& part)
+            const std::optional<ScenePart>& part, bool once)
       : options_(options),
+        once_(once),
         layout_(arena, options, part),
         painter_(layout_.width, layout_.height, palette::kPaper) {
     draw_ground(arena, layout_, painter_);
-    ground_ = painter_.image();
+    ground_ = std::move(painter_.image());  // each picture begins with another image
     for (const DockDescription& dock : arena.docks) {
       const Vec2 center = layout_(dock.pose.position());
       const Vec2 half = 0.5 * layout_.pixels_per_m * dock.size;
@@ -119,7 +114,7 @@ class ArenaView {
     solids_ = overlay(draw_solids);
   }
 
-  const Image& draw(const SceneSnapshot& scene, ViewMode mode) {
+  Image& draw(const SceneSnapshot& scene, ViewMode mode) {
     if (mode == ViewMode::kFullScreen) return draw_full_screen(scene);
     draw_arena(scene, mode == ViewMode::kGround);
     Rectangle covered;
@@ -151,16 +146,20 @@ class ArenaView {
     const Vec2 top_left =
         layout_(Vec2(canvas.origin.x(), canvas.origin.y() + canvas.height * canvas.cell_size_m));
     const PixelRect floor = layout_.floor_pixels();
-    painter_.image() = on_ground_.update({.columns = canvas.width,
-                                          .rows = canvas.height,
-                                          .left_px = top_left.x(),
-                                          .top_px = top_left.y(),
-                                          .cell_px = layout_.pixels_per_m * canvas.cell_size_m,
-                                          .part = floor},
-                                         cells_of(scene, with_canvas), ground_, &retracted_);
+    const CanvasView::Place place = {.columns = canvas.width,
+                                     .rows = canvas.height,
+                                     .left_px = top_left.x(),
+                                     .top_px = top_left.y(),
+                                     .cell_px = layout_.pixels_per_m * canvas.cell_size_m,
+                                     .part = floor};
+    const std::vector<std::uint8_t>& cells = cells_of(scene, with_canvas);
+    if (once_) {
+      painter_.image() = on_ground_.draw_once(place, cells, std::move(ground_), &retracted_);
+    } else {
+      painter_.image() = on_ground_.update(place, cells, ground_, &retracted_);
+    }
     // Without borders, scans and trails may extend beyond the floor.
     painter_.set_clip(floor);
-    const std::vector<std::uint8_t>& cells = cells_of(scene, with_canvas);
     if (options_.scans) draw_fans(scene, cells, layout_, painter_);
     if (options_.trails) draw_tracks(scene, layout_, painter_);
     if (options_.trails) draw_trails(scene, cells, layout_, painter_);
@@ -309,7 +308,7 @@ class ArenaView {
 
   // Draws the canvas with the robots on it. The picture has the same size as the arena's, so that a
   // film can change its mode.
-  const Image& draw_full_screen(const SceneSnapshot& scene) {
+  Image& draw_full_screen(const SceneSnapshot& scene) {
     const CanvasDescription& canvas = scene.canvas_description;
     const bool footer = options_.legend && layout_.text;
     const double frame_px = std::max(std::round(layout_.unit_px), 1.0);
@@ -362,6 +361,7 @@ class ArenaView {
 
   const std::vector<std::uint8_t> no_cells_;
   RenderOptions options_;
+  bool once_;
   Layout layout_;
   Painter painter_;
   Image ground_;  // floor and docks
@@ -395,6 +395,25 @@ void check(const RenderOptions& options) {
                         options.part->low.allFinite())) {
     throw std::invalid_argument("the part of the world that a picture shows must have a size");
   }
+}
+
+// @throws std::invalid_argument if the canvas does not have as many cells as its description says.
+void check(const SceneSnapshot& scene) {
+  if (!scene.canvas.empty() && scene.canvas.size() != canvas_bytes(scene.canvas_description)) {
+    throw std::invalid_argument("a scene's canvas must have 4 bytes a cell");
+  }
+}
+
+// Calls draw(scene) with the scene's robots in the colours that the options ask for.
+template <typename Draw>
+decltype(auto) draw_coloured(const SceneSnapshot& scene, ColourBy colour_by, Draw draw) {
+  if (colour_by == ColourBy::kWorld) return draw(scene);
+  SceneSnapshot coloured = scene;
+  for (std::size_t i = 0; i < coloured.robots.size(); ++i) {
+    coloured.robots[i].colour =
+        colour_by == ColourBy::kRobot ? distinct_colour(i) : palette::kFaintInk;
+  }
+  return draw(std::as_const(coloured));
 }
 
 // Returns the part of a scene to show; none: the whole arena.
@@ -437,70 +456,38 @@ SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
 SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
 
 const Image& SceneRenderer::draw(const SceneSnapshot& scene, ViewMode mode) {
-  if (!scene.canvas.empty() && scene.canvas.size() != canvas_bytes(scene.canvas_description)) {
-    throw std::invalid_argument("a scene's canvas must have 4 bytes a cell");
-  }
-  if (impl_->options.colour_by == ColourBy::kWorld) return impl_->draw(scene, mode);
-  SceneSnapshot coloured = scene;
-  for (std::size_t i = 0; i < coloured.robots.size(); ++i) {
-    const bool by_robot = impl_->options.colour_by == ColourBy::kRobot;
-    coloured.robots[i].colour = by_robot ? distinct_colour(i) : palette::kFaintInk;
-  }
-  return impl_->draw(coloured, mode);
+  check(scene);
+  return draw_coloured(
+      scene, impl_->options.colour_by,
+      [&](const SceneSnapshot& coloured) -> const Image& { return impl_->draw(coloured, mode); });
 }
 
 const Image& SceneRenderer::Impl::draw(const SceneSnapshot& scene, ViewMode mode) {
   ArenaKey newest_key(scene.arena);
   const std::optional<ScenePart> newest_part = shown_part(scene, options, mode);
   if (!view || !(newest_key == key) || newest_part != part) {
-    view.emplace(scene.arena, options, newest_part);
+    view.emplace(scene.arena, options, newest_part, false);
     key = std::move(newest_key);
     part = newest_part;
   }
   return view->draw(scene, mode);
 }
 
+Image draw_view(const SceneSnapshot& scene, ViewMode mode, const RenderOptions& options) {
+  check(options);
+  check(scene);
+  return draw_coloured(scene, options.colour_by, [&](const SceneSnapshot& coloured) {
+    ArenaView view(coloured.arena, options, shown_part(coloured, options, mode), true);
+    return std::move(view.draw(coloured, mode));
+  });
+}
+
 Image draw_view(const SceneSnapshot& scene, const RenderOptions& options) {
-  return SceneRenderer(options).draw(scene);
+  return draw_view(scene, scene.view_mode, options);
 }
 
 Image draw_scene(const SceneSnapshot& scene, const RenderOptions& options) {
-  return SceneRenderer(options).draw(scene, ViewMode::kGround);
-}
-
-Image draw_canvas(const CanvasDescription& description, const std::vector<std::uint8_t>& rgba,
-                  int scale) {
-  if (scale < 1 || description.width > kGreatestCanvasPicturePx / scale ||
-      description.height > kGreatestCanvasPicturePx / scale) {
-    throw std::invalid_argument("scale of a canvas picture must be at least 1, and its sides at " +
-                                std::string("most ") + std::to_string(kGreatestCanvasPicturePx) +
-                                " pixels");
-  }
-  if (rgba.empty() || rgba.size() != canvas_bytes(description)) {
-    throw std::invalid_argument("a canvas must have 4 bytes a cell");
-  }
-  Image image{description.width * scale, description.height * scale, {}};
-  const auto copies = static_cast<std::size_t>(scale);
-  const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width);
-  image.rgb.reserve(row_bytes * static_cast<std::size_t>(image.height));
-  const std::uint8_t* cell = rgba.data();
-  for (int row = 0; row < description.height; ++row) {
-    for (int column = 0; column < description.width; ++column, cell += 4) {
-      std::array<std::uint8_t, 3> over_white{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        over_white[i] =
-            static_cast<std::uint8_t>((cell[i] * cell[3] + 255 * (255 - cell[3]) + 127) / 255);
-      }
-      for (std::size_t copy = 0; copy < copies; ++copy) {
-        image.rgb.insert(image.rgb.end(), over_white.begin(), over_white.end());
-      }
-    }
-    for (std::size_t copy = 1; copy < copies; ++copy) {
-      image.rgb.insert(image.rgb.end(), image.rgb.end() - static_cast<std::ptrdiff_t>(row_bytes),
-                       image.rgb.end());
-    }
-  }
-  return image;
+  return draw_view(scene, ViewMode::kGround, options);
 }
 
 }  // namespace sim::render

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "render/painter.h"
 #include "render/text_outline.h"
 #include "sim/render/drawing.h"
 #include "sim/render/render.h"
@@ -55,6 +56,41 @@ RenderOptions plain() {
   options.names = false;
   options.legend = false;
   return options;
+}
+
+// A large shape is drawn some rows at a time.
+TEST(Painter, LargeShape_CoversSameWidthInEachRow) {
+  Painter painter(400, 700, Colour{255, 255, 255});
+  Shape slanted;
+  slanted.add_outline({{50.5, 10.0}, {150.5, 10.0}, {350.5, 690.0}, {250.5, 690.0}});
+  painter.fill(slanted, Colour{0, 0, 0});
+  for (int y = 0; y < 700; ++y) {
+    double width_px = 0.0;
+    for (int x = 0; x < 400; ++x) width_px += (255 - pixel(painter.image(), x, y)[0]) / 255.0;
+    // At most two pixels are covered in part at either side, each rounded to 1/255.
+    EXPECT_NEAR(width_px, y < 10 || y >= 690 ? 0.0 : 100.0, 4.0 * 0.5 / 255.0) << y;
+  }
+}
+
+TEST(Overlay, ShapesOverEachOther_SameAsPainterWithinRounding) {
+  Shape below;
+  below.add_disc({100.0, 60.0}, 50.0);
+  Shape above;
+  above.add_line({{10.0, 100.0}, {190.0, 20.0}}, 9.0);
+  const auto draw = [&](auto& painter) {
+    painter.fill(below, Colour{200, 40, 20}, 0.7);
+    painter.fill(above, Colour{10, 90, 250});
+  };
+  const Painter paper(200, 120, Colour{240, 240, 230});
+  Painter painter(200, 120, Colour{240, 240, 230});
+  draw(painter);
+  const Overlay overlay(200, 120, draw);
+  Image image = paper.image();
+  overlay.draw_on(image, {0, 0, 200, 120});
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+    // The painter rounds after each of the two shapes, the overlay once.
+    ASSERT_NEAR(image.rgb[i], painter.image().rgb[i], 1.0) << i;
+  }
 }
 
 TEST(RenderParts, ExactSize_KeptForAnyArena) {

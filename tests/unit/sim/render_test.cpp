@@ -897,6 +897,32 @@ FilmContents read_film(const std::string& path) {
   return contents;
 }
 
+TEST(CanvasPngWriter, ChangedCellsScaleAndShape_SameFileAsOfWholePicture) {
+  const TemporaryFolder folder;
+  CanvasPngWriter writer;
+  const auto check = [&](int width, int height, const std::vector<std::uint8_t>& rgba, int scale) {
+    const CanvasDescription canvas{.width = width, .height = height, .cell_size_m = 0.1};
+    writer.write(canvas, rgba, scale, folder.file("a.png"));
+    write_png(draw_canvas(canvas, rgba, scale), folder.file("b.png"));
+    EXPECT_TRUE(file_bytes(folder.file("a.png")) == file_bytes(folder.file("b.png")));
+  };
+  std::vector<std::uint8_t> few;   // two colours
+  std::vector<std::uint8_t> many;  // more than a palette holds
+  for (int i = 0; i < 600; ++i) {
+    const auto low = static_cast<std::uint8_t>(i % 250);
+    for (const int byte : {i % 2 == 0 ? 0 : 255, 20, 30, 255}) {
+      few.push_back(static_cast<std::uint8_t>(byte));
+    }
+    many.insert(many.end(), {low, static_cast<std::uint8_t>(i / 250), 9, 200});
+  }
+  check(30, 20, few, 3);
+  check(30, 20, few, 3);  // not encoded again
+  check(30, 20, few, 1);
+  check(20, 30, few, 1);
+  check(20, 30, many, 1);
+  check(20, 30, many, 4);
+}
+
 TEST(FilmWriter, Frames_CanBeReadBack) {
   const TemporaryFolder folder;
   for (const char* name : {"film.mp4", "film.AVI"}) {

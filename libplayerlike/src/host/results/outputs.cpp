@@ -107,7 +107,8 @@ void remove_layers(const fs::path& folder) {
   remove_if_empty(folder / kLayerFolder);
 }
 
-void write_layers(const fs::path& folder, const sim::LayerStack& stack) {
+void write_layers(const fs::path& folder, const sim::LayerStack& stack,
+                  sim::render::CanvasPngWriter& writer) {
   remove_layers(folder);
   const std::vector<sim::LayerInfo> layers = stack.layers();
   const std::vector<std::string> names = file_names(layers);
@@ -116,8 +117,7 @@ void write_layers(const fs::path& folder, const sim::LayerStack& stack) {
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const sim::LayerId id = layers[i].id;
     const std::string stem = (folder / kLayerFolder / names[i]).string();
-    sim::render::write_png(sim::render::draw_canvas(canvas, stack.picture(id), cell_scale(canvas)),
-                           stem + ".png");
+    writer.write(canvas, stack.picture(id), cell_scale(canvas), stem + ".png");
     if (layers[i].kind != sim::LayerKind::kGrey) continue;
     sim::io::write_map(occupancy_map(canvas, stack.cells(id)), stem);
   }
@@ -197,6 +197,7 @@ void write_report(const std::string& folder, const std::string& text) {
 void write_pictures(const std::string& folder, const sim::LayerStack& layers,
                     const sim::SceneSnapshot& scene, const sim::render::RenderOptions& options) {
   const fs::path out(folder);
+  sim::render::CanvasPngWriter writer;  // often, one layer has all that the canvas shows
   // A failure must not prevent the other writes.
   std::exception_ptr failure;
   const auto attempt = [&failure](const auto& write) {
@@ -208,17 +209,15 @@ void write_pictures(const std::string& folder, const sim::LayerStack& layers,
   };
   attempt([&] {
     const bool mini_map = scene.view_mode == sim::ViewMode::kMiniMap;
-    sim::render::SceneRenderer renderer(scene_options(options));
-    sim::render::write_png(
-        renderer.draw(scene, mini_map ? sim::ViewMode::kMiniMap : sim::ViewMode::kGround),
-        (out / "scene.png").string());
+    const sim::ViewMode mode = mini_map ? sim::ViewMode::kMiniMap : sim::ViewMode::kGround;
+    sim::render::write_png(sim::render::draw_view(scene, mode, scene_options(options)),
+                           (out / "scene.png").string());
   });
   attempt([&] {
-    sim::render::write_png(sim::render::draw_canvas(scene.canvas_description, scene.canvas,
-                                                    cell_scale(scene.canvas_description)),
-                           (out / "canvas.png").string());
+    writer.write(scene.canvas_description, scene.canvas, cell_scale(scene.canvas_description),
+                 (out / "canvas.png").string());
   });
-  attempt([&] { write_layers(out, layers); });
+  attempt([&] { write_layers(out, layers, writer); });
   if (failure) std::rethrow_exception(failure);
 }
 
@@ -261,7 +260,7 @@ std::string map_stem(const std::string& folder, const std::string& name) {
 void write_picture(const sim::CanvasDescription& canvas, const std::vector<std::uint8_t>& rgba,
                    int scale, const std::string& file) {
   try {
-    sim::render::write_png(sim::render::draw_canvas(canvas, rgba, scale), file);
+    sim::render::write_canvas_png(canvas, rgba, scale, file);
   } catch (const std::exception& e) {
     throw SessionError(SessionError::Code::kNotAvailable, e.what());
   }

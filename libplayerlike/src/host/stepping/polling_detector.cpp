@@ -35,7 +35,8 @@ bool PollingDetector::note(sim::SimTime now_ns, double weight) {
 bool PollingDetector::note_command(sim::SimTime now_ns, double weight, double weight_after_sleep) {
   if (now_ns != since_ns_) begin_at(now_ns);
   // The first command does not count as one after a sleep: most programs send one command and read.
-  if (used_ > 0.0) {
+  // Without this, each step of theirs would cost a system call.
+  if (std::exchange(commanded_, true)) {
     const long sleeps = own_sleeps();
     const long before = std::exchange(own_sleeps_, sleeps);
     if (before >= 0 && sleeps != before) weight = weight_after_sleep;

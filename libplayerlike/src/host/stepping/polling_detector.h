@@ -44,6 +44,7 @@ class PollingDetector {
   sim::SimTime since_ns_ = -1;
   double used_ = 0.0;  ///< fraction of the limit
   double next_check_ = 0.5;
+  bool commanded_ = false;            ///< a command has been counted
   long own_sleeps_ = -1;              ///< of the calling thread at the last command; < 0: unknown
   std::optional<Sleepers> sleepers_;  ///< at the last check
 };

@@ -13,13 +13,20 @@ using Vec2 = Eigen::Vector2d;
 /// Wraps an angle into (-pi, pi].
 /// @param angle_rad  any finite angle [rad].
 [[nodiscard]] inline double normalize_angle(double angle_rad) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  if (angle_rad > -std::numbers::pi && angle_rad <= std::numbers::pi) return angle_rad;
-  // Within three half turns these differences are exact (Sterbenz), so they are the remainder.
-  if (angle_rad > 0.0 && angle_rad < 9.0) return angle_rad - kTurn;
-  if (angle_rad < 0.0 && angle_rad > -9.0) return angle_rad + kTurn;
+  constexpr double kHalfTurn = std::numbers::pi;
+  constexpr double kTurn = 2.0 * kHalfTurn;
+  if (angle_rad > -kHalfTurn && angle_rad <= kHalfTurn) return angle_rad;
+  // Up to four turns, their multiples are exact, since three bits at the end of kTurn are zero. So
+  // are these differences (Sterbenz), which makes them the remainder.
+  constexpr double kExact_rad = 28.0;
+  if (angle_rad > -kExact_rad && angle_rad < kExact_rad) {
+    const double nearest = angle_rad * (1.0 / kTurn) + (angle_rad > 0.0 ? 0.5 : -0.5);
+    const double wrapped = angle_rad - kTurn * static_cast<int>(nearest);
+    if (wrapped > kHalfTurn) return wrapped - kTurn;
+    return wrapped <= -kHalfTurn ? wrapped + kTurn : wrapped;
+  }
   const double wrapped = std::remainder(angle_rad, kTurn);
-  return wrapped == -std::numbers::pi ? std::numbers::pi : wrapped;
+  return wrapped == -kHalfTurn ? kHalfTurn : wrapped;
 }
 
 /// Pose of a frame B in a frame A: the position of B's origin in A, and the rotation of B against

@@ -119,7 +119,13 @@ class SceneRenderer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Draws one picture of a scene in its view mode: SceneRenderer(options).draw(scene).
+/// Draws one picture of a scene: the same as SceneRenderer(options).draw(scene, mode), with less
+/// memory.
+/// @throws std::invalid_argument like SceneRenderer.
+[[nodiscard]] Image draw_view(const SceneSnapshot& scene, ViewMode mode,
+                              const RenderOptions& options);
+
+/// Draws one picture of a scene in its view mode.
 /// @throws std::invalid_argument like SceneRenderer.
 [[nodiscard]] Image draw_view(const SceneSnapshot& scene, const RenderOptions& options = {});
 
@@ -132,6 +138,30 @@ class SceneRenderer {
 ///     or if `rgba` does not have 4 bytes per cell.
 [[nodiscard]] Image draw_canvas(const CanvasDescription& description,
                                 const std::vector<std::uint8_t>& rgba, int scale);
+
+/// Writes pictures of canvases as PNG, each the same as write_png(draw_canvas(...), path), without
+/// the memory for the whole picture. If several have the same cells, one after the other, only the
+/// first one is encoded. Not thread-safe, but several writers are independent.
+class CanvasPngWriter {
+ public:
+  /// @throws std::invalid_argument like draw_canvas().
+  /// @throws std::runtime_error like write_png().
+  void write(const CanvasDescription& description, const std::vector<std::uint8_t>& rgba, int scale,
+             const std::string& path);
+
+ private:
+  int width_ = 0;  ///< of the last canvas [cells]
+  int scale_ = 0;
+  std::vector<std::uint8_t> rgba_;
+  std::vector<std::uint8_t> png_;
+};
+
+/// Writes one picture of a canvas, like CanvasPngWriter.
+inline void write_canvas_png(const CanvasDescription& description,
+                             const std::vector<std::uint8_t>& rgba, int scale,
+                             const std::string& path) {
+  CanvasPngWriter().write(description, rgba, scale, path);
+}
 
 /// Writes a PNG; equal pictures give equal bytes.
 /// @throws std::runtime_error naming the file and the reason.

@@ -2,7 +2,6 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
-#include <libswscale/swscale.h>
 }
 
 #include <array>
@@ -14,6 +13,7 @@ extern "C" {
 #include <string>
 
 #include "render/modules/module_interface.h"
+#include "render/modules/yuv_converter.h"
 
 namespace sim::render::modules {
 namespace {
@@ -45,7 +45,6 @@ struct Free {
   void operator()(AVCodecContext* encoder) const { avcodec_free_context(&encoder); }
   void operator()(AVFrame* frame) const { av_frame_free(&frame); }
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-  void operator()(SwsContext* converter) const { sws_freeContext(converter); }
 };
 template <typename T>
 using Owned = std::unique_ptr<T, Free>;
@@ -60,7 +59,8 @@ const AVCodec* codec_of(bool motion_jpeg) {
 }  // namespace
 
 struct FilmEncoder {
-  FilmEncoder(const char* path, bool motion_jpeg, double frames_per_second, int width, int height) {
+  FilmEncoder(const char* path, bool motion_jpeg, double frames_per_second, int width, int height)
+      : converter_(width, height, motion_jpeg) {
     const AVCodec* const codec = codec_of(motion_jpeg);
     if (codec == nullptr) throw std::runtime_error("FFmpeg has no encoder for it on this computer");
     AVFormatContext* made_file = nullptr;
@@ -84,9 +84,10 @@ struct FilmEncoder {
     }
     AVDictionary* options = nullptr;
     if (codec->id == AV_CODEC_ID_H264) {
-      // Slower presets make films of drawings no smaller (docs/decisions/speed.md).
+      // What more search would find is not in films of drawings (docs/decisions/speed.md).
       av_dict_set(&options, "preset", "veryfast", 0);
       av_dict_set(&options, "crf", "23", 0);
+      av_dict_set(&options, "x264-params", "subme=1:bframes=0:weightp=0:rc-lookahead=7", 0);
     } else {
       encoder_->flags |= AV_CODEC_FLAG_QSCALE;
       encoder_->global_quality = 3 * FF_QP2LAMBDA;
@@ -107,14 +108,6 @@ struct FilmEncoder {
     frame_->quality = encoder_->global_quality;
     require(av_frame_get_buffer(frame_.get(), 0), "no memory for a frame");
     packet_.reset(made(av_packet_alloc(), "a packet"));
-    converter_.reset(
-        made(sws_getContext(width, height, AV_PIX_FMT_RGB24, width, height, AV_PIX_FMT_YUV420P,
-                            SWS_BILINEAR, nullptr, nullptr, nullptr),
-             "a converter of colours"));
-    const int* const matrix = sws_getCoefficients(SWS_CS_ITU601);
-    constexpr int kOne = 1 << 16;  // contrast and saturation as they are
-    sws_setColorspaceDetails(converter_.get(), matrix, 1, matrix, motion_jpeg ? 1 : 0, 0, kOne,
-                             kOne);
   }
 
   /// Adds a frame. After a frame that could not be written (is the disk full?), further ones are
@@ -122,8 +115,9 @@ struct FilmEncoder {
   void add(const std::uint8_t* rgb, std::size_t stride) {
     if (!problem_.empty()) return;
     require(av_frame_make_writable(frame_.get()), "no memory for a frame");
-    const int bytes = static_cast<int>(stride);
-    sws_scale(converter_.get(), &rgb, &bytes, 0, encoder_->height, frame_->data, frame_->linesize);
+    converter_.convert(rgb, stride,
+                       {{frame_->data[0], frame_->data[1], frame_->data[2]},
+                        {frame_->linesize[0], frame_->linesize[1], frame_->linesize[2]}});
     frame_->pts = frames_++;
     require(avcodec_send_frame(encoder_.get(), frame_.get()), "a frame cannot be encoded");
     write_packets();
@@ -157,7 +151,7 @@ struct FilmEncoder {
   AVStream* stream_ = nullptr;  // owned by file_
   Owned<AVFrame> frame_;
   Owned<AVPacket> packet_;
-  Owned<SwsContext> converter_;
+  YuvConverter converter_;
   std::int64_t frames_ = 0;
   std::string problem_;  // why the file ends before the film
 };
