@@ -60,6 +60,16 @@ struct GradeRequest {
 ///         opened.
 [[nodiscard]] int run(RunRequest request);
 
+/// Whether a "world" of `playpen run` is the server of one: "tcp://...", "player://..." or
+/// "unix:...".
+[[nodiscard]] bool names_server(const std::string& world);
+
+/// Runs a client program in the world of a server, whose time is that of its sleeps, too, if the
+/// server is a Playpen server in lockstep.
+/// @return kOk if the program ends with status 0, else kProgramFailed.
+/// @throws playerlike::ProgramError if the program can't be started.
+[[nodiscard]] int run_at_server(const RunRequest& request);
+
 /// Arguments of `playpen serve`.
 struct ServeRequest {
   std::string world;  ///< as the user wrote it, see find_world()

@@ -152,16 +152,30 @@ class ServedWorld {
 
 }  // namespace
 
-int run(RunRequest request) {
-  const auto is_server = [&request](const char* prefix) {
-    return request.world.starts_with(prefix);
-  };
-  if (is_server("tcp://") || is_server("player://") || is_server("unix:")) {
-    throw std::runtime_error(
-        "playpen run makes a simulation of its own; for the one of a server, "
-        "start the program itself: PLAYPEN_WORLD=" +
-        request.world + ' ' + request.command.front());
+bool names_server(const std::string& world) {
+  return world.starts_with("tcp://") || world.starts_with("player://") ||
+         world.starts_with("unix:");
+}
+
+int run_at_server(const RunRequest& request) {
+  playerlike::EnvironmentChanges environment = playerlike::run_environment("", {});
+  environment["PLAYPEN_WORLD"] = request.world;
+  environment["PLAYPEN_RUN"] = "1";
+  add_libraries_folder(environment);
+  std::optional<PreloadedLibrary> virtual_time;
+  if (!request.real_sleep && !request.world.starts_with("player://")) {
+    virtual_time.emplace().add_to(environment);
+    environment["PLAYPEN_VIRTUAL_TIME"] = "1";
   }
+  std::vector<std::string> command = request.command;
+  command.front() = playerlike::find_program(command.front());
+  const playerlike::ProgramEnd end = playerlike::run_program(command, environment);
+  if (end.success()) return kOk;
+  std::cerr << "playpen: " << command.front() << ' ' << end.text() << '\n';
+  return kProgramFailed;
+}
+
+int run(RunRequest request) {
   const std::string world_file = find_world(request.world);
   sim::WorldDescription world = load_found_world(world_file);
   request.settings.apply_to(world);  // reports settings that do not match the world before the run

@@ -44,6 +44,20 @@ void add_real_robots(CLI::App& command, playerlike::RunSettings& settings) {
                    "Take over real robots from other clients that are in charge of them");
 }
 
+/// @throws CLI::ParseError if an option was given that a server decides about.
+void refuse_settings_of_server(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || option->get_positional() || name == "--real-sleep" ||
+        name == "--quiet") {
+      continue;
+    }
+    throw CLI::ValidationError(name,
+                               "the world is that of a server, which decides about this: "
+                               "give it to playpen serve");
+  }
+}
+
 }  // namespace
 
 void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::ViewMode>& mode) {
@@ -208,7 +222,8 @@ void add_run(CommandLine& line) {
   command.footer(
       "After '--' come the client program and its arguments, for example\n"
       "  playpen run par_intro --duration 60 -- ./robot --port 6665\n"
-      "'playpen list worlds' shows the names of worlds.\n"
+      "'playpen list worlds' shows the names of worlds. For the world of a server,\n"
+      "write its address: tcp://HOST[:PORT], unix:PATH or player://HOST[:PORT].\n"
       "Exit status: 0 success, 1 the program failed, 2 bad input.");
   add_world(line, command, request->world);
   add_run_settings(line, command, request->settings, "the world's, else lockstep");
@@ -230,10 +245,15 @@ void add_run(CommandLine& line) {
                    "In lockstep: the program's sleeps and clocks are real, not simulated time");
   add_isolation(line, command, request->isolation);
   command.add_flag("--quiet", request->quiet, "No progress, no summary");
-  command.callback([request, &line] {
+  command.callback([request, &line, &command] {
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
-    require_something_to_show(request->settings, request->view);
     request->command = line.program;
+    if (names_server(request->world)) {
+      refuse_settings_of_server(command);
+      line.status = run_at_server(*request);
+      return;
+    }
+    require_something_to_show(request->settings, request->view);
     request->call = line.call;
     line.status = run(*request);
   });

@@ -65,7 +65,7 @@ class RemotePrograms : public testing::Test {
     ProcessOptions remote;
     remote.environment["PLAYPEN_WORLD"] = address;
     remote.environment["PLAYPEN_ENCODING"] = encoding;
-    if (virtual_time_) {
+    if (virtual_time_ && preloads_) {
       remote.environment.insert(
           {{"LD_PRELOAD", PRELOADED_LIBRARY}, {"PLAYPEN_VIRTUAL_TIME", "1"}, {"PLAYPEN_RUN", "1"}});
     }
@@ -157,6 +157,7 @@ class RemotePrograms : public testing::Test {
   TemporaryFolder folder_;
   Files files_;
   bool virtual_time_ = false;
+  bool preloads_ = true;  ///< in virtual time: the program does not start under `playpen run`
 };
 
 TEST_F(RemotePrograms, Introduction_SameAsInProcess) {
@@ -258,10 +259,27 @@ TEST_F(RemotePrograms, NoServer_ErrorNamesAddress) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("127.0.0.1:1"), HasSubstr("playpen serve")));
 }
 
-TEST_F(RemotePrograms, PlaypenRun_RefusesRemotePrograms) {
-  const ProcessResult result = playpen({"run", "tcp://lab:4000", "--", PLAYER_PROGRAM});
+TEST_F(RemoteVirtualTime, PlaypenRunAtServer_SameAsInProcess) {
+  const std::string world = task_world("par_intro");
+  const Words program = {THREAD_PROGRAMS, "use_futures"};
+  ASSERT_EQ(run(world, {"--duration", "5"}, program).status, 0);
+  const Files expected = files();
+  preloads_ = false;
+  Words call = {PLAYPEN_COMMAND, "run", "unix:" + folder_ / "robots", "--"};
+  call.insert(call.end(), program.begin(), program.end());
+  const ProcessResult there = serve(world, {"--duration", "5"}, {call}).front();
+  EXPECT_EQ(there.status, 0) << there.err;
+  expect_equal_files(files(), expected);
+}
+
+TEST_F(RemotePrograms, PlaypenRunAtServer_RefusesSettingsOfServer) {
+  const ProcessResult result =
+      playpen({"run", "tcp://lab:4000", "--duration", "5", "--", PLAYER_PROGRAM});
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("PLAYPEN_WORLD=tcp://lab:4000 " PLAYER_PROGRAM));
+  EXPECT_THAT(result.err, AllOf(HasSubstr("--duration"), HasSubstr("playpen serve")));
+  const ProcessResult failed = playpen({"run", "tcp://127.0.0.1:1", "--", PLAYER_PROGRAM});
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_THAT(failed.err, HasSubstr("127.0.0.1:1"));
 }
 
 }  // namespace
