@@ -399,6 +399,34 @@ void append_draw_request(std::span<const sim::DrawOperation> drawings, Encoding 
   });
 }
 
+void append_set_cells_request(sim::LayerId layer, const sim::CellRect& rect,
+                              std::span<const sim::CellValue> cells, Encoding encoding,
+                              std::string& out) {
+  if (encoding == Encoding::kJson) {
+    return append_encoded({{"do", "set_cells"},
+                           {"layer", layer},
+                           {"rect", {rect.column, rect.row, rect.width, rect.height}},
+                           {"cells", encode_cells(cells, encoding)}},
+                          encoding, out);
+  }
+  append_frame(out, [&] {
+    CborWriter writer(out);
+    writer.object(4);
+    writer.text("do");
+    writer.text("set_cells");
+    writer.text("layer");
+    writer.integer(layer);
+    writer.text("rect");
+    writer.list(4);
+    for (const int number : {rect.column, rect.row, rect.width, rect.height}) {
+      writer.integer(number);
+    }
+    writer.text("cells");
+    writer.head(CborMajor::kBytes, cells.size_bytes());
+    writer.raw({reinterpret_cast<const char*>(cells.data()), cells.size_bytes()});
+  });
+}
+
 std::vector<sim::DrawOperation> decode_drawings(const json& drawings, Encoding encoding) {
   std::vector<sim::DrawOperation> decoded;
   if (encoding == Encoding::kJson) {

@@ -106,6 +106,11 @@ void append_command_request(DeviceId device, const sim::Command& command, Encodi
 void append_draw_request(std::span<const sim::DrawOperation> drawings, Encoding encoding,
                          std::string& out);
 
+/// Appends the request {"do": "set_cells", ...} likewise. @param cells  row by row from the top.
+void append_set_cells_request(sim::LayerId layer, const sim::CellRect& rect,
+                              std::span<const sim::CellValue> cells, Encoding encoding,
+                              std::string& out);
+
 /// Encodes a command: {"kind": "twist", ...}.
 [[nodiscard]] json encode_command(const sim::Command& command);
 [[nodiscard]] sim::Command decode_command(const json& command);

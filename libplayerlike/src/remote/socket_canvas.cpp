@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Requests whose cells do not fit one message, and are sent in pieces.
+// The canvas of a socket session, and requests whose cells do not fit one message.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -22,6 +22,12 @@ constexpr std::size_t kMaxMapSide = 8192;
 constexpr int kTileSide = 1024;
 
 }  // namespace
+
+DrawQueue& SocketSession::draw_queue() noexcept { return sender_->drawings(); }
+
+std::uint64_t SocketSession::canvas_generation() const noexcept {
+  return canvas_generation_.load(std::memory_order_acquire);
+}
 
 void SocketSession::set_cells(const SetCellsRequest& what) const {
   const sim::CellRect& rect = what.rect;
@@ -66,19 +72,34 @@ void SocketSession::set_cells(const SetCellsRequest& what) const {
 
 void SocketSession::set_cells(sim::LayerId layer, const sim::CellRect& rect,
                               std::span<const sim::CellValue> cells) const {
-  const protocol::Encoding encoding = sender_->connection()->encoding();
-  nlohmann::json message = protocol::encode_request(SetCellsRequest{layer, rect, {}}, encoding);
-  std::vector<std::uint8_t> bytes;
-  {
-    const Lock lock(mutex_);
-    bytes = spare_bytes_.take();
+  if (accepts_cells(layer)) {
+    with_connection([&] {
+      sender_->tell([&](protocol::Encoding encoding, std::string& out) {
+        protocol::append_set_cells_request(layer, rect, cells, encoding, out);
+      });
+    });
+    return throw_async_error();
   }
-  const auto* const begin = reinterpret_cast<const std::uint8_t*>(cells.data());
-  bytes.assign(begin, begin + cells.size_bytes());
-  message["cells"] = protocol::bytes(std::move(bytes), encoding);
-  static_cast<void>(ask(message));
+  const std::shared_ptr<Connection> connection = sender_->connection();
+  const protocol::Encoding encoding = connection->encoding();
+  static_cast<void>(ask(protocol::encode_request(
+      SetCellsRequest{layer, rect, {cells.begin(), cells.end()}}, encoding)));
   const Lock lock(mutex_);
-  protocol::keep_bytes(message, spare_bytes_);
+  if (sender_->connection() != connection) return;  // the answer may be that of another server
+  if (layers_of_ != connection) layers_.clear();
+  layers_of_ = connection;
+  layers_.insert(layer);
+}
+
+bool SocketSession::accepts_cells(sim::LayerId layer) const {
+  const std::shared_ptr<const Connection> connection = sender_->connection();
+  const Lock lock(mutex_);
+  return layers_of_ == connection && layers_.contains(layer);
+}
+
+void SocketSession::forget_layers() const {
+  const Lock lock(mutex_);
+  layers_.clear();
 }
 
 WorldMap SocketSession::world_map(double cell_size_m) const {

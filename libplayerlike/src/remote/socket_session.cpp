@@ -571,14 +571,6 @@ const void* SocketSession::simulation() const noexcept {
   return sender_->simulation().get();
 }
 
-// --- The canvas
-
-DrawQueue& SocketSession::draw_queue() noexcept { return sender_->drawings(); }
-
-std::uint64_t SocketSession::canvas_generation() const noexcept {
-  return canvas_generation_.load(std::memory_order_acquire);
-}
-
 // --- Requests; socket_canvas.cpp has those that send cells in pieces
 
 /// Handles the requests that need more than one message and its answer.
@@ -626,6 +618,15 @@ struct SocketSession::RequestHandler {
     session.with_connection([&] { session.sender_->flush(); });
   }
   void operator()(const SetCellsRequest& what) const { session.set_cells(what); }
+  void operator()(const RemoveLayerRequest& what) const {
+    session.forget_layers();
+    static_cast<void>(session.ask_for(what));
+  }
+  void operator()(const RestoreStateRequest& what) const {
+    session.forget_layers();
+    session.sender_->confirm_others();  // earlier images of other sessions are replaced, too
+    static_cast<void>(session.ask_for(what));
+  }
   CanvasInfo operator()(const CanvasInfoRequest&) const {
     const Lock lock(session.mutex_);
     return session.canvas_;
@@ -651,9 +652,18 @@ struct SocketSession::RequestHandler {
     for (const double number : *numbers) require_finite(sim::RotateCommand{number});
   }
 
+  /// Requests about what all sessions have drawn. Whole images, which need no answer, are part of
+  /// it at once.
+  template <typename One>
+  static constexpr bool kSeesImages =
+      std::is_same_v<One, CanvasImageRequest> || std::is_same_v<One, SaveImageRequest> ||
+      std::is_same_v<One, CellsRequest> || std::is_same_v<One, CellRequest> ||
+      std::is_same_v<One, SaveStateRequest>;
+
   template <typename One>
   typename One::Result operator()(const One& what) const {
     if constexpr (requires { check(what); }) check(what);
+    if constexpr (kSeesImages<One>) session.sender_->confirm_others();
     if constexpr (!requires { One::kName; }) {
       throw SessionError(SessionError::Code::kNotAvailable,
                          "a server does this for clients in MORSE's protocol only");

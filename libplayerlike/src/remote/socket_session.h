@@ -10,6 +10,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <thread>
@@ -130,9 +131,15 @@ class SocketSession final : public Session {
   void throw_async_error() const;
   void unsubscribe(DeviceId device);
   void set_cells(const SetCellsRequest& what) const;
-  /// Sends cells that fit one message.
+  /// Sends cells that fit one message. The first ones of a layer wait for the answer, which says
+  /// whether the session may draw there. Nothing that this session does not do itself changes that,
+  /// so further ones need no answer.
   void set_cells(sim::LayerId layer, const sim::CellRect& rect,
                  std::span<const sim::CellValue> cells) const;
+  /// Whether the server has taken cells of a layer before.
+  [[nodiscard]] bool accepts_cells(sim::LayerId layer) const;
+  /// Lets the next cells of each layer wait for the answer again.
+  void forget_layers() const;
   [[nodiscard]] WorldMap world_map(double cell_size_m) const;
   /// Attaches the session to the clock of virtual time, if the settings and the server allow it.
   void take_part_in_turns(const TimeStatistics& time, std::uint64_t session);
@@ -173,7 +180,8 @@ class SocketSession final : public Session {
   bool over_ = false;  ///< the run is over
   int reads_after_end_ = 0;
   mutable CanvasInfo canvas_;
-  mutable Spare<std::uint8_t> spare_bytes_;  ///< for images
+  mutable std::shared_ptr<const Connection> layers_of_;  ///< the server that has taken cells of ...
+  mutable std::set<sim::LayerId> layers_;                ///< ... these layers
   std::atomic<std::uint32_t> overflow_{0};
   mutable std::atomic<std::uint64_t> canvas_generation_{0};
 };

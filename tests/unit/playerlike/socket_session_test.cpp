@@ -588,6 +588,39 @@ std::vector<std::uint8_t> picture_of(Session& session) {
   return session.request(CanvasImageRequest{}).rgba;
 }
 
+/// An image of 3 x 2 cells of one colour.
+SetCellsRequest image_of(sim::LayerId layer, std::uint8_t red) {
+  return {layer, {0, 0, 3, 2}, {6, sim::CellValue::of(sim::Colour{red, 0, 0, 255})}};
+}
+
+// Images of a layer whose first image was answered.
+TEST(SocketSessions, ImagesWithoutAnswer_SeenByOtherSessionsAtOnce) {
+  const Served served;
+  for (const auto encoding : {protocol::Encoding::kCbor, protocol::Encoding::kJson}) {
+    SocketSettings settings = settings_for(served.port());
+    settings.encoding = encoding;
+    SocketSession artist(settings);
+    SocketSession onlooker(settings);
+    const sim::LayerId layer =
+        artist.request(CreateLayerRequest{sim::LayerKind::kColour, {.name = "images"}});
+    for (std::uint8_t red = 1; red < 20; ++red) {
+      artist.request(image_of(layer, red));
+      EXPECT_EQ(onlooker.request(CanvasImageRequest{}).rgba.front(), red);
+    }
+  }
+}
+
+TEST(SocketSessions, ImageOnRemovedLayer_RefusedByItsCall) {
+  const Served served;
+  const auto session = connect(served.port());
+  const sim::LayerId layer =
+      session->request(CreateLayerRequest{sim::LayerKind::kColour, {.name = "images"}});
+  session->request(image_of(layer, 1));
+  session->request(image_of(layer, 2));
+  session->request(RemoveLayerRequest{layer});
+  EXPECT_THROW(session->request(image_of(layer, 3)), SessionError);
+}
+
 TEST(SocketSessions, Drawings_SameAsInProcess) {
   const auto host = test::patient_host(two_robots());
   const std::vector<std::uint8_t> expected = picture_of(*host->connect(6665));
@@ -775,6 +808,59 @@ TEST(LyingServers, FalseEvents_Explained) {
     } catch (const SessionError&) {
       // Correct; any other exception fails the test.
     }
+  }
+}
+
+// Readings in CBOR, which the session decodes from the message's bytes. The answer to the first
+// request follows the welcome at once.
+TEST(LyingServers, FalseReadingsInCbor_Explained) {
+  const Served served;
+  nlohmann::json welcome = welcome_of(served);
+  welcome["encoding"] = "cbor";
+  sim::LaserReading scan;
+  scan.ranges_m = {1.0, 2.0};
+  std::string laser;
+  protocol::append_cbor_reading({0, 0}, "laser", scan, laser);
+  const std::string one = "\x81" + laser;
+  const std::size_t ranges = one.find("ranges") + 6;  // tag 86 (two bytes), 16 bytes (one byte)
+  const auto changed = [&](std::size_t at, char byte) {
+    std::string bytes = one;
+    bytes.at(at) = byte;
+    return bytes;
+  };
+  const std::vector<std::string> lies = {
+      changed(0, '\x82'),           // fewer readings than the list says
+      changed(0, '\x80'),           // more
+      changed(ranges + 1, '\x18'),  // another tag
+      changed(ranges + 2, '\x4f'),  // no whole doubles
+      changed(ranges + 2, '\x58'),  // a length beyond the end
+      changed(ranges + 10, '\x7f').replace(ranges + 9, 1, "\xf0"),  // not finite
+      changed(ranges - 1, 'x'),  // an unknown member instead of one that must be there
+      one.substr(0, one.size() - 1),
+      std::string("\x05"),
+      std::string("\xa0"),
+      std::string("\x81\x05"),
+      std::string("\x81\xa0"),
+      std::string("\x9f"),
+      "\x9b" + std::string(8, '\x7f'),
+      std::string(1000, '\x81'),
+      ""};
+  for (std::size_t i = 0; i <= lies.size(); ++i) {
+    const std::string& readings = i < lies.size() ? lies[i] : one;
+    const ScriptedServer server([&](int, const std::string&) -> ScriptedServer::Reply {
+      nlohmann::json answer = {{"id", 1}, {"data", true}};
+      answer["readings"] =
+          nlohmann::json::binary({readings.begin(), readings.end()}, protocol::kEncodedItemTag);
+      return {said(welcome) + protocol::encode(answer, protocol::Encoding::kCbor)};
+    });
+    const auto session = connect(server.port());
+    std::string error;
+    try {
+      session->wait();
+    } catch (const SessionError& e) {
+      error = e.what();
+    }
+    EXPECT_EQ(error.empty(), i == lies.size()) << i << ": " << error;
   }
 }
 
