@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "protocol/framing.h"
@@ -73,14 +74,16 @@ std::string_view take_cbor_item(std::string_view& rest, int depth) {
 }
 
 bool all_finite_doubles(std::string_view bytes) noexcept {
-  // Little-endian: the last two bytes hold sign and exponent. An exponent of all ones means
-  // infinity or NaN.
-  for (std::size_t i = 6; i < bytes.size(); i += sizeof(double)) {
-    const auto low = static_cast<unsigned char>(bytes[i]);
-    const auto high = static_cast<unsigned char>(bytes[i + 1]);
-    if ((low & 0xf0U) == 0xf0U && (high & 0x7fU) == 0x7fU) return false;
+  // An exponent of all ones means infinity or NaN. Without a branch, so that many are checked at
+  // once.
+  constexpr std::uint64_t kExponent = 0x7ff0000000000000U;
+  std::uint64_t wrong = 0;
+  for (std::size_t i = 0; i + sizeof(double) <= bytes.size(); i += sizeof(double)) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, bytes.data() + i, sizeof bits);
+    wrong |= (bits & kExponent) == kExponent ? 1U : 0U;
   }
-  return true;
+  return wrong == 0;
 }
 
 void CborWriter::head(CborMajor major, std::uint64_t argument) {

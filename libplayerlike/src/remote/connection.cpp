@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "process/short_wait.h"
 #include "protocol/codec.h"
 
 namespace playerlike {
@@ -70,6 +71,8 @@ struct Connection::Impl {
   json welcome;
   std::size_t message_limit = 0;
   std::atomic<Clock::rep> timeout{};
+  std::atomic<bool> expects_soon{false};
+  ShortWait short_wait;  // used by the leader only
 
   std::mutex send_mutex;  // guards writes to the socket; never locked while `mutex` is held
 
@@ -125,10 +128,15 @@ struct Connection::Impl {
       }
     };
     take();  // messages that arrived together with the answer to hello
-    if (!messages.empty() || !wait_for_socket(socket.native_handle(), POLLIN, deadline))
-      return messages;
-    const std::size_t count = read_some(socket, address, splitter.room(kRoom));
-    if (count == 0) return messages;
+    if (!messages.empty()) return messages;
+    std::size_t count = 0;
+    const auto read = [&] {
+      count = read_some(socket, address, splitter.room(kRoom));
+      return count > 0;
+    };
+    if (!(expects_soon && short_wait.look(read))) {
+      if (!wait_for_socket(socket.native_handle(), POLLIN, deadline) || !read()) return messages;
+    }
     splitter.added(count);
     {
       const std::lock_guard lock(mutex);
@@ -255,6 +263,8 @@ std::shared_ptr<Connection> Connection::open(const ServerAddress& address, const
 const json& Connection::welcome() const noexcept { return impl_->welcome; }
 Encoding Connection::encoding() const noexcept { return impl_->encoding; }
 std::size_t Connection::message_limit() const noexcept { return impl_->message_limit; }
+
+void Connection::expect_soon(bool soon) noexcept { impl_->expects_soon = soon; }
 
 void Connection::set_request_timeout(Clock::duration timeout) noexcept {
   impl_->timeout = timeout.count();

@@ -49,6 +49,9 @@ class Connection {
   [[nodiscard]] protocol::Encoding encoding() const noexcept;
   /// Maximum length of a message to the server [bytes].
   [[nodiscard]] std::size_t message_limit() const noexcept;
+  /// Sets whether answers come so soon that it is worth looking for them before a thread sleeps,
+  /// see ShortWait.
+  void expect_soon(bool soon) noexcept;
   /// Sets the maximum time to wait for an answer.
   void set_request_timeout(Clock::duration timeout) noexcept;
 

@@ -199,6 +199,10 @@ void MessageSender::tell(const Append& append) {
   connection->tell(outgoing_);  // even without bytes, since it throws if the connection is lost
 }
 
+void MessageSender::hold_back(bool holds) noexcept {
+  if (holds_back_.exchange(holds) != holds) connection()->expect_soon(holds);
+}
+
 void MessageSender::flush_and_confirm() noexcept {
   if (sent_ == acknowledged_ && drawings_.empty()) return;
   try {

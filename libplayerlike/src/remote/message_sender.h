@@ -61,8 +61,9 @@ class MessageSender : public std::enable_shared_from_this<MessageSender> {
   void confirm_others() noexcept;
 
   /// Sets whether messages without answers are sent with the next message that has one. That is
-  /// equivalent, and saves a system call for each, while no time can pass without this program.
-  void hold_back(bool holds) noexcept { holds_back_ = holds; }
+  /// equivalent, and saves a system call for each, while no time can pass without this program. The
+  /// server then computes for this program only, so answers are expected soon.
+  void hold_back(bool holds) noexcept;
 
   /// Sets whether time follows the wall clock; then a thread flushes the draw queue periodically.
   void set_paced(bool paced);

@@ -98,7 +98,9 @@ json NativeHandler::round_of_turns(bool take) {
   if (take) take_readings(answer);
   answer["data"] = take;
   answer["ready"] = ready_sessions();
-  answer["alone"] = is_only_program();
+  const bool alone = is_only_program();
+  answer["alone"] = alone;
+  if (alone) hub_.expect_soon();
   const TimeStatistics time = hub_.host().time();
   answer["t"] = time.sim_time_ns;
   answer["finished"] = time.finished;

@@ -19,6 +19,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "process/short_wait.h"
 #include "process/system_threads.h"
 #include "server/connection.h"
 #include "server/listening.h"
@@ -155,6 +156,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   void work(Job job) override;
   [[nodiscard]] std::shared_ptr<void> claim_room(std::size_t bytes) override;
   void pump() override;
+  void expect_soon() override { expects_soon_ = true; }
   int listen(int first, MakeHandler make) override;
   void hand_over(Peer& peer, std::unique_ptr<Handler> handler) override {
     static_cast<Connection&>(peer).hand_over(std::move(handler));
@@ -173,6 +175,8 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
 
   void warn_if_not_private();
   void serve();
+  /// Runs the event loop to its end.
+  void run_loop();
   int add(Listener listener);
   void accept(Listener& listener, tcp::acceptor& acceptor);
   void accept_later(Listener& listener, tcp::acceptor& acceptor, const asio::error_code& error);
@@ -221,6 +225,8 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   bool pumping_ = false;
   bool pump_again_ = false;
   bool pump_posted_ = false;
+  bool expects_soon_ = false;
+  ShortWait short_wait_;
 
   /// The known threads of a process with clients here.
   struct Process {
@@ -397,7 +403,7 @@ void ServerHub::Body::serve() {
   own_thread_ = std::this_thread::get_id();
   for (;;) {
     try {
-      io_.run();
+      run_loop();
       break;
     } catch (const std::exception& e) {
       log(sim::LogLevel::kError, std::string("the server's thread: ") + e.what());
@@ -408,6 +414,16 @@ void ServerHub::Body::serve() {
   worker_.close();
   morse_state.reset();
   native_state.reset();
+}
+
+void ServerHub::Body::run_loop() {
+  while (!io_.stopped()) {
+    if (std::exchange(expects_soon_, false) &&
+        short_wait_.look([this] { return io_.poll() > 0 || io_.stopped(); })) {
+      continue;
+    }
+    io_.run_one();
+  }
 }
 
 void ServerHub::Body::post(std::function<void()> task) {
