@@ -1,8 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sched.h>
-
 #include <algorithm>
 #include <chrono>
 
@@ -31,7 +29,6 @@ class ShortWait {
         pause_ = 0;
         return true;
       }
-      sched_yield();
     } while (Clock::now() < end);
     pause_ = std::clamp(2 * pause_, kFirstPause, kLongestPause);
     left_out_ = pause_;
@@ -40,7 +37,7 @@ class ShortWait {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::microseconds kLongest{200};
+  static constexpr std::chrono::microseconds kLongest{150};
   // Waits that are left out after looks in vain.
   static constexpr int kFirstPause = 4;
   static constexpr int kLongestPause = 256;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Requests whose cells do not fit one message, and are sent in pieces.
+// The canvas of a socket session, and requests whose cells do not fit one message.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -22,6 +22,12 @@ constexpr std::size_t kMaxMapSide = 8192;
 constexpr int kTileSide = 1024;
 
 }  // namespace
+
+DrawQueue& SocketSession::draw_queue() noexcept { return sender_->drawings(); }
+
+std::uint64_t SocketSession::canvas_generation() const noexcept {
+  return canvas_generation_.load(std::memory_order_acquire);
+}
 
 void SocketSession::set_cells(const SetCellsRequest& what) const {
   const sim::CellRect& rect = what.rect;

@@ -571,14 +571,6 @@ const void* SocketSession::simulation() const noexcept {
   return sender_->simulation().get();
 }
 
-// --- The canvas
-
-DrawQueue& SocketSession::draw_queue() noexcept { return sender_->drawings(); }
-
-std::uint64_t SocketSession::canvas_generation() const noexcept {
-  return canvas_generation_.load(std::memory_order_acquire);
-}
-
 // --- Requests; socket_canvas.cpp has those that send cells in pieces
 
 /// Handles the requests that need more than one message and its answer.
