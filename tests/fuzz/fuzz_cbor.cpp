@@ -8,8 +8,7 @@ using namespace playerlike::protocol;  // NOLINT(google-build-using-namespace): 
 
 void take_frame(std::string_view frame) {
   fuzz::attempt([&] { fuzz::take_message(decode(frame, Encoding::kCbor), Encoding::kCbor); });
-  fuzz::take_cbor_bytes(frame);
-  fuzz::take_kept_readings(frame);
+  fuzz::take_cbor_reading_bytes(frame);
 }
 
 }  // namespace

@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "protocol/codec.h"
 #include "protocol/request_codec.h"
@@ -38,42 +39,35 @@ inline json sent_on(const json& message, Encoding encoding) {
   return decode(*bytes, encoding);
 }
 
-/// Reads bytes as a reading without a tree of values: the result is that of the tree.
-inline void take_cbor_bytes(std::string_view bytes) {
-  std::optional<DecodedReading> expected;
+/// Reads bytes as the only reading of a message, as a tree and without one: the results are the
+/// same.
+inline void take_cbor_reading_bytes(std::string_view bytes) {
+  const std::string message =
+      encode({{"readings", encoded_list(1, bytes)}}, Encoding::kCbor).substr(4);
+  std::vector<DecodedReading> expected;
   std::string type;
   attempt([&] {
-    const json tree = decode(bytes, Encoding::kCbor);
-    expected = decode_reading(tree, Encoding::kCbor);
-    type = require_text(tree, "type");
+    const json tree = decode(message, Encoding::kCbor);
+    const json& only = require_list(require(tree, "readings"), "readings").at(0);
+    DecodedReading decoded = decode_reading(only, Encoding::kCbor);
+    type = require_text(only, "type");
+    expected.push_back(std::move(decoded));
   });
-  std::optional<DecodedReading> read;
+  std::vector<DecodedReading> read;
   attempt([&] {
-    std::string_view rest = bytes;
-    DecodedReading decoded = take_cbor_reading(rest);
-    if (rest.empty()) read = std::move(decoded);
+    const json kept = decode(message, Encoding::kCbor, nullptr, "readings");
+    const auto& list = kept.at("readings").get_binary();
+    read = decode_cbor_readings({reinterpret_cast<const char*>(list.data()), list.size()});
   });
-  require_true(read.has_value() == expected.has_value());
-  if (!read) return;
+  require_true(read.size() == expected.size());
+  if (read.empty()) return;
   const auto encoded = [&](const DecodedReading& decoded) {
     return encode_reading(decoded.device, type, *decoded.reading, Encoding::kCbor);
   };
-  require_true(encoded(*read) == encoded(*expected));
+  require_true(encoded(read[0]) == encoded(expected[0]));
   std::string written;
-  append_cbor_reading(read->device, type, *read->reading, written);
-  require_true(decode(written, Encoding::kCbor) == encoded(*read));
-}
-
-/// Reads a list of readings that is not decoded.
-inline void take_kept_readings(std::string_view bytes) {
-  attempt([&] {
-    const json message = decode(bytes, Encoding::kCbor, nullptr, "readings");
-    const auto list = message.find("readings");
-    if (list == message.end()) return;
-    const auto& kept = list->get_binary();
-    static_cast<void>(
-        decode_cbor_readings({reinterpret_cast<const char*>(kept.data()), kept.size()}));
-  });
+  append_cbor_reading(read[0].device, type, *read[0].reading, written);
+  require_true(decode(written, Encoding::kCbor) == encoded(read[0]));
 }
 
 /// Reads a value as every type that it could represent.
