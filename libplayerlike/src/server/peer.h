@@ -172,8 +172,8 @@ class Hub {
   /// such a callback, this happens after the return, without another wake-up.
   virtual void pump() = 0;
 
-  /// A client has just got an answer, and its next message comes so soon that it is worth looking for
-  /// it before the server's thread sleeps, see ShortWait.
+  /// A client has just got an answer, and its next message comes so soon that it is worth looking
+  /// for it before the server's thread sleeps, see ShortWait.
   virtual void expect_soon() {}
 
   /// Number of open connections; 0: unknown.
