@@ -35,7 +35,14 @@ EndSignals::EndSignals() {
 
 EndSignals::~EndSignals() {
   over_ = true;
-  if (thread_.joinable()) thread_.join();
+  if (!thread_.joinable()) return;
+  // A signal for this thread only ends its present wait; it is no request.
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    if (sigismember(&held_, signal) != 1) continue;
+    pthread_kill(thread_.native_handle(), signal);
+    break;
+  }
+  thread_.join();
 }
 
 void EndSignals::listen(std::function<void(int)> on_first, std::function<void(int)> on_late) {
@@ -50,6 +57,7 @@ void EndSignals::watch() {
   while (!over_) {
     const timespec time{0, kLook_ns};
     const int signal = sigtimedwait(&held_, nullptr, &time);
+    if (over_) return;
     if (signal > 0 && !given) {
       begin = Clock::now();
       given.emplace(getpid(), gettid());
