@@ -65,7 +65,7 @@ struct ProgramEnd {
 class TimeGiven {
  public:
   /// @param process  its id.
-  /// @param without  a thread of it that does not count; 0: none.
+  /// @param without  the calling thread, if it is one of that process and does not count; 0: none.
   explicit TimeGiven(pid_t process, pid_t without = 0) noexcept;
 
   /// Measures the time since the previous call. Must be called often: of a longer interval only

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -36,19 +37,25 @@ bool sleeps(pid_t process, pid_t without) {
   return true;
 }
 
+/// The processor time of a process so far, without that of this thread, if it is one of it.
+nanoseconds time_of_others(pid_t process, bool has_this_thread) {
+  timespec own{};
+  if (has_this_thread) clock_gettime(CLOCK_THREAD_CPUTIME_ID, &own);
+  return processor_time(process).value_or(nanoseconds::zero()) -
+         (std::chrono::seconds(own.tv_sec) + nanoseconds(own.tv_nsec));
+}
+
 }  // namespace
 
 TimeGiven::TimeGiven(pid_t process, pid_t without) noexcept
-    : process_(process),
-      without_(without),
-      last_cpu_(processor_time(process).value_or(nanoseconds::zero())) {}
+    : process_(process), without_(without), last_cpu_(time_of_others(process, without != 0)) {}
 
 void TimeGiven::look() {
   const auto now = std::chrono::steady_clock::now();
   const nanoseconds passed = std::min<nanoseconds>(now - last_look_, kLongestLook);
   last_look_ = now;
-  const nanoseconds cpu = processor_time(process_).value_or(last_cpu_);
-  const nanoseconds computed = std::max(cpu - last_cpu_, nanoseconds::zero());
+  const nanoseconds cpu = std::max(time_of_others(process_, without_ != 0), last_cpu_);
+  const nanoseconds computed = cpu - last_cpu_;
   last_cpu_ = cpu;
   computed_ += computed;
   computed_idly_ += computed;
