@@ -1,5 +1,4 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -84,14 +83,11 @@ class ServedRun {
  public:
   void serve(int connection) {
     if (!host_) {
-      const sim::LogHook log = [](sim::LogLevel level, std::string_view text) {
-        // The program's terminal is not the place for a line about each connection.
-        if (level >= sim::LogLevel::kWarning) playerlike::log_to_stderr()(level, text);
-      };
       host_ = playerlike::open_host_of_run();
       playerlike::ServerSettings settings;
       settings.port.reset();
-      server_.emplace(host_, settings, log);
+      // The program's terminal is not the place for a line about each connection.
+      server_.emplace(host_, settings, playerlike::log_to_stderr(sim::LogLevel::kWarning));
     }
     server_->adopt(connection);
   }
@@ -105,8 +101,9 @@ class ServedRun {
       host_->finish();
     }
     const auto end = Clock::now() + kLastMessages;
-    while (server_->connections() > 0 && Clock::now() < end)
+    while (server_->connections() > 0 && Clock::now() < end) {
       std::this_thread::sleep_for(kShortLook);
+    }
     server_.reset();
     host_.reset();
   }

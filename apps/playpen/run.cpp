@@ -109,10 +109,8 @@ class ServedWorld {
 
   /// Starts the server. @return its TCP port.
   int serve() {
-    const sim::LogHook log = [](sim::LogLevel level, std::string_view text) {
-      // The terminal of the programs is not the place for a line about each connection.
-      if (level >= sim::LogLevel::kWarning) playerlike::log_to_stderr()(level, text);
-    };
+    // The terminal of the programs is not the place for a line about each connection.
+    const sim::LogHook log = playerlike::log_to_stderr(sim::LogLevel::kWarning);
     playerlike::RunSettings settings = settings_;
     settings.virtual_time = false;  // that is for programs
     settings.quiet_end = false;

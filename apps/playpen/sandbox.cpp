@@ -22,7 +22,6 @@
 #include <string_view>
 #include <system_error>
 
-#include "playerlike/host/program.h"
 #include "syscall_filter.h"
 
 namespace playpen {
@@ -339,9 +338,9 @@ IsolationAbility try_isolation() {
       const std::string text = text_of(error);
       close(error);
       if (status == 0) return {{}, sized};
-      if (sized || said.find("--size") != std::string::npos) {
-        said = text.empty() ? "status " + std::to_string(status.value_or(-1)) : text;
-      }
+      said = text.empty() ? "status " + std::to_string(status.value_or(-1)) : text;
+      if (said.find("--size") == std::string::npos)
+        break;  // an older bubblewrap has no such option
     }
     return {"bubblewrap cannot make a sandbox here (" + said +
             "); it needs user namespaces, which the machine or the container may forbid"};

@@ -10,9 +10,9 @@ namespace playerlike {
 ///
 /// Two processes that work in turn, such as a program and its server in lockstep, wake each other
 /// up for each message. A processor that sleeps takes longer to wake up than a short answer takes.
-/// So the thread looks again and again for a while before it sleeps, and leaves its processor to
-/// any other thread that can run there. After looks in vain it sleeps at once for the next waits,
-/// more of them each time, since the other process computes for longer or the machine is busy.
+/// So the thread looks again and again for a while before it sleeps. After looks in vain it sleeps
+/// at once for the next waits, more of them each time, since the other process computes for longer
+/// or the machine is busy.
 class ShortWait {
  public:
   /// @param is_there  looks for it.

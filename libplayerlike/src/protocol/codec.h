@@ -99,14 +99,15 @@ void append_cbor_reading(DeviceId device, std::string_view type, const sim::Read
 [[nodiscard]] std::vector<DecodedReading> decode_cbor_readings(std::string_view list);
 /// @}
 
-/// Appends the request {"do": "command", ...}, which has no answer, with its length or line end.
+/// Appends a command as a request, which has no answer, with its length or line end.
 void append_command_request(DeviceId device, const sim::Command& command, Encoding encoding,
                             std::string& out);
-/// Appends the request {"do": "draw", ...} likewise.
+/// Appends drawings as such a request.
 void append_draw_request(std::span<const sim::DrawOperation> drawings, Encoding encoding,
                          std::string& out);
 
-/// Appends the request {"do": "set_cells", ...} likewise. @param cells  row by row from the top.
+/// Appends an image of a layer as such a request.
+/// @param cells  row by row from the top.
 void append_set_cells_request(sim::LayerId layer, const sim::CellRect& rect,
                               std::span<const sim::CellValue> cells, Encoding encoding,
                               std::string& out);
