@@ -5,6 +5,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -113,39 +115,35 @@ class ServedRun {
   std::optional<playerlike::Server> server_;
 };
 
-/// Takes variables for the program out of this process's environment, and adds those that it needs
-/// in the sandbox.
-std::map<std::string, std::string> environment_of_program(const std::string& preloaded) {
+/// The variables of this process that a program in the sandbox gets.
+std::map<std::string, std::string> environment_of(const ContainRequest& request) {
   std::map<std::string, std::string> result;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) continue;
     const std::string name(text.substr(0, equals));
-    const bool kept = name == "LANG" || name == "LANGUAGE" || name.starts_with("LC_") ||
-                      name == "TZ" || name == "TERM" || name.ends_with("SAN_OPTIONS") ||
-                      name == "PLAYPEN_VIRTUAL_TIME" || name == "PLAYPEN_LIBRARIES" ||
-                      name == "PLAYPEN_SILENCE_LIMIT";
+    const bool kept =
+        name == "LANG" || name == "LANGUAGE" || name.starts_with("LC_") || name == "TZ" ||
+        name == "TERM" || name.ends_with("SAN_OPTIONS") || name == "PLAYPEN_VIRTUAL_TIME" ||
+        name == "PLAYPEN_LIBRARIES" || name == "PLAYPEN_SILENCE_LIMIT" ||
+        (request.build &&
+         std::find(kBuildVariables.begin(), kBuildVariables.end(), name) != kBuildVariables.end());
     if (kept) result.emplace(name, text.substr(equals + 1));
   }
-  result["PLAYPEN_WORLD"] = std::string("unix:") + kSandboxSocket;
-  result["PLAYPEN_RUN"] = "1";
-  if (!preloaded.empty()) result["LD_PRELOAD"] = preloaded;
-  // Otherwise the library that is loaded into the program would be missed in this process.
-  unsetenv("PLAYPEN_VIRTUAL_TIME");
   return result;
 }
 
-SandboxSettings sandbox_of(const ContainRequest& request, const Door& door) {
+/// What programs and builds have in common.
+SandboxSettings sandbox_of(const ContainRequest& request) {
   SandboxSettings settings;
   settings.command = request.command;
   settings.command.front() = fs::absolute(request.command.front()).lexically_normal();
-  settings.socket = door.file();
   settings.folder = fs::current_path();
   settings.readable = request.readable;
   settings.hidden = request.hidden;
   settings.sized = !request.unsized;
-  settings.environment = environment_of_program(request.preloaded);
+  settings.environment = environment_of(request);
   const fs::path package = own_folders().at(1);
   std::error_code error;
   if (fs::exists(package / "CMakeCache.txt", error)) {
@@ -157,17 +155,44 @@ SandboxSettings sandbox_of(const ContainRequest& request, const Door& door) {
   return settings;
 }
 
-/// Waits for the end of the program, and meanwhile hands its connections to the run.
+SandboxSettings sandbox_of_run(const ContainRequest& request, const Door& door) {
+  SandboxSettings settings = sandbox_of(request);
+  settings.socket = door.file();
+  settings.environment["PLAYPEN_WORLD"] = std::string("unix:") + kSandboxSocket;
+  settings.environment["PLAYPEN_RUN"] = "1";
+  if (!request.preloaded.empty()) settings.environment["LD_PRELOAD"] = request.preloaded;
+  // Otherwise the library that is loaded into the program would be missed in this process.
+  unsetenv("PLAYPEN_VIRTUAL_TIME");
+  return settings;
+}
+
+SandboxSettings sandbox_of_build(const ContainRequest& request) {
+  SandboxSettings settings = sandbox_of(request);
+  settings.writable.push_back(settings.folder);
+  // What the package of a build folder names in the source tree. The worlds are none of it, but
+  // their folder must exist.
+  const std::vector<fs::path> own = own_folders();
+  std::error_code error;
+  if (fs::exists(own.at(1) / "CMakeCache.txt", error)) {
+    const fs::path source = own.back();
+    for (const char* name : {"libplayerlike/include", "libsim/include", "worlds"}) {
+      settings.readable.push_back(source / name);
+    }
+    settings.hidden.push_back(source / "worlds");
+  }
+  return settings;
+}
+
+/// Waits for the end of the program.
+/// @param door         -1: none. Otherwise a descriptor that becomes readable at connections.
+/// @param at_the_door  called often.
 /// @return its status in the form of a shell.
-int wait_for_end(SandboxedProgram& program, const Door& door, ServedRun& run) {
-  std::array<pollfd, 2> polls = {
-      {{program.descriptor(), POLLIN, 0}, {door.descriptor(), POLLIN, 0}}};
+int wait_for_end(SandboxedProgram& program, int door, const std::function<void()>& at_the_door) {
+  std::array<pollfd, 2> polls = {{{program.descriptor(), POLLIN, 0}, {door, POLLIN, 0}}};
   auto next_look = Clock::now();
   for (;;) {
     static_cast<void>(poll(polls.data(), polls.size(), kLook_ms));
-    for (int connection = door.accept(); connection >= 0; connection = door.accept()) {
-      run.serve(connection);
-    }
+    at_the_door();
     if (const std::optional<int> status = program.poll()) return *status;
     if (Clock::now() < next_look) continue;
     next_look = Clock::now() + std::chrono::milliseconds(kLook_ms);
@@ -191,6 +216,24 @@ int wait_for_end(SandboxedProgram& program, const Door& door, ServedRun& run) {
   std::_Exit(kSignalStatus + signal);  // a signal that does not end a process
 }
 
+/// Kills a program when a signal asks this process to end.
+class EndByRequest {
+ public:
+  explicit EndByRequest(SandboxedProgram& program, EndSignals& signals) {
+    signals.listen(
+        [this, &program](int signal) {
+          signal_ = signal;
+          program.kill_all();
+        },
+        [](int signal) { end_by(signal); });
+  }
+  /// The signal; 0: none.
+  [[nodiscard]] int signal() const noexcept { return signal_; }
+
+ private:
+  std::atomic<int> signal_{0};
+};
+
 /// @return the program's status in the form of a shell; 0 if a signal has ended the run.
 int run_contained(const ContainRequest& request) {
   sigset_t mask;
@@ -198,24 +241,32 @@ int run_contained(const ContainRequest& request) {
   EndSignals signals;
   const ScratchFolder folder;
   const Door door(folder / "robots");
-  SandboxedProgram program(sandbox_of(request, door), mask);
-  std::atomic<int> end_request{0};
-  signals.listen(
-      [&](int signal) {
-        end_request = signal;
-        program.kill_all();
-      },
-      [](int signal) { end_by(signal); });
+  SandboxedProgram program(sandbox_of_run(request, door), mask);
+  const EndByRequest request_to_end(program, signals);
   ServedRun run;
-  const int status = wait_for_end(program, door, run);
-  run.close(end_request);
-  return end_request != 0 ? kOk : status;
+  const int status = wait_for_end(program, door.descriptor(), [&] {
+    for (int connection = door.accept(); connection >= 0; connection = door.accept()) {
+      run.serve(connection);
+    }
+  });
+  run.close(request_to_end.signal());
+  return request_to_end.signal() != 0 ? kOk : status;
+}
+
+/// @return the command's status in the form of a shell.
+int build_contained(const ContainRequest& request) {
+  sigset_t mask;
+  pthread_sigmask(SIG_SETMASK, nullptr, &mask);
+  EndSignals signals;
+  SandboxedProgram program(sandbox_of_build(request), mask);
+  const EndByRequest request_to_end(program, signals);
+  return wait_for_end(program, -1, [] {});
 }
 
 }  // namespace
 
 int contain(const ContainRequest& request) {
-  const int status = run_contained(request);
+  const int status = request.build ? build_contained(request) : run_contained(request);
   if (status > kSignalStatus && status - kSignalStatus < NSIG) end_by(status - kSignalStatus);
   return status;
 }

@@ -39,6 +39,7 @@ void add_contain(CommandLine& line) {
   command.add_option("--readable", request->readable)->expected(1)->take_all();
   command.add_option("--hidden", request->hidden)->expected(1)->take_all();
   command.add_flag("--unsized", request->unsized);
+  command.add_flag("--build", request->build);
   command.callback([request, &line] {
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
     request->command = line.program;

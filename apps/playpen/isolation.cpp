@@ -39,14 +39,26 @@ IsolatedPrograms::IsolatedPrograms(const IsolationSettings& settings) {
   }
 }
 
-std::vector<std::string> IsolatedPrograms::launcher(const std::string& preloaded,
-                                                    const std::vector<std::string>& hidden) const {
+std::vector<std::string> IsolatedPrograms::launcher(
+    const std::string& preloaded, const std::vector<std::string>& hidden,
+    const std::vector<std::string>& readable) const {
   std::vector<std::string> words = launcher_;
   if (words.empty()) return words;
+  for (const std::string& path : readable) add_path(words, "--readable", path);
   for (const std::string& path : hidden) {
     if (!path.empty()) add_path(words, "--hidden", path);
   }
   if (!preloaded.empty()) words.insert(words.end(), {"--preload", preloaded});
+  words.emplace_back("--");
+  return words;
+}
+
+std::vector<std::string> IsolatedPrograms::build_launcher(
+    const std::vector<std::string>& readable) const {
+  std::vector<std::string> words = launcher_;
+  if (words.empty()) return words;
+  words.emplace_back("--build");
+  for (const std::string& path : readable) add_path(words, "--readable", path);
   words.emplace_back("--");
   return words;
 }

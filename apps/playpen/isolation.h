@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,15 @@ class IsolatedPrograms {
   /// The words before the program and its arguments. Empty: programs are not isolated.
   /// @param preloaded  the library that makes time virtual; "": none.
   /// @param hidden     files and folders that programs must not see, such as results and worlds.
-  [[nodiscard]] std::vector<std::string> launcher(const std::string& preloaded,
-                                                  const std::vector<std::string>& hidden) const;
+  /// @param readable   files and folders that they may read besides those of the settings.
+  [[nodiscard]] std::vector<std::string> launcher(
+      const std::string& preloaded, const std::vector<std::string>& hidden,
+      const std::vector<std::string>& readable = {}) const;
+  /// The words before a command that compiles a program in its working folder. Empty: it is not
+  /// isolated.
+  /// @param readable  files and folders that it may read besides the system's and Playpen's.
+  [[nodiscard]] std::vector<std::string> build_launcher(
+      const std::vector<std::string>& readable) const;
 
  private:
   std::vector<std::string> launcher_;
@@ -47,12 +55,21 @@ struct ContainRequest {
   std::vector<std::string> readable;  ///< absolute paths
   std::vector<std::string> hidden;    ///< absolute paths
   bool unsized = false;               ///< the opposite of SandboxSettings::sized
-  std::vector<std::string> command;   ///< program and arguments
+  /// Whether the command compiles a program in the current folder, which it may change, with this
+  /// Playpen's headers and libraries. It has no run.
+  bool build = false;
+  std::vector<std::string> command;  ///< program and arguments
 };
 
+/// The variables by which compilers and build tools find Playpen's package; a sandbox for a build
+/// keeps them.
+inline constexpr std::array<const char*, 5> kBuildVariables{"CMAKE_PREFIX_PATH", "PKG_CONFIG_PATH",
+                                                            "CPATH", "LIBRARY_PATH", "LD_RUN_PATH"};
+
 /// Simulates the run that this process's environment describes (run_environment()) and runs a
-/// program of it in a sandbox. To its parent this process looks like the program itself with the
-/// simulation in it: it ends with the program's status or signal, and writes the results.
+/// program of it in a sandbox; or runs a command that compiles one. To its parent this process
+/// looks like the program itself with the simulation in it: it ends with the program's status or
+/// signal, and writes the results.
 /// @return the program's exit status.
 /// @throws std::exception if the program cannot be started.
 [[nodiscard]] int contain(const ContainRequest& request);

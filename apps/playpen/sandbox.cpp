@@ -204,6 +204,10 @@ std::vector<std::string> sandbox_command(const SandboxSettings& settings, int fi
   for (const std::string& path : settings.readable) arguments.show(path);
   add_program(arguments, settings.command, settings.folder);
   for (const std::string& path : settings.hidden) arguments.hide(path);
+  for (const std::string& path : settings.writable) {
+    arguments.make_folder(path);
+    arguments.add("--bind", path, path);
+  }
   if (!settings.socket.empty()) {
     arguments.make_folder(fs::path(kSandboxSocket).parent_path());
     arguments.add("--bind", settings.socket, kSandboxSocket);

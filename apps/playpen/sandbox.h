@@ -26,6 +26,7 @@ struct SandboxSettings {
   std::vector<std::string> command;  ///< absolute path, and arguments
   std::string socket;                ///< the server's socket; the program sees it as kSandboxSocket
   std::vector<std::string> readable;  ///< absolute paths of further files and folders
+  std::vector<std::string> writable;  ///< absolute paths of folders that it may change
   /// Absolute paths of files and folders that look empty, where they are in visible folders.
   std::vector<std::string> hidden;
   std::string folder;                              ///< the working directory
@@ -42,8 +43,8 @@ inline constexpr int kSignalStatus = 128;
 
 /// The command line that runs a program in bubblewrap: with user, process, network, host name and
 /// IPC namespaces of its own (for root, instead of the first, as a user of its own); the system's
-/// programs and libraries, the program's folder and what the settings name, all of it read-only;
-/// and folders in memory as home and for temporary files.
+/// programs and libraries, the program's folder and what the settings name, all of it read-only
+/// but for the writable folders; and folders in memory as home and for temporary files.
 /// @param filter  descriptor from which bubblewrap reads syscall_filter().
 /// @param info    descriptor to which it writes the number of the first process in the sandbox.
 [[nodiscard]] std::vector<std::string> sandbox_command(const SandboxSettings& settings, int filter,

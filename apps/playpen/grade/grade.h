@@ -24,6 +24,7 @@ struct GradeSettings {
   bool virtual_time = true;             ///< false: sleeps are real (docs/virtual_time.md)
   /// What programs need for virtual time and to find libraries, besides what the run needs.
   playerlike::EnvironmentChanges environment = {};
+  std::string working_folder = {};  ///< of the programs; "": that of this process
   /// Words before the program: a command that runs it in a sandbox; empty: none.
   std::vector<std::string> launcher = {};
 };

@@ -519,6 +519,15 @@ TEST_F(RunPrograms, ParallelJobs_Limited) {
   EXPECT_EQ(running, 0);
 }
 
+TEST_F(RunPrograms, WorkingFolder_ThatOfJobOrError) {
+  std::vector<ProgramJob> jobs = {job("pwd -P")};
+  jobs.front().working_folder = folder_.path();
+  EXPECT_TRUE(run_programs(jobs, {}).front().program.success());
+  EXPECT_EQ(log(1), std::filesystem::canonical(folder_.path()).string() + "\n");
+  jobs.front().working_folder = folder_ / "missing";
+  EXPECT_THROW(static_cast<void>(run_programs(jobs, {})), ProgramError);
+}
+
 TEST_F(RunPrograms, Input_Empty) {
   EXPECT_TRUE(run_programs({job("test -z \"$(cat)\"")}, {})[0].program.success());
 }

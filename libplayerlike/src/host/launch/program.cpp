@@ -225,6 +225,7 @@ class GroupedProgram {
     if (job.at_start) {
       for (auto& [name, value] : job.at_start()) start.environment[name] = value;
     }
+    start.folder = job.working_folder;
     start.mask = mask;
     start.output_file = job.output_file;
     start.output_limit = job.output_limit;

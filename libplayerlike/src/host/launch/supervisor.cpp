@@ -308,7 +308,9 @@ class Supervisor {
       }
       signal(SIGXFSZ, old_limit_action_);
       sigprocmask(SIG_SETMASK, &start_.mask, nullptr);
-      execve(arguments.front(), arguments.data(), variables.data());
+      if (start_.folder.empty() || chdir(start_.folder.c_str()) == 0) {
+        execve(arguments.front(), arguments.data(), variables.data());
+      }
       const int error = errno;
       static_cast<void>(!write(failure[1], &error, sizeof error));
       _exit(127);

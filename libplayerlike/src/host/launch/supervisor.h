@@ -19,7 +19,8 @@ namespace playerlike {
 struct SupervisedStart {
   std::vector<std::string> command;  ///< path and arguments; not empty
   EnvironmentChanges environment;
-  sigset_t mask{};  ///< signal mask of the program
+  std::string folder;  ///< working folder of the program; "": that of this process
+  sigset_t mask{};     ///< signal mask of the program
   /// If set, the program gets its own process group and no input, and its output goes to this file,
   /// which is overwritten. Otherwise it shares this process's group and streams.
   std::optional<std::string> output_file;
