@@ -80,8 +80,7 @@ bool is_program(const fs::path& file) {
   const Elf64_Ehdr header = header_of(file);
   // A library has no interpreter, but to find that out takes more than the header; its name tells.
   return std::memcmp(header.e_ident, own.e_ident, EI_OSABI) == 0 &&
-         header.e_machine == own.e_machine &&
-         (header.e_type == ET_EXEC || header.e_type == ET_DYN);
+         header.e_machine == own.e_machine && (header.e_type == ET_EXEC || header.e_type == ET_DYN);
 }
 
 /// For the user of a sandbox of root, who is another one.
@@ -125,8 +124,9 @@ SubmissionBuild::SubmissionBuild(const Submission& submission, fs::path folder,
 playerlike::ProgramJob SubmissionBuild::job() const {
   playerlike::ProgramJob job;
   if (settings_.launcher) {
-    job.command = settings_.launcher(archive_.empty() ? std::vector<std::string>{}
-                                                      : std::vector<std::string>{archive_.string()});
+    job.command =
+        settings_.launcher(archive_.empty() ? std::vector<std::string>{}
+                                            : std::vector<std::string>{archive_.string()});
   }
   job.command.insert(job.command.end(), {"/bin/sh", "-c", kScript, "build", archive_.string()});
   job.environment = settings_.environment;
@@ -144,8 +144,7 @@ Build SubmissionBuild::result(const playerlike::JobEnd& end) const {
   build.wall_time_s = end.wall_time_s;
   using Kind = playerlike::JobEnd::Kind;
   if (end.kind == Kind::kTimedOut) {
-    build.reason =
-        "compiling took more than " + sim::shortest_text(settings_.timeout_s) + " s";
+    build.reason = "compiling took more than " + sim::shortest_text(settings_.timeout_s) + " s";
   } else if (end.kind == Kind::kTooMuchOutput) {
     build.reason = "compiling wrote more than " + std::to_string(kMostBuilt / 1'000'000) + " MB";
   } else if (end.kind != Kind::kEnded) {
@@ -172,6 +171,10 @@ Build SubmissionBuild::result(const playerlike::JobEnd& end) const {
   }
   return build;
 }
+
+fs::path source_folder(const fs::path& submission) { return submission / kSource; }
+
+const char* build_commands() { return kScript; }
 
 std::vector<std::string> find_programs(const fs::path& folder, fs::file_time_type oldest) {
   std::vector<std::string> programs;

@@ -14,9 +14,9 @@ namespace playpen::course {
 
 /// How submissions are compiled.
 struct BuildSettings {
-  double timeout_s = 300.0;                     ///< wall-clock limit of each
-  std::string program;                          ///< file name of the program; "": any
-  playerlike::EnvironmentChanges environment;   ///< by which build tools find Playpen
+  double timeout_s = 300.0;                    ///< wall-clock limit of each
+  std::string program;                         ///< file name of the program; "": any
+  playerlike::EnvironmentChanges environment;  ///< by which build tools find Playpen
   /// Words before a command that compiles something in its working folder, and may read these
   /// files besides: a sandbox. No words: none.
   std::function<std::vector<std::string>(const std::vector<std::string>& readable)> launcher;
@@ -50,6 +50,12 @@ class SubmissionBuild {
   const BuildSettings& settings_;
   std::filesystem::file_time_type start_;
 };
+
+/// The folder of the sources of a submission, and of what they are compiled to.
+[[nodiscard]] std::filesystem::path source_folder(const std::filesystem::path& submission);
+
+/// The shell's commands that compile a submission.
+[[nodiscard]] const char* build_commands();
 
 /// The programs below a folder that this machine can run, except for those that are older than a
 /// time: paths from the folder, in order. Links are not followed.

@@ -18,13 +18,14 @@ namespace playpen::course {
 
 /// Settings of the grading of a class.
 struct ClassSettings {
-  std::vector<grade::Task> tasks;         ///< at least one, with different names
-  std::vector<Submission> submissions;    ///< see find_submissions()
+  std::vector<grade::Task> tasks;       ///< at least one, with different names
+  std::vector<Submission> submissions;  ///< see find_submissions()
   std::string output_folder;
-  int jobs = 1;                           ///< processes that run side by side, >= 1
+  std::string version;  ///< of Playpen
+  int jobs = 1;         ///< processes that run side by side, >= 1
   BuildSettings build;
-  std::optional<sim::Realism> realism;    ///< empty: that of each world
-  bool isolated = true;                   ///< whether the launchers make sandboxes
+  std::optional<sim::Realism> realism;         ///< empty: that of each world
+  bool isolated = true;                        ///< whether the launchers make sandboxes
   playerlike::EnvironmentChanges environment;  ///< of the programs, besides what the run needs
   /// Words before a program that runs it in a sandbox; no words: none.
   /// @param task    that it runs on.
@@ -37,11 +38,11 @@ struct ClassSettings {
 struct ClassProgress {
   enum class Step { kBuild, kRun };
   Step step = Step::kBuild;
-  std::string task;         ///< of the runs
-  std::size_t all = 0;      ///< what has to be done in this step, without what was done earlier
+  std::string task;     ///< of the runs
+  std::size_t all = 0;  ///< what has to be done in this step, without what was done earlier
   std::size_t ended = 0;
   std::size_t running = 0;
-  std::size_t known = 0;    ///< what an earlier call has done
+  std::size_t known = 0;  ///< what an earlier call has done
 };
 
 /// Compiles and grades all submissions. Whatever they do gives a result.

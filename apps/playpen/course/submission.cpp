@@ -247,8 +247,8 @@ std::vector<Submission> find_submissions(const fs::path& folder,
     fail("class/submissions", folder, "a folder with submissions", error.message());
   }
   if (found.empty()) {
-    fail("class/submissions", folder, "a folder or an archive for each submission",
-         "none", "archives are .zip and .tar files");
+    fail("class/submissions", folder, "a folder or an archive for each submission", "none",
+         "archives are .zip and .tar files");
   }
   for (const Person& person : roster) found.emplace(person.id, Submission{person, {}, {}, false});
   std::vector<Submission> submissions;

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -93,6 +94,12 @@ enum class Ending {
   kInterrupted,    ///< the grader was told to stop during the run
   kNotRun,         ///< the grader was told to stop before the run
 };
+
+/// All of them.
+inline constexpr std::array kEndings{
+    Ending::kBySelf,        Ending::kTimeOver,    Ending::kVerdict,
+    Ending::kBadStatus,     Ending::kSignal,      Ending::kTimedOut,
+    Ending::kTooMuchOutput, Ending::kInterrupted, Ending::kNotRun};
 
 /// Name of an ending in the JSON file: "by-itself", "time-over", "verdict", "bad-status", "signal",
 /// "timeout", "too-much-output", "interrupted", "not-run".

@@ -10,7 +10,7 @@
 #include <span>
 #include <utility>
 
-#include "grade/text.h"
+#include "grade/run_json.h"
 #include "sim/core/number_text.h"
 
 namespace playpen::grade {
@@ -192,65 +192,6 @@ class Table {
   bool worlds_are_headings_ = false;
 };
 
-template <typename T>
-ordered_json or_null(const std::optional<T>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
-
-ordered_json to_json(const GradedRun& run) {
-  const Measures& m = run.measures;
-  ordered_json end = {{"kind", name_of(run.ending)}};
-  if (run.ending == Ending::kBadStatus) end["status"] = run.status;
-  if (run.signal) end["signal"] = *run.signal;
-  ordered_json goal;
-  if (run.goal) {
-    goal = {{"x", run.goal->position.x()},
-            {"y", run.goal->position.y()},
-            {"tolerance", run.goal->tolerance_m}};
-  }
-  ordered_json first_collision;
-  if (const auto& first = m.first_collision) {
-    first_collision = {{"time", first->time_s},
-                       {"with", first->partner},
-                       {"x", first->place.x()},
-                       {"y", first->place.y()}};
-  }
-  ordered_json refused = ordered_json::array();
-  for (const Refusal& refusal : m.refused) {
-    refused.push_back({{"time", refusal.time_s}, {"what", refusal.what}});
-  }
-  return {{"world", run.world},
-          {"seed", run.seed},
-          {"folder", run.folder},
-          {"passed", run.passed()},
-          {"faults", run.faults},
-          {"end", end},
-          {"robot", run.robot},
-          {"goal", goal},
-          {"reached", or_null(m.reached)},
-          {"goal_distance", or_null(m.goal_distance_m)},
-          {"coverage", or_null(m.coverage)},
-          {"correctness", or_null(m.correctness)},
-          {"drawn", or_null(m.drawn)},
-          {"seen", or_null(m.seen)},
-          {"path_length", or_null(m.path_length_m)},
-          {"distance", or_null(m.distance_m)},
-          {"visited_area", or_null(m.visited_area_m2)},
-          {"shortest_path", or_null(m.shortest_path_m)},
-          {"path_ratio", or_null(m.path_ratio)},
-          {"collisions", or_null(m.collisions)},
-          {"first_collision", first_collision},
-          {"least_clearance", or_null(m.least_clearance_m)},
-          {"stalled_time", or_null(m.stalled_time_s)},
-          {"sim_time", or_null(m.sim_time_s)},
-          {"score", or_null(m.score)},
-          {"verdict", m.verdict ? ordered_json(*m.verdict ? "passed" : "failed") : ordered_json()},
-          {"verdict_reason", m.verdict ? ordered_json(m.verdict_reason) : ordered_json()},
-          {"commanded", m.commanded},
-          {"refused", refused},
-          {"wall_time", run.wall_time_s}};
-}
-
 /// "seed 3", "seeds 1 to 5", "seeds 1, 2 and 7".
 std::string seeds_text(const std::vector<std::uint64_t>& seeds) {
   if (seeds.size() == 1) return "seed " + std::to_string(seeds.front());
@@ -321,7 +262,7 @@ std::string table(const Grade& grade, const TableStyle& style) {
 
 std::string json_text(const Grade& grade) {
   ordered_json runs = ordered_json::array();
-  for (const GradedRun& run : grade.runs) runs.push_back(to_json(run));
+  for (const GradedRun& run : grade.runs) runs.push_back(json_of(run));
   ordered_json summary = {{"runs", grade.runs.size()},
                           {"passed", grade.passed()},
                           {"failed", grade.runs.size() - grade.passed()}};
