@@ -53,6 +53,7 @@ CommandLine::CommandLine(std::string name)
       "'playpen doctor' checks whether all features work.");
   add_run(*this);
   add_grade(*this);
+  add_class(*this);
   add_serve(*this);
   add_new(*this);
   add_import(*this);

@@ -54,6 +54,27 @@ struct GradeRequest {
 ///         be started, std::exception if a folder or file can't be written.
 [[nodiscard]] int grade_program(GradeRequest request);
 
+/// Arguments of `playpen class`.
+struct ClassRequest {
+  std::vector<std::string> tasks;  ///< as the user wrote them, see load_task(); at least one
+  std::string submissions_folder;
+  std::string roster_file;  ///< "": none
+  std::string output_folder;
+  std::string program;               ///< name of the programs' file; "": any
+  std::vector<std::uint64_t> seeds;  ///< empty: those of the tasks
+  int jobs = 0;                      ///< 0: the number of processors
+  std::optional<double> timeout_s;   ///< of a run; empty: that of the task
+  std::optional<double> build_timeout_s;
+  std::optional<sim::Realism> realism;  ///< empty: that of each world
+  IsolationSettings isolation{Isolation::kRequired, {}};
+};
+
+/// Compiles and grades the submissions of a class, prints a table and writes the results.
+/// @return kOk if everything was graded, kProgramFailed if a signal ended it before.
+/// @throws sim::ConfigError for a bad task, world or roster, or a folder without submissions;
+///         std::exception if a folder or file can't be written, or programs can't be isolated.
+[[nodiscard]] int grade_class(const ClassRequest& request);
+
 /// Runs a client program on a world and prints a summary unless the request says quiet.
 /// @throws sim::ConfigError for a bad world, playerlike::ProgramError if the program can't be
 ///         started, std::exception if the output folder can't be prepared or no window can be

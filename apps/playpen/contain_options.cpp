@@ -13,7 +13,8 @@ void add_isolation(CommandLine& line, CLI::App& command, IsolationSettings& sett
   CLI::Option* const option = add_parsed(
       command, "--isolated",
       "Run the program in a sandbox, apart from the simulation: off, best (if this machine can) or "
-      "required [off]",
+      "required [" +
+          std::string(settings.level == Isolation::kRequired ? "required" : "off") + "]",
       "LEVEL", "off, best or required", [&settings](const std::string& text) {
         if (text == "off") settings.level = Isolation::kOff;
         if (text == "best") settings.level = Isolation::kBest;

@@ -145,8 +145,9 @@ PLAYERLIKE = arrows({
     "par_exploration_changing": "imr-h libCCMorse par_exploration",
     "par_chase": "imr-h libCCMorse par_common",
     "par_localization": "imr-h libCCMorse par_common",
-    "playpen": "messages process host connect server playpen/grade",
+    "playpen": "messages process host connect server playpen/grade playpen/course",
     "playpen/grade": "messages host",
+    "playpen/course": "messages host playpen/grade",
     "playpen/view": "view",
 })
 
@@ -217,9 +218,11 @@ def playerlike_folder(path):
     place = path[m.end():] if (m := PLAYERLIKE_PREFIX.match(path)) else path
     if place.startswith("player-"):
         return "player-"
-    if path.startswith("apps/") and (m := re.match(r"playpen/(grade|view)(?=/)", place)):
+    if path.startswith("apps/") and (m := re.match(r"playpen/(course|grade|view)(?=/)", place)):
         return m[0]
-    return "playpen/grade" if place.startswith("grade/") else first_folder(place)
+    if (m := re.match(r"(course|grade)/", place)):
+        return "playpen/" + m[1]
+    return first_folder(place)
 
 
 def cycle_in(graph):

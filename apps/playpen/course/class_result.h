@@ -31,7 +31,9 @@ struct SubmissionResult {
   /// One per task. The folder of a run is relative to the folder of the submission and of the task:
   /// OUT/FOLDER/TASK/RUN. Without a program there are no runs.
   std::vector<grade::Grade> grades;
-  std::string note;  ///< conditions of this person's own; "": those of all
+  double points = 0.0;       ///< of all tasks together
+  double most_points = 0.0;  ///< what can be had without bonuses
+  std::string note;          ///< conditions of this person's own; "": those of all
 
   [[nodiscard]] std::size_t passed() const noexcept {
     std::size_t count = 0;

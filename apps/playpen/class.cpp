@@ -1,0 +1,160 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "commands.h"
+#include "course/class_runs.h"
+#include "course/results.h"
+#include "preload.h"
+#include "project.h"
+#include "shipped.h"
+#include "sim/core/error.h"
+#include "sim/core/number_text.h"
+#include "terminal.h"
+
+namespace playpen {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "5 s", "3 min", "2.5 h".
+std::string rough_time(double seconds) {
+  constexpr double kMinute_s = 60.0;
+  constexpr double kHour_s = 3600.0;
+  if (seconds < 2 * kMinute_s) return sim::fixed_text(std::ceil(seconds), 0) + " s";
+  if (seconds < 2 * kHour_s) return sim::fixed_text(std::ceil(seconds / kMinute_s), 0) + " min";
+  return sim::fixed_text(seconds / kHour_s, 1) + " h";
+}
+
+/// The progress of a class: a bar that overwrites itself on a terminal, else a line for each step.
+class ClassProgressLine {
+ public:
+  void show(const course::ClassProgress& progress) {
+    if (progress.ended == 0 && progress.running == 0) begin(progress);
+    if (!is_terminal_ || progress.all == 0) return;
+    constexpr std::size_t kWidth = 20;
+    const std::size_t filled = kWidth * progress.ended / progress.all;
+    std::string line = "\r\033[K" + name_ + " [" + std::string(filled, '#') +
+                       std::string(kWidth - filled, ' ') + "] " + std::to_string(progress.ended) +
+                       " of " + std::to_string(progress.all);
+    if (progress.ended > 0) {
+      const std::chrono::duration<double> spent = Clock::now() - start_;
+      const double each = spent.count() / static_cast<double>(progress.ended);
+      line +=
+          ", " + rough_time(each * static_cast<double>(progress.all - progress.ended)) + " left";
+    }
+    std::cerr << line << std::flush;
+  }
+  void clear() const {
+    if (is_terminal_) std::cerr << "\r\033[K" << std::flush;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void begin(const course::ClassProgress& progress) {
+    clear();
+    start_ = Clock::now();
+    const bool builds = progress.step == course::ClassProgress::Step::kBuild;
+    name_ = builds ? "compiling" : progress.task;
+    std::cerr << (builds ? "compile: " : progress.task + ": ") << progress.all
+              << (builds ? " submissions" : " runs");
+    if (progress.known > 0) std::cerr << ", " << progress.known << " known from before";
+    std::cerr << '\n';
+  }
+
+  bool is_terminal_ = isatty(STDERR_FILENO) != 0;
+  std::string name_;
+  Clock::time_point start_;
+};
+
+/// The variables by which build tools find this Playpen.
+playerlike::EnvironmentChanges build_environment() {
+  const std::optional<fs::path> prefix = package_prefix();
+  if (!prefix) {
+    throw std::runtime_error("Playpen's CMake package is missing, so nothing can be compiled: " +
+                             std::string("cmake --install BUILD --prefix PREFIX"));
+  }
+  playerlike::EnvironmentChanges variables;
+  variables["CMAKE_PREFIX_PATH"] = prefix->string();
+  if (const std::optional<fs::path> folder = pkgconfig_folder()) {
+    variables["PKG_CONFIG_PATH"] = folder->string();
+    const std::string libraries = folder->parent_path().string();
+    variables["CPATH"] = (*prefix / "include/player-3.1").string();
+    variables["LIBRARY_PATH"] = libraries;
+    variables["LD_RUN_PATH"] = libraries;
+  }
+  return variables;
+}
+
+std::vector<grade::Task> load_tasks(const ClassRequest& request) {
+  std::vector<grade::Task> tasks;
+  std::set<std::string> names;
+  for (const std::string& name : request.tasks) {
+    grade::Task task = load_task(name);
+    if (!names.insert(task.name).second) {
+      throw std::runtime_error("the task '" + task.name + "' was named twice");
+    }
+    if (!request.seeds.empty()) task.seeds = request.seeds;
+    if (request.timeout_s) task.timeout_s = *request.timeout_s;
+    tasks.push_back(std::move(task));
+  }
+  return tasks;
+}
+
+}  // namespace
+
+int grade_class(const ClassRequest& request) {
+  const IsolatedPrograms isolated(request.isolation);
+  const PreloadedLibrary virtual_time;
+  course::ClassSettings settings;
+  settings.tasks = load_tasks(request);
+  const std::vector<course::Person> roster = request.roster_file.empty()
+                                                 ? std::vector<course::Person>{}
+                                                 : course::read_roster(request.roster_file);
+  settings.submissions = course::find_submissions(request.submissions_folder, roster);
+  settings.output_folder = request.output_folder;
+  settings.version = PLAYPEN_VERSION;
+  settings.jobs = request.jobs > 0
+                      ? request.jobs
+                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  settings.realism = request.realism;
+  settings.isolated = isolated.isolated();
+  if (!settings.isolated) virtual_time.add_to(settings.environment);
+  add_libraries_folder(settings.environment);
+  settings.launcher = [&](const grade::Task& task, const std::string& source) {
+    std::vector<std::string> hidden = {task.file};
+    for (const grade::TaskWorld& world : task.worlds) hidden.push_back(world.file);
+    return isolated.launcher(virtual_time.file(), hidden, {source});
+  };
+  settings.build.program = request.program;
+  if (request.build_timeout_s) settings.build.timeout_s = *request.build_timeout_s;
+  settings.build.environment = build_environment();
+  settings.build.launcher = [&isolated](const std::vector<std::string>& readable) {
+    return isolated.build_launcher(readable);
+  };
+  fs::create_directories(request.output_folder);
+
+  ClassProgressLine line;
+  const course::ClassResult result = course::grade_class(
+      settings, [&line](const course::ClassProgress& progress) { line.show(progress); });
+  line.clear();
+  course::write_results(result, request.output_folder);
+  std::cout << course::class_table(result, terminal_columns(STDOUT_FILENO));
+  if (!result.complete) {
+    std::cout << "interrupted: the same command goes on from here\n";
+    return kProgramFailed;
+  }
+  std::cout << "details: " << (fs::path(request.output_folder) / "class.json").string() << '\n';
+  return kOk;
+}
+
+}  // namespace playpen

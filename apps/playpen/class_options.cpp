@@ -1,0 +1,51 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <memory>
+
+#include "command_line.h"
+#include "grading_options.h"
+#include "parsed_option.h"
+#include "run_options.h"
+
+namespace playpen {
+
+void add_class(CommandLine& line) {
+  const auto request = std::make_shared<ClassRequest>();
+  CLI::App& command =
+      line.add_command("class", "Compile and grade the submissions of a whole class");
+  command.footer(
+      "Each folder and each archive (.zip, .tar) in the folder of submissions is one. For example\n"
+      "  playpen class par_intro --submissions handed_in --out graded\n"
+      "The same command goes on after an interruption, and grades only what is new.\n"
+      "Exit status: 0 everything was graded, 1 it was interrupted, 2 bad input.");
+  CLI::Option* const tasks = command.add_option(
+      "task", request->tasks, "Task files, or names of shipped tasks (par_intro)");
+  line.takes(tasks->required()->type_name(""), ValueKind::Kind::kTask);
+  CLI::Option* const folder = command.add_option("--submissions", request->submissions_folder,
+                                                 "Folder with the submissions");
+  line.takes(folder->required()->type_name("DIR"), ValueKind::Kind::kFolder);
+  CLI::Option* const out =
+      command.add_option("--out", request->output_folder, "Folder for results");
+  line.takes(out->required()->type_name("DIR"), ValueKind::Kind::kFolder);
+  CLI::Option* const roster = command.add_option(
+      "--roster", request->roster_file, "CSV file with the columns id and name of the class");
+  line.takes(roster->type_name("FILE"), ValueKind::Kind::kFile);
+  command
+      .add_option("--program", request->program,
+                  "File name of the program, where a submission compiles to several")
+      ->type_name("NAME");
+  add_grading_options(command, request->seeds, request->jobs, request->timeout_s);
+  add_parsed(command, "--build-timeout", "Wall-clock limit of compiling a submission [300]", "S",
+             "a number of seconds above 0", [request](const std::string& text) {
+               double seconds = 0.0;
+               const bool good =
+                   parse_number(text, seconds) && std::isfinite(seconds) && seconds > 0.0;
+               if (good) request->build_timeout_s = seconds;
+               return good;
+             });
+  add_realism(line, command, request->realism);
+  add_isolation(line, command, request->isolation);
+  command.callback([request, &line] { line.status = grade_class(*request); });
+}
+
+}  // namespace playpen

@@ -1,0 +1,16 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace playpen {
+
+/// Adds the options of `playpen grade` and `playpen class`: --seeds, --jobs and --timeout. The
+/// values must outlive the command.
+void add_grading_options(CLI::App& command, std::vector<std::uint64_t>& seeds, int& jobs,
+                         std::optional<double>& timeout_s);
+
+}  // namespace playpen
