@@ -170,20 +170,26 @@ void write_file(const fs::path& file, const std::string& text) {
   }
 }
 
+bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
+
+/// The number of characters of a UTF-8 text.
+std::size_t length_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
+}
+
 /// A text of a column, whose width is counted in characters.
 std::string padded(const std::string& text, std::size_t width) {
-  const std::size_t length = sim::utf8_length(text);
+  const std::size_t length = length_of(text);
   return text + std::string(length < width ? width - length : 0, ' ');
 }
 
 std::string cut(const std::string& text, std::size_t width) {
-  if (sim::utf8_length(text) <= width) return text;
+  if (length_of(text) <= width) return text;
   constexpr std::size_t kLeast = 4;
   std::string result;
   std::size_t characters = 0;
   for (const char c : text) {
-    const bool begins = (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-    if (begins && ++characters + 3 > std::max(width, kLeast)) break;
+    if (begins_character(c) && ++characters + 3 > std::max(width, kLeast)) break;
     result += c;
   }
   return result + "...";
@@ -250,7 +256,7 @@ std::string class_table(const ClassResult& result, std::size_t columns) {
   std::vector<std::size_t> widths(kReason, 0);
   for (const auto& row : rows) {
     for (std::size_t i = 0; i < kReason; ++i) {
-      widths[i] = std::max(widths[i], sim::utf8_length(row[i]));
+      widths[i] = std::max(widths[i], length_of(row[i]));
     }
   }
   const bool names = std::any_of(rows.begin() + 1, rows.end(),
@@ -261,7 +267,7 @@ std::string class_table(const ClassResult& result, std::size_t columns) {
     for (std::size_t i = 0; i < kReason; ++i) {
       if (i != kName || names) line += padded(row[i], widths[i]) + "  ";
     }
-    const std::size_t used = sim::utf8_length(line);
+    const std::size_t used = length_of(line);
     line += cut(row[kReason], columns > used ? columns - used : 0);
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }

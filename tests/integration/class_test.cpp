@@ -1,0 +1,219 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// `playpen class` on small classes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "playpen_process.h"
+#include "run_files.h"
+#include "temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test_support::playpen;
+using test_support::ProcessOptions;
+using test_support::ProcessResult;
+using test_support::read_bytes;
+using test_support::TemporaryFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+using Words = std::vector<std::string>;
+
+constexpr const char* kTask = R"({
+  "worlds": ["room.json"], "seeds": 2, "duration": 1,
+  "thresholds": {"min_path_length": 0.1, "max_collisions": 0}
+})";
+constexpr const char* kWorld = R"({
+  "arena": {"size": [4, 4]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 2}}]
+})";
+constexpr const char* kDriver = R"(#include <libplayerc++/playerc++.h>
+int main() {
+  PlayerCc::PlayerClient robot("localhost", 6665);
+  PlayerCc::Position2dProxy base(&robot, 0);
+  for (;;) {
+    robot.Read();
+    base.SetSpeed(0.3, 0.0);
+  }
+}
+)";
+// A program that is quickly made, but never connects.
+constexpr const char* kMakefile = "robot: ; cp /usr/bin/true robot\n";
+
+/// class.json without what the clock says.
+json result_of(const std::string& out) {
+  json whole = json::parse(read_bytes(out + "/class.json"));
+  for (json& one : whole.at("submissions")) {
+    one.at("build").erase("wall_time");
+    for (json& task : one.at("tasks")) {
+      for (json& run : task.at("runs")) run.erase("wall_time");
+    }
+  }
+  return whole;
+}
+
+const json& row_of(const json& whole, const std::string& id) {
+  for (const json& one : whole.at("submissions")) {
+    if (one.at("id") == id) return one;
+  }
+  throw std::runtime_error("no row for " + id);
+}
+
+class Class : public testing::Test {
+ protected:
+  Class() {
+    folder_.write("task/room.json", kWorld);
+    folder_.write("task/drive.task.json", kTask);
+  }
+
+  void hand_in(const std::string& file, const std::string& text) {
+    folder_.write("handed_in/" + file, text);
+  }
+  [[nodiscard]] Words call(const std::string& out, const Words& more = {}) const {
+    Words words = {"class",         folder_ / "task/drive.task.json",
+                   "--submissions", folder_ / "handed_in",
+                   "--out",         folder_ / out,
+                   "--isolated",    isolation_,
+                   "--timeout",     "9999"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  [[nodiscard]] ProcessResult grade(const std::string& out = "out", const Words& more = {}) const {
+    ProcessOptions options;
+    options.timeout = std::chrono::minutes(20);  // compilers on a busy machine
+    return playpen(call(out, more), options);
+  }
+
+  TemporaryFolder folder_;
+  std::string isolation_ = "best";
+};
+
+TEST_F(Class, Submissions_EachHasItsRow) {
+  hand_in("ada/main.cc", kDriver);
+  hand_in("bob/Makefile", kMakefile);
+  hand_in("carl/Makefile", "robot: ; cp /usr/bin/false $(NAME)\n");
+  hand_in("dan/Makefile", "all: ; cp /usr/bin/true a; cp /usr/bin/true b\n");
+  hand_in("eve/readme.txt", "");
+  hand_in("../zed/inner/Makefile", kMakefile);
+  ASSERT_EQ(
+      std::system(("tar -C " + folder_ / "zed" + " -cf " + folder_ / "handed_in/zed.tar" + " inner")
+                      .c_str()),
+      0);
+  folder_.write("roster.csv", "id,name\nada,Ada Byron\nfay,Fay\n");
+
+  const ProcessResult first = grade("out", {"--roster", folder_ / "roster.csv"});
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_THAT(first.err,
+              AllOf(HasSubstr("compile: 6 submissions\n"), HasSubstr("drive: 6 runs\n")));
+  const json whole = result_of(folder_ / "out");
+  const json& ada = row_of(whole, "ada");
+  EXPECT_EQ(ada.at("passed"), 2) << ada << read_bytes(folder_ / "out/submissions/ada/build.log");
+  EXPECT_EQ(ada.at("name"), "Ada Byron");
+  for (const char* id : {"bob", "zed"}) {
+    EXPECT_THAT(row_of(whole, id).at("reason").get<std::string>(),
+                HasSubstr("the program never connected"));
+  }
+  EXPECT_EQ(row_of(whole, "carl").at("reason"), "does not compile");
+  EXPECT_EQ(row_of(whole, "dan").at("reason"), "compiles to several programs: a, b");
+  EXPECT_EQ(row_of(whole, "fay").at("reason"), "nothing was handed in");
+  EXPECT_THAT(read_bytes(folder_ / "out/submissions/eve/build.log"),
+              HasSubstr("neither CMakeLists.txt, nor a makefile, nor sources"));
+  EXPECT_THAT(first.out, HasSubstr("7 submissions, 3 compiled, 1 passed all runs\n"));
+  for (const char* file : {"results.csv", "junit.xml", "submissions/ada/results.json",
+                           "submissions/ada/drive/room_seed1/trajectory.csv"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "out/" + file)) << file;
+  }
+
+  // The second time nothing is done; and what is new is done alone.
+  const ProcessResult second = grade("out", {"--roster", folder_ / "roster.csv"});
+  EXPECT_THAT(second.err, AllOf(HasSubstr("compile: 0 submissions, 6 known from before\n"),
+                                HasSubstr("drive: 0 runs, 6 known from before\n")));
+  EXPECT_EQ(second.out, first.out);
+  EXPECT_EQ(result_of(folder_ / "out"), whole);
+  hand_in("dan/Makefile", kMakefile);
+  const ProcessResult third = grade("out", {"--roster", folder_ / "roster.csv"});
+  EXPECT_THAT(third.err, AllOf(HasSubstr("compile: 1 submissions, 5 known from before\n"),
+                               HasSubstr("drive: 2 runs, 6 known from before\n")));
+}
+
+TEST_F(Class, Killed_GoesOnToTheSameResult) {
+  for (const char* id : {"a", "b", "c", "d"}) hand_in(std::string(id) + "/Makefile", kMakefile);
+  ASSERT_EQ(grade("whole", {"--seeds", "3"}).status, 0);
+  const auto records = [this] {
+    std::size_t count = 0;
+    std::error_code error;
+    for (fs::recursive_directory_iterator entry(folder_ / "killed", error), end;
+         !error && entry != end; entry.increment(error)) {
+      count +=
+          entry->path().parent_path().filename() == "drive" && entry->path().extension() == ".json"
+              ? 1
+              : 0;
+    }
+    return count;
+  };
+  for (const std::size_t at : {std::size_t{2}, std::size_t{6}}) {
+    Words words = call("killed", {"--seeds", "3"});
+    words.insert(words.begin(), PLAYPEN_COMMAND);
+    test_support::Process process(words);
+    while (records() < at) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    process.send_signal(SIGKILL);
+    static_cast<void>(process.finish());
+  }
+  const ProcessResult last = grade("killed", {"--seeds", "3"});
+  EXPECT_EQ(last.status, 0) << last.err;
+  EXPECT_THAT(last.err, HasSubstr("known from before"));
+  EXPECT_EQ(result_of(folder_ / "killed"), result_of(folder_ / "whole"));
+}
+
+TEST_F(Class, HostileBuild_ReachesNothing) {
+  folder_.write("secret", "what only the teacher knows");
+  const std::string mark = folder_ / "mark";
+  hand_in("eve/Makefile", "robot:\n\t-cat " + folder_ / "secret" + "\n\t-touch " + mark +
+                              "\n\t-touch ../../../../mark\n\t-ls " + folder_ / "handed_in" +
+                              "\n\t-ls ../..\n\tln -s / root\n\tcp /usr/bin/true robot\n");
+  hand_in("ada/Makefile", kMakefile);
+  isolation_ = "required";
+  const ProcessResult result = grade();
+  if (result.err.find("cannot be isolated") != std::string::npos) GTEST_SKIP() << result.err;
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string log = read_bytes(folder_ / "out/submissions/eve/build.log");
+  EXPECT_THAT(log, AllOf(Not(HasSubstr("only the teacher")), Not(HasSubstr("ada"))));
+  EXPECT_FALSE(fs::exists(mark));
+  EXPECT_FALSE(fs::exists(folder_ / "out/mark"));
+  const json whole = result_of(folder_ / "out");
+  EXPECT_EQ(row_of(whole, "ada").at("build").at("built"), true);
+  EXPECT_EQ(row_of(whole, "eve").at("build").at("program"), "build/source/robot");
+}
+
+TEST_F(Class, BuildWithoutEnd_IsEnded) {
+  hand_in("ada/Makefile", "robot: ; sleep 1000000\n");
+  const ProcessResult result = grade("out", {"--build-timeout", "0.5"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(row_of(result_of(folder_ / "out"), "ada").at("reason"),
+            "compiling took more than 0.5 s");
+}
+
+TEST_F(Class, BadInput_Said) {
+  EXPECT_THAT(grade().err, HasSubstr("expected a folder with submissions, found"));
+  hand_in("notes.txt", "");
+  EXPECT_THAT(grade().err, HasSubstr("expected a folder or an archive for each submission"));
+  hand_in("ada/Makefile", kMakefile);
+  folder_.write("roster.csv", "name\n");
+  const ProcessResult result = grade("out", {"--roster", folder_ / "roster.csv"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("no column \"id\""));
+  EXPECT_FALSE(fs::exists(folder_ / "out")) << "nothing is done before all input is good";
+}
+
+}  // namespace
