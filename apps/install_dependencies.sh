@@ -38,7 +38,8 @@ build_packages=(
 )
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev locales ffmpeg=ffprobe gdb=gdb xvfb=Xvfb xdotool=xdotool
-  valgrind=valgrind python3=python3 bubblewrap=bwrap)
+  valgrind=valgrind python3=python3 bubblewrap=bwrap
+  libarchive-tools=bsdtar)
 # If the system has no such package (Ubuntu 24.04 lacks the first), the tests that need it are
 # skipped.
 optional_test_packages=(python3-morse-simulator libboost-program-options-dev)

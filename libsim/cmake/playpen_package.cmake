@@ -77,7 +77,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${_playpen_control}/triggers" "$
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
   "${PROJECT_BINARY_DIR}/libsim" "${PROJECT_BINARY_DIR}/libplayerlike")
 # The font of texts in pictures.
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "fonts-dejavu-core, bubblewrap")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "fonts-dejavu-core, bubblewrap, libarchive-tools")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME playpen-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
