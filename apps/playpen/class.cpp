@@ -120,7 +120,10 @@ int grade_class(const ClassRequest& request) {
   const std::vector<course::Person> roster = request.roster_file.empty()
                                                  ? std::vector<course::Person>{}
                                                  : course::read_roster(request.roster_file);
-  settings.submissions = course::find_submissions(request.submissions_folder, roster);
+  settings.submissions = request.submission.empty()
+                             ? course::find_submissions(request.submissions_folder, roster)
+                             : std::vector{course::one_submission(request.submission, request.id,
+                                                                  request.output_folder)};
   settings.output_folder = request.output_folder;
   settings.version = PLAYPEN_VERSION;
   settings.jobs = request.jobs > 0
@@ -154,7 +157,10 @@ int grade_class(const ClassRequest& request) {
     return kProgramFailed;
   }
   std::cout << "details: " << (fs::path(request.output_folder) / "class.json").string() << '\n';
-  return kOk;
+  const bool all_passed =
+      std::all_of(result.submissions.begin(), result.submissions.end(),
+                  [](const auto& one) { return one.build.built && one.passed() == one.runs(); });
+  return all_passed || !request.must_pass ? kOk : kProgramFailed;
 }
 
 }  // namespace playpen

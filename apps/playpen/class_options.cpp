@@ -17,19 +17,25 @@ void add_class(CommandLine& line) {
       "Each folder and each archive (.zip, .tar) in the folder of submissions is one. For example\n"
       "  playpen class par_intro --submissions handed_in --out graded\n"
       "The same command goes on after an interruption, and grades only what is new.\n"
-      "Exit status: 0 everything was graded, 1 it was interrupted, 2 bad input.");
+      "Exit status: 0 everything was graded, 1 it was interrupted (or --must-pass), 2 bad input.");
   CLI::Option* const tasks = command.add_option(
       "task", request->tasks, "Task files, or names of shipped tasks (par_intro)");
   line.takes(tasks->required()->type_name(""), ValueKind::Kind::kTask);
   CLI::Option* const folder = command.add_option("--submissions", request->submissions_folder,
                                                  "Folder with the submissions");
-  line.takes(folder->required()->type_name("DIR"), ValueKind::Kind::kFolder);
+  line.takes(folder->type_name("DIR"), ValueKind::Kind::kFolder);
+  CLI::Option* const one = command.add_option(
+      "--submission", request->submission, "Instead: a single submission, a folder or an archive");
+  line.takes(one->type_name("PLACE")->excludes(folder), ValueKind::Kind::kFile);
+  command.add_option("--id", request->id, "With --submission: the id of its author [its name]")
+      ->type_name("ID")
+      ->needs(one);
   CLI::Option* const out =
       command.add_option("--out", request->output_folder, "Folder for results");
   line.takes(out->required()->type_name("DIR"), ValueKind::Kind::kFolder);
   CLI::Option* const roster = command.add_option(
       "--roster", request->roster_file, "CSV file with the columns id and name of the class");
-  line.takes(roster->type_name("FILE"), ValueKind::Kind::kFile);
+  line.takes(roster->type_name("FILE")->excludes(one), ValueKind::Kind::kFile);
   command
       .add_option("--program", request->program,
                   "File name of the program, where a submission compiles to several")
@@ -45,7 +51,14 @@ void add_class(CommandLine& line) {
              });
   add_realism(line, command, request->realism);
   add_isolation(line, command, request->isolation);
-  command.callback([request, &line] { line.status = grade_class(*request); });
+  command.add_flag("--must-pass", request->must_pass,
+                   "Exit status 1 also if a run has not passed, for continuous integration");
+  command.callback([request, &line, folder, one] {
+    if (folder->empty() && one->empty()) {
+      throw CLI::RequiredError("--submissions or --submission");
+    }
+    line.status = grade_class(*request);
+  });
 }
 
 }  // namespace playpen

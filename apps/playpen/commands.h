@@ -57,8 +57,11 @@ struct GradeRequest {
 /// Arguments of `playpen class`.
 struct ClassRequest {
   std::vector<std::string> tasks;  ///< as the user wrote them, see load_task(); at least one
-  std::string submissions_folder;
-  std::string roster_file;  ///< "": none
+  std::string submissions_folder;  ///< "": there is only `submission`
+  std::string submission;          ///< a folder or an archive; "": there is a folder of them
+  std::string id;                  ///< of the person of `submission`; "": its name
+  bool must_pass = false;          ///< whether a run that does not pass is a failure
+  std::string roster_file;         ///< "": none
   std::string output_folder;
   std::string program;               ///< name of the programs' file; "": any
   std::vector<std::uint64_t> seeds;  ///< empty: those of the tasks
@@ -70,7 +73,8 @@ struct ClassRequest {
 };
 
 /// Compiles and grades the submissions of a class, prints a table and writes the results.
-/// @return kOk if everything was graded, kProgramFailed if a signal ended it before.
+/// @return kOk if everything was graded; kProgramFailed if a signal ended it before, or if all must
+///         pass, but do not.
 /// @throws sim::ConfigError for a bad task, world or roster, or a folder without submissions;
 ///         std::exception if a folder or file can't be written, or programs can't be isolated.
 [[nodiscard]] int grade_class(const ClassRequest& request);

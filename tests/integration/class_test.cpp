@@ -7,7 +7,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -204,12 +206,71 @@ TEST_F(Class, BuildWithoutEnd_IsEnded) {
             "compiling took more than 0.5 s");
 }
 
+/// A file of a page: the fenced block after the comment that names it.
+std::string file_of_page(const std::string& page, const std::string& name) {
+  const std::string text = read_bytes(std::string(PLAYPEN_SOURCE_DIR) + "/docs/" + page);
+  const std::size_t mark = text.find("<!-- file: " + name + " -->\n```");
+  if (mark == std::string::npos) throw std::runtime_error("no file " + name);
+  const std::size_t begin = text.find('\n', text.find("```", mark)) + 1;
+  return text.substr(begin, text.find("```", begin) - begin);
+}
+
+class Services : public Class {
+ protected:
+  /// Runs a script of the page, whose task is replaced by that of the test.
+  ProcessResult run_script(const std::string& name, const Words& arguments,
+                           std::map<std::string, std::string> variables, const std::string& in) {
+    std::string text = file_of_page("grading_on_push.md", name);
+    const std::string task = "par_intro";
+    if (const std::size_t at = text.find(task); at != std::string::npos) {
+      text.replace(at, task.size(), folder_ / "task/drive.task.json");
+    }
+    folder_.write(name, text);
+    variables["PATH"] =
+        fs::path(PLAYPEN_COMMAND).parent_path().string() + ":" + std::getenv("PATH");
+    ProcessOptions options;
+    options.environment = variables;
+    options.folder = in;
+    options.timeout = std::chrono::minutes(20);
+    Words words = {"/bin/sh", folder_ / name};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return test_support::run_process(words, options);
+  }
+};
+
+TEST_F(Services, Push_FailsUnlessAllRunsPass) {
+  folder_.write("repository/Makefile", kMakefile);
+  for (int i = 0; i < 2; ++i) {  // the second time its results are in the folder
+    const ProcessResult result =
+        run_script("grade.sh", {folder_ / "task/drive.task.json"}, {}, folder_ / "repository");
+    EXPECT_EQ(result.status, 1) << result.err;
+    EXPECT_THAT(result.err,
+                HasSubstr(i == 0 ? "compile: 1 submissions\n" : "compile: 0 submissions, 1 known"));
+    EXPECT_THAT(result.out, HasSubstr("the program never connected"));
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "repository/graded/junit.xml"));
+}
+
+TEST_F(Services, Gradescope_GetsItsFile) {
+  folder_.write("autograder/submission/Makefile", kMakefile);
+  folder_.write("autograder/results/.keep", "");
+  const ProcessResult result =
+      run_script("run_autograder", {}, {{"AUTOGRADER", folder_ / "autograder"}}, folder_.path());
+  EXPECT_EQ(result.status, 0) << result.err;
+  const json results = json::parse(read_bytes(folder_ / "autograder/results/results.json"));
+  EXPECT_EQ(results.at("score"), 0.0);
+  EXPECT_EQ(results.at("tests").size(), 3U);
+  EXPECT_EQ(results.at("tests").at(1).at("status"), "failed");
+}
+
 TEST_F(Class, BadInput_Said) {
   EXPECT_THAT(grade().err, HasSubstr("expected a folder with submissions, found"));
   hand_in("notes.txt", "");
   EXPECT_THAT(grade().err, HasSubstr("expected a folder or an archive for each submission"));
   hand_in("ada/Makefile", kMakefile);
   folder_.write("roster.csv", "name\n");
+  EXPECT_THAT(playpen({"class", "par_intro", "--out", folder_ / "out"}).err,
+              HasSubstr("--submissions or --submission"));
   const ProcessResult result = grade("out", {"--roster", folder_ / "roster.csv"});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("no column \"id\""));

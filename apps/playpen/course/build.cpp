@@ -112,7 +112,7 @@ SubmissionBuild::SubmissionBuild(const Submission& submission, fs::path folder,
   if (submission.is_archive) {
     archive_ = fs::absolute(submission.place);
   } else {
-    obstacle_ = copy_sources(submission.place, source);
+    obstacle_ = copy_sources(submission, source);
   }
   fs::permissions(folder_ / kPrivate, fs::perms::owner_all);
   if (geteuid() == 0) let_everybody_write(source);

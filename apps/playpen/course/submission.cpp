@@ -148,15 +148,20 @@ void name_folders(std::vector<Submission>& submissions) {
   }
 }
 
-/// Calls a function with each regular file below a folder and its path there, in the order of
-/// their paths.
+/// Calls a function with each regular file of a submission's folder and its path there, in the
+/// order of their paths.
 template <typename Function>
-void for_each_file(const fs::path& folder, const Function& function) {
+void for_each_file(const Submission& submission, const Function& function) {
+  const fs::path& folder = submission.place;
+  std::error_code error;
   std::vector<std::pair<std::string, fs::path>> files;
   for (auto entry = fs::recursive_directory_iterator(folder);
        entry != fs::recursive_directory_iterator(); ++entry) {
     const fs::file_status status = entry->symlink_status();
-    if (status.type() == fs::file_type::directory && entry->path().filename() == ".git") {
+    if (status.type() == fs::file_type::directory &&
+        (entry->path().filename() == ".git" ||
+         (!submission.left_out.empty() &&
+          fs::equivalent(entry->path(), submission.left_out, error)))) {
       entry.disable_recursion_pending();
     }
     if (status.type() != fs::file_type::regular) continue;
@@ -250,11 +255,31 @@ std::vector<Submission> find_submissions(const fs::path& folder,
     fail("class/submissions", folder, "a folder or an archive for each submission", "none",
          "archives are .zip and .tar files");
   }
-  for (const Person& person : roster) found.emplace(person.id, Submission{person, {}, {}, false});
+  for (const Person& person : roster)
+    found.emplace(person.id, Submission{person, {}, {}, false, {}});
   std::vector<Submission> submissions;
   for (auto& [id, submission] : found) submissions.push_back(std::move(submission));
   name_folders(submissions);
   return submissions;
+}
+
+Submission one_submission(const fs::path& place, const std::string& id, const fs::path& left_out) {
+  std::error_code error;
+  Submission submission;
+  submission.place = fs::canonical(place, error);
+  submission.left_out = left_out;
+  std::string name = submission.place.filename().string();
+  const std::optional<std::string> stem = stem_of_archive(name);
+  if (fs::is_regular_file(submission.place, error) && stem) {
+    submission.is_archive = true;
+    name = *stem;
+  } else if (!fs::is_directory(submission.place, error)) {
+    fail("class/submissions", place, "a folder or an archive",
+         error ? error.message() : "another file", "archives are .zip and .tar files");
+  }
+  submission.person.id = id.empty() ? name : id;
+  submission.folder = folder_name(submission.person.id);
+  return submission;
 }
 
 std::string fingerprint_of(const Submission& submission) {
@@ -271,17 +296,17 @@ std::string fingerprint_of(const Submission& submission) {
   if (submission.is_archive) {
     add(submission.place.filename().string(), submission.place);
   } else if (!submission.place.empty()) {
-    for_each_file(submission.place, add);
+    for_each_file(submission, add);
   }
   return sim::hexadecimal_text(hash.value(), 16);
 }
 
-std::string copy_sources(const fs::path& from, const fs::path& to) {
+std::string copy_sources(const Submission& submission, const fs::path& to) {
   std::uintmax_t bytes = 0;
   std::size_t files = 0;
   std::string problem;
   try {
-    for_each_file(from, [&](const std::string& name, const fs::path& file) {
+    for_each_file(submission, [&](const std::string& name, const fs::path& file) {
       if (!problem.empty()) return;
       bytes += fs::file_size(file);
       if (bytes > kMostSubmittedBytes || ++files > kMostSubmittedFiles) {

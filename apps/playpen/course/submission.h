@@ -19,6 +19,7 @@ struct Submission {
   std::filesystem::path place;  ///< a folder, or an archive; "": the person has handed in nothing
   std::string folder;           ///< name for a folder of its files, different for each
   bool is_archive = false;
+  std::filesystem::path left_out;  ///< a folder in it that is no part of it; "": none
 };
 
 /// The suffixes of archives: ".zip", ".tar", ".tar.gz" and others.
@@ -43,6 +44,13 @@ struct Submission {
 [[nodiscard]] std::vector<Submission> find_submissions(const std::filesystem::path& folder,
                                                        const std::vector<Person>& roster);
 
+/// The submission of one person: a folder or an archive.
+/// @param id        "": the name of the folder or archive.
+/// @param left_out  a folder in it that is no part of it, such as that of the results.
+/// @throws sim::ConfigError if it is neither.
+[[nodiscard]] Submission one_submission(const std::filesystem::path& place, const std::string& id,
+                                        const std::filesystem::path& left_out);
+
 /// A text that is different if any name or content of a submission is. Symbolic links and special
 /// files do not count.
 /// @throws std::runtime_error if a file cannot be read.
@@ -52,10 +60,10 @@ struct Submission {
 inline constexpr std::uintmax_t kMostSubmittedBytes = 100'000'000;
 inline constexpr std::size_t kMostSubmittedFiles = 10'000;
 
-/// Copies the regular files of a submission's folder. Symbolic links and special files, and folders
-/// called ".git", are left out.
+/// Copies the regular files of a submission that is a folder. Symbolic links and special files, and
+/// folders called ".git", are left out.
 /// @return what was wrong, for people; "": all is there.
-[[nodiscard]] std::string copy_sources(const std::filesystem::path& from,
+[[nodiscard]] std::string copy_sources(const Submission& submission,
                                        const std::filesystem::path& to);
 
 }  // namespace playpen::course

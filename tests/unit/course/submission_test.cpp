@@ -118,7 +118,7 @@ TEST_F(Submissions, Copy_WithoutLinksAndGit) {
   folder_.write("ada/src/main.cpp", "int x;");
   folder_.write("ada/.git/config", "");
   fs::create_symlink("/etc/passwd", folder_.path() / "ada/link.h");
-  EXPECT_EQ(copy_sources(folder_.path() / "ada", folder_.path() / "copy"), "");
+  EXPECT_EQ(copy_sources(one_submission(folder_ / "ada", "", ""), folder_.path() / "copy"), "");
   EXPECT_TRUE(fs::exists(folder_.path() / "copy/src/main.cpp"));
   EXPECT_FALSE(fs::exists(folder_.path() / "copy/.git"));
   EXPECT_FALSE(fs::exists(fs::symlink_status(folder_.path() / "copy/link.h")));
@@ -127,8 +127,26 @@ TEST_F(Submissions, Copy_WithoutLinksAndGit) {
 TEST_F(Submissions, Copy_TooLargeIsSaid) {
   folder_.write("ada/data", "");
   fs::resize_file(folder_.path() / "ada/data", kMostSubmittedBytes + 1);  // without blocks
-  EXPECT_THAT(copy_sources(folder_.path() / "ada", folder_.path() / "copy"),
+  EXPECT_THAT(copy_sources(one_submission(folder_ / "ada", "", ""), folder_.path() / "copy"),
               HasSubstr("more than 100 MB"));
+}
+
+TEST_F(Submissions, One_FolderOrArchiveWithoutResults) {
+  folder_.write("ada/main.cpp", "int x;");
+  folder_.write("ada/out/log", "");
+  folder_.write("x.zip", "");
+  const Submission ada = one_submission(folder_ / "ada/.", "", folder_ / "ada/out");
+  EXPECT_EQ(ada.person.id, "ada");
+  EXPECT_EQ(copy_sources(ada, folder_.path() / "copy"), "");
+  EXPECT_FALSE(fs::exists(folder_.path() / "copy/out"));
+  const std::string fingerprint = fingerprint_of(ada);
+  folder_.write("ada/out/log", "more");
+  EXPECT_EQ(fingerprint_of(ada), fingerprint);
+  EXPECT_TRUE(one_submission(folder_ / "x.zip", "", "").is_archive);
+  EXPECT_EQ(one_submission(folder_ / "x.zip", "4711", "").person.id, "4711");
+  for (const char* name : {"missing", "ada/main.cpp"}) {
+    EXPECT_THROW(static_cast<void>(one_submission(folder_ / name, "", "")), sim::ConfigError);
+  }
 }
 
 TEST_F(Submissions, Programs_NewOnesOfThisMachine) {
