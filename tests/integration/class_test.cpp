@@ -122,6 +122,8 @@ TEST_F(Class, Submissions_EachHasItsRow) {
   const json& ada = row_of(whole, "ada");
   EXPECT_EQ(ada.at("passed"), 2) << ada << read_bytes(folder_ / "out/submissions/ada/build.log");
   EXPECT_EQ(ada.at("name"), "Ada Byron");
+  EXPECT_EQ(ada.at("points"), 100.0);
+  EXPECT_EQ(ada.at("most_points"), 100.0);
   for (const char* id : {"bob", "zed"}) {
     EXPECT_THAT(row_of(whole, id).at("reason").get<std::string>(),
                 HasSubstr("the program never connected"));

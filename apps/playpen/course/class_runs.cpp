@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "grade/grade.h"
+#include "grade/rubric.h"
 #include "grade/run_record.h"
 #include "grade/runs.h"
 #include "sim/core/file.h"
@@ -135,6 +136,10 @@ class ClassGrading {
     }
     build_all();
     for (const auto& task : tasks_) run_all(*task);
+    for (SubmissionResult& one : result_.submissions) {
+      for (const grade::Task& task : result_.tasks) one.most_points += maximum_points(task);
+      for (const grade::Grade& grade : one.grades) one.points += mean_points(grade);
+    }
     return std::move(result_);
   }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "grade/rubric.h"
 #include "grade/run_record.h"
 #include "sim/core/number_text.h"
 #include "sim/core/replace_file.h"
@@ -132,10 +133,14 @@ ordered_json to_json(const SubmissionResult& submission) {
   for (const grade::Grade& grade : submission.grades) {
     ordered_json runs = ordered_json::array();
     for (const grade::GradedRun& run : grade.runs) {
-      runs.push_back(ordered_json::parse(grade::run_text(run)));
+      ordered_json document = ordered_json::parse(grade::run_text(run));
+      document["points"] = points_of(grade.task, run).total;
+      runs.push_back(std::move(document));
     }
     grades.push_back({{"task", grade.task.name},
                       {"passed", grade.passed() == grade.runs.size()},
+                      {"points", mean_points(grade)},
+                      {"most_points", maximum_points(grade.task)},
                       {"runs", runs}});
   }
   const Build& build = submission.build;
@@ -338,17 +343,23 @@ std::string junit_text(const ClassResult& result) {
 
 std::string gradescope_text(const SubmissionResult& submission) {
   ordered_json tests = ordered_json::array();
-  const auto add = [&tests](const std::string& name, bool passed, const std::string& output) {
-    tests.push_back({{"name", plain_text(name)},
-                     {"status", passed ? "passed" : "failed"},
-                     {"output", plain_text(output)}});
+  const auto add = [&tests](const std::string& name, bool passed,
+                            const std::string& output) -> ordered_json& {
+    return tests.emplace_back(ordered_json{{"name", plain_text(name)},
+                                           {"status", passed ? "passed" : "failed"},
+                                           {"output", plain_text(output)}});
   };
   add("build", submission.build.built, submission.build.reason);
   double wall_time_s = submission.build.wall_time_s;
   for (const grade::Grade& grade : submission.grades) {
     for (const grade::GradedRun& run : grade.runs) {
       wall_time_s += run.wall_time_s;
-      add(grade.task.name + ": " + run_name(run), run.passed(), joined(run.faults, "; "));
+      ordered_json& test =
+          add(grade.task.name + ": " + run_name(run), run.passed(), joined(run.faults, "; "));
+      // The shares of the runs make up the whole score.
+      const auto runs = static_cast<double>(grade.runs.size());
+      test["score"] = points_of(grade.task, run).total / runs;
+      test["max_score"] = maximum_points(grade.task) / runs;
     }
   }
   return dumped(

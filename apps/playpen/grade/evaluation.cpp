@@ -13,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "grade/figures.h"
 #include "grade/map_score.h"
 #include "grade/shortest_path.h"
 #include "grade/text.h"
@@ -428,6 +429,28 @@ void require_known_names(const Task& task, const Reference& reference,
   }
 }
 
+/// Refuses a world without a goal or a controller if the task's thresholds or points need it.
+void require_needs(const Task& task, const Reference& reference,
+                   const sim::WorldDescription& world) {
+  const Thresholds& t = task.thresholds;
+  const bool threshold_needs_goal = t.must_reach || t.max_path_ratio;
+  if (!reference.goal && (threshold_needs_goal || rubric_needs(task, FigureNeed::kGoal))) {
+    refuse(task, "task/missing-goal", "", "a \"goal\" that holds for every world",
+           "none for \"" + reference.world + '"',
+           threshold_needs_goal ? "the thresholds ask for one" : "the rubric asks for one");
+  }
+  const bool threshold_needs_controller = t.must_pass || t.min_score;
+  if (world.controller.empty() &&
+      (threshold_needs_controller || rubric_needs(task, FigureNeed::kController))) {
+    refuse(task, "task/missing-controller", threshold_needs_controller ? "/thresholds" : "/rubric",
+           "worlds with a \"controller\", which gives points and verdicts",
+           "none in \"" + reference.world + '"',
+           t.must_pass   ? "\"must_pass\" asks for one"
+           : t.min_score ? "\"min_score\" asks for one"
+                         : "an item asks for one");
+  }
+}
+
 }  // namespace
 
 playerlike::TaskRules rules_of(const Task& task, const Reference& reference) {
@@ -464,16 +487,7 @@ Reference make_reference(const Task& task, const TaskWorld& task_world,
     reference.duration_s = sim::to_seconds(*world.simulation.duration_ns);
   }
   reference.goal = task_world.goal ? task_world.goal : task.goal;
-  if (!reference.goal && (task.thresholds.must_reach || task.thresholds.max_path_ratio)) {
-    refuse(task, "task/missing-goal", "", "a \"goal\" that holds for every world",
-           "none for \"" + reference.world + '"', "the thresholds ask for one");
-  }
-  if (world.controller.empty() && (task.thresholds.must_pass || task.thresholds.min_score)) {
-    refuse(task, "task/missing-controller", "/thresholds",
-           "worlds with a \"controller\", which gives points and verdicts",
-           "none in \"" + reference.world + '"',
-           task.thresholds.must_pass ? "\"must_pass\" asks for one" : "\"min_score\" asks for one");
-  }
+  require_needs(task, reference, world);
   if (!task.map_layer.empty() || reference.goal) reference.truth = make_truth(world.arena);
   if (reference.goal) {
     const double radius_m = inscribed_radius(sim::find_robot_model(world, robot->model)->footprint);

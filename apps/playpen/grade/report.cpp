@@ -42,16 +42,28 @@ struct Spread {
   double most = 0.0;
 };
 
-std::optional<Spread> spread_of(const Grade& grade, std::optional<double> Measures::*value) {
-  std::vector<double> values;
-  for (const GradedRun& run : grade.runs) {
-    if (const std::optional<double>& v = run.measures.*value) values.push_back(*v);
-  }
+std::optional<Spread> spread_of(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   double sum = 0.0;
   for (const double v : values) sum += v;
   return Spread{*least, sum / static_cast<double>(values.size()), *most};
+}
+
+std::optional<Spread> spread_of(const Grade& grade, std::optional<double> Measures::*value) {
+  std::vector<double> values;
+  for (const GradedRun& run : grade.runs) {
+    if (const std::optional<double>& v = run.measures.*value) values.push_back(*v);
+  }
+  return spread_of(values);
+}
+
+/// The points of all runs; nullopt if the task has no rubric, or there are no runs.
+std::optional<Spread> spread_of_points(const Grade& grade) {
+  if (grade.task.rubric.empty()) return std::nullopt;
+  std::vector<double> totals;
+  for (const GradedRun& run : grade.runs) totals.push_back(points_of(grade.task, run).total);
+  return spread_of(totals);
 }
 
 std::string ending_text(const GradedRun& run) {
@@ -87,23 +99,26 @@ struct Column {
 };
 
 constexpr Column kColumns[] = {
-    {"world", true, false}, {"seed", false, false},   {"", true, false},
-    {"end", true, false},   {"goal", false, true},    {"score", false, true},
-    {"cover", false, true}, {"correct", false, true}, {"path", false, true},
-    {"ratio", false, true}, {"coll", false, true},    {"clear", false, true},
-    {"sim", false, true},   {"wall", false, true},
+    {"world", true, false}, {"seed", false, false},  {"", true, false},
+    {"end", true, false},   {"points", false, true}, {"goal", false, true},
+    {"score", false, true}, {"cover", false, true},  {"correct", false, true},
+    {"path", false, true},  {"ratio", false, true},  {"coll", false, true},
+    {"clear", false, true}, {"sim", false, true},    {"wall", false, true},
 };
 constexpr std::size_t kVerdict = 2;
 constexpr std::size_t kLeastColumns = 4;  ///< world, seed, verdict and end are always shown
 
 using Row = std::vector<std::string>;
 
-Row row_of(const GradedRun& run) {
+constexpr int kPointDecimals = 2;
+
+Row row_of(const Task& task, const GradedRun& run) {
   const Measures& m = run.measures;
   return {run.world,
           std::to_string(run.seed),
           run.passed() ? "pass" : "FAIL",
           ending_text(run),
+          task.rubric.empty() ? "-" : sim::fixed_text(points_of(task, run).total, kPointDecimals),
           m.reached ? (*m.reached ? "yes" : "no") : "-",
           number_or_dash(m.score, 0),
           number_or_dash(m.coverage, 3),
@@ -119,11 +134,11 @@ Row row_of(const GradedRun& run) {
 /// The runs' rows, the visible columns and their widths.
 class Table {
  public:
-  Table(const std::vector<GradedRun>& runs, const TableStyle& style) : style_(style) {
+  Table(const Grade& grade, const TableStyle& style) : style_(style) {
     Row headings;
     for (const Column& column : kColumns) headings.emplace_back(column.heading);
     rows_.push_back(std::move(headings));
-    for (const GradedRun& run : runs) rows_.push_back(row_of(run));
+    for (const GradedRun& run : grade.runs) rows_.push_back(row_of(grade.task, run));
     for (std::size_t i = 0; i < std::size(kColumns); ++i) {
       const auto is_measured = [i](const Row& row) { return row[i] != "-"; };
       const bool any = std::any_of(rows_.begin() + 1, rows_.end(), is_measured);
@@ -231,6 +246,37 @@ std::string reasons_text(std::span<const GradedRun> runs, const TableStyle& styl
   return text;
 }
 
+/// The points of all runs, and below them the mean points of each item.
+std::string points_text(const Grade& grade) {
+  const std::optional<Spread> spread = spread_of_points(grade);
+  if (!spread) return "";
+  const bool is_single = grade.runs.size() == 1;
+  const auto text_of = [](double points) { return sim::fixed_text(points, kPointDecimals); };
+  std::string text = "  points: ";
+  if (!is_single) text += text_of(spread->least) + " to " + text_of(spread->most) + ", mean ";
+  text += text_of(spread->mean) + " of " + sim::shortest_text(maximum_points(grade.task)) + '\n';
+  for (const RubricItem& item : grade.task.rubric) {
+    double sum = 0.0;
+    for (const GradedRun& run : grade.runs) sum += points_of(item, run);
+    text += "    " + item.name + ": " + (is_single ? "" : "mean ") +
+            text_of(sum / static_cast<double>(grade.runs.size())) + " of " +
+            sim::shortest_text(maximum_points(item)) + (item.is_bonus ? " (bonus)" : "") + '\n';
+  }
+  return text;
+}
+
+ordered_json points_json(const Task& task, const GradedRun& run) {
+  const RunPoints points = points_of(task, run);
+  ordered_json items = ordered_json::array();
+  for (const ItemPoints& item : points.items) {
+    items.push_back({{"name", item.name},
+                     {"points", item.points},
+                     {"maximum", item.maximum},
+                     {"bonus", item.is_bonus}});
+  }
+  return {{"total", points.total}, {"maximum", maximum_points(task)}, {"items", items}};
+}
+
 }  // namespace
 
 std::size_t Grade::passed() const noexcept {
@@ -239,7 +285,7 @@ std::size_t Grade::passed() const noexcept {
 }
 
 std::string table(const Grade& grade, const TableStyle& style) {
-  std::string text = Table(grade.runs, style).text();
+  std::string text = Table(grade, style).text();
   for (auto first = grade.runs.begin(); first != grade.runs.end();) {
     const auto last = std::find_if(first, grade.runs.end(), [&first](const GradedRun& run) {
       return run.world != first->world;
@@ -248,7 +294,7 @@ std::string table(const Grade& grade, const TableStyle& style) {
     first = last;
   }
   text += grade.task.name + ": " + std::to_string(grade.passed()) + " of " +
-          std::to_string(grade.runs.size()) + " runs passed\n";
+          std::to_string(grade.runs.size()) + " runs passed\n" + points_text(grade);
   if (grade.runs.size() == 1) return text;  // the table already contains everything
   for (const Summarized& what : kSummarized) {
     const std::optional<Spread> spread = spread_of(grade, what.value);
@@ -262,7 +308,10 @@ std::string table(const Grade& grade, const TableStyle& style) {
 
 std::string json_text(const Grade& grade) {
   ordered_json runs = ordered_json::array();
-  for (const GradedRun& run : grade.runs) runs.push_back(json_of(run));
+  for (const GradedRun& run : grade.runs) {
+    runs.push_back(json_of(run));
+    if (!grade.task.rubric.empty()) runs.back()["points"] = points_json(grade.task, run);
+  }
   ordered_json summary = {{"runs", grade.runs.size()},
                           {"passed", grade.passed()},
                           {"failed", grade.runs.size() - grade.passed()}};
@@ -271,6 +320,12 @@ std::string json_text(const Grade& grade) {
     summary[what.key] =
         spread ? ordered_json{{"min", spread->least}, {"mean", spread->mean}, {"max", spread->most}}
                : ordered_json(nullptr);
+  }
+  if (const std::optional<Spread> spread = spread_of_points(grade)) {
+    summary["points"] = {{"min", spread->least},
+                         {"mean", spread->mean},
+                         {"max", spread->most},
+                         {"maximum", maximum_points(grade.task)}};
   }
   const ordered_json whole = {
       {"task", grade.task.name},    {"program", grade.program},

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "grade/rubric_reader.h"
 #include "sim/io/reader.h"
 #include "sim/io/settings_file.h"
 
@@ -60,6 +61,10 @@ class TaskReader {
     task_.map_layer = root.string("map", "");
     read_may_use(root);
     read_thresholds(root);
+    task_.rubric = read_rubric(root, [&](Reader& item, FigureNeed need) {
+      if (need == FigureNeed::kMap) require_map(root, item, "figure");
+      if (need == FigureNeed::kGoal) require_goal(root, item, "figure");
+    });
     root.finish();
   }
 
@@ -238,23 +243,28 @@ class TaskReader {
     t.min_score = optional_number(*reader, "min_score", kPoints);
     t.must_pass = reader->boolean("must_pass", t.must_pass);
     for (const char* key : {"min_coverage", "min_correctness"}) {
-      if (!reader->has(key) || root.has("map")) continue;
-      reader->issue("task/missing-map", "a task with the key \"map\"", "none",
-                    "it names the layer that the program draws its map in", key);
+      if (reader->has(key)) require_map(root, *reader, key);
     }
-    for (const char* key : {"must_reach", "max_path_ratio"}) {
-      if ((std::string_view(key) == "must_reach" ? !t.must_reach : !t.max_path_ratio) ||
-          root.has("goal")) {
-        continue;
-      }
-      for (const TaskWorld& world : task_.worlds) {
-        if (world.goal) continue;
-        reader->issue("task/missing-goal", "a \"goal\" in the task or in each of its worlds",
-                      "none for \"" + world_name(world.file) + '"', "", key);
-        break;
-      }
-    }
+    if (t.must_reach) require_goal(root, *reader, "must_reach");
+    if (t.max_path_ratio) require_goal(root, *reader, "max_path_ratio");
     reader->finish();
+  }
+
+  /// Records an issue at a key of `user`, which needs a map, if the task names none.
+  static void require_map(Reader& root, Reader& user, const char* key) {
+    if (root.has("map")) return;
+    user.issue("task/missing-map", "a task with the key \"map\"", "none",
+               "it names the layer that the program draws its map in", key);
+  }
+
+  /// Records an issue at a key of `user`, which needs a goal, if a world has none.
+  void require_goal(Reader& root, Reader& user, const char* key) const {
+    if (root.has("goal")) return;
+    const auto without = std::find_if(task_.worlds.begin(), task_.worlds.end(),
+                                      [](const TaskWorld& world) { return !world.goal; });
+    if (without == task_.worlds.end()) return;
+    user.issue("task/missing-goal", "a \"goal\" in the task or in each of its worlds",
+               "none for \"" + world_name(without->file) + '"', "", key);
   }
 
   Task task_;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grade/rubric.h"
 #include "playerlike/host/task_rules.h"
 #include "sim/core/pose.h"
 
@@ -65,6 +66,7 @@ struct Task {
   /// the graded robot.
   std::optional<playerlike::MayUse> may_use;
   Thresholds thresholds;
+  std::vector<RubricItem> rubric;  ///< empty: none, see rubric_of()
 };
 
 /// Suffix of task files.

@@ -111,6 +111,9 @@ TEST(Gradescope, Members_Documented) {
   std::vector<std::string> statuses;
   for (const json& test : result.at("tests")) statuses.push_back(test.at("status"));
   EXPECT_THAT(statuses, ElementsAre("passed", "passed", "failed", "failed"));
+  EXPECT_DOUBLE_EQ(result.at("tests").at(1).at("score"), 100.0 / 3);
+  EXPECT_DOUBLE_EQ(result.at("tests").at(2).at("max_score"), 100.0 / 3);
+  EXPECT_EQ(result.at("tests").at(2).at("score"), 0.0);
   EXPECT_EQ(result.at("tests").at(2).at("output"), "3 collisions & <more>; late");
 }
 

@@ -41,9 +41,21 @@ FORMAL_FAULTS = ["unknown_key", "wrong_type", "out_of_range", "unknown_value", "
                  "motion_unknown_key", "motion_without_points", "motion_without_type"]
 
 
-def load(path):
-    text = path.read_text(encoding="utf-8")
+BAD_RUBRICS = [
+    [], [{"points": 1}], [{"figure": "speed", "points": 1}], [{"figure": "passed"}],
+    [{"figure": "passed", "points": 0}], [{"figure": "passed", "points": 1, "best": 1}],
+    [{"figure": "score", "points": 1}], [{"figure": "score", "points": 1, "best": 1}],
+    [{"figure": "score", "points": 1, "steps": [{"at_most": 1, "points": 1}]}],
+    [{"figure": "score", "steps": []}], [{"figure": "score", "steps": [{"points": 1}]}],
+    [{"figure": "score", "steps": [{"at_most": 1, "at_least": 1, "points": 1}]}]]
+
+
+def parse(text):
     return json.loads(TOKEN.sub(lambda m: m[0] if m[0][0] == '"' else " ", text))
+
+
+def load(path):
+    return parse(path.read_text(encoding="utf-8"))
 
 
 def main(source):
@@ -97,8 +109,14 @@ def main(source):
     if len(tasks) < 3:
         print(f"only {len(tasks)} tasks in {worlds}")
         failures += 1
+    page = (source / "docs" / "grading.md").read_text(encoding="utf-8")
+    for example in re.findall(r"```json\n(.*?)```", page, re.DOTALL):
+        for error in task_validator.iter_errors(parse(example)):
+            print(f"docs/grading.md: {error.json_path}: {error.message}")
+            failures += 1
     for bad in [{}, {"worlds": []}, {"worlds": [1]}, {"worlds": ["a.json"], "sedes": 3},
-                {"worlds": ["a.json"], "thresholds": {"min_coverage": 98}}]:
+                {"worlds": ["a.json"], "thresholds": {"min_coverage": 98}},
+                *({"worlds": ["a.json"], "rubric": rubric} for rubric in BAD_RUBRICS)]:
         if task_validator.is_valid(bad):
             print(f"the task schema accepts {bad}")
             failures += 1
