@@ -2,16 +2,12 @@
 #include "plot_data.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include "playerlike/host/report.h"
@@ -27,7 +23,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using sim::Vec2;
 
-constexpr std::string_view kHeader = "time,robot,x,y,yaw,v,omega,stalled";
 constexpr const char* kPlottedFile = "trajectory.csv";
 constexpr const char* kReport = "report.json";
 constexpr const char* kGrade = "grade.json";
@@ -43,85 +38,16 @@ std::string text_of(const fs::path& file) {
   return text;
 }
 
-[[noreturn]] void refuse_row(const fs::path& file, std::size_t line, std::string_view found) {
-  constexpr std::size_t kMostShown = 60;
-  throw std::runtime_error(file.string() + ", line " + std::to_string(line) + ": expected " +
-                           std::string(kHeader) + ", found '" +
-                           std::string(found.substr(0, kMostShown)) + "'");
-}
-
-bool read_number(std::string_view word, double& value) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
-}
-
-Track& track_of(RunData& run, std::string_view robot) {
-  for (Track& track : run.tracks) {
-    if (track.robot == robot) return track;
+Track track_of(grade::Trajectory trajectory) {
+  Track track;
+  static_cast<grade::Trajectory&>(track) = std::move(trajectory);
+  for (std::size_t i = 0; i < track.X_WB.size(); ++i) {
+    track.path_m.push_back(
+        i == 0 ? 0.0
+               : track.path_m.back() +
+                     (track.X_WB[i].position() - track.X_WB[i - 1].position()).norm());
   }
-  run.tracks.emplace_back().robot = robot;
-  return run.tracks.back();
-}
-
-// Number of columns of a header; 0: it is no header of a trajectory. Columns of mirrored robots may
-// follow the usual ones.
-std::size_t columns_of(std::string_view header) {
-  if (!header.starts_with(kHeader)) return 0;
-  const std::string_view rest = header.substr(kHeader.size());
-  if (!rest.empty() && rest.front() != ',') return 0;
-  return 1 + static_cast<std::size_t>(std::count(header.begin(), header.end(), ','));
-}
-
-// Appends a row to the tracks. @return whether the row is valid.
-bool add_row(RunData& run, std::string_view row, std::size_t columns) {
-  constexpr std::size_t kColumns = 8;
-  std::array<std::string_view, kColumns> words;
-  std::size_t count = 0;
-  for (std::size_t begin = 0; begin <= row.size(); ++count) {
-    if (count == columns) return false;
-    const std::size_t end = std::min(row.find(',', begin), row.size());
-    if (count < kColumns) words.at(count) = row.substr(begin, end - begin);
-    begin = end + 1;
-  }
-  if (count != columns || words[1].empty()) return false;
-  std::array<double, kColumns> numbers{};
-  for (const std::size_t i : std::initializer_list<std::size_t>{0, 2, 3, 4, 5, 6, 7}) {
-    if (!read_number(words.at(i), numbers.at(i))) return false;
-  }
-  Track& track = track_of(run, words[1]);
-  const sim::Pose pose{numbers[2], numbers[3], numbers[4]};
-  if (!track.time_s.empty() && numbers[0] < track.time_s.back()) return false;
-  const double step_m =
-      track.X_WB.empty() ? 0.0 : (pose.position() - track.X_WB.back().position()).norm();
-  track.path_m.push_back((track.path_m.empty() ? 0.0 : track.path_m.back()) + step_m);
-  track.time_s.push_back(numbers[0]);
-  track.X_WB.push_back(pose);
-  track.v_mps.push_back(numbers[5]);
-  track.omega_radps.push_back(numbers[6]);
-  return true;
-}
-
-void read_trajectory(const fs::path& file, RunData& run) {
-  const std::string text = text_of(file);
-  std::size_t line = 0;
-  std::size_t columns = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view row = std::string_view(text).substr(begin, end - begin);
-    // If the program crashed, the last row may be incomplete.
-    const bool is_whole = end < text.size();
-    begin = end + 1;
-    ++line;
-    if (line == 1) {
-      columns = columns_of(row);
-      if (columns == 0) refuse_row(file, line, row);
-    } else if (is_whole && !add_row(run, row, columns)) {
-      refuse_row(file, line, row);
-    }
-  }
-  if (run.tracks.empty()) {
-    throw std::runtime_error(file.string() + ": expected rows of robots, found none");
-  }
+  return track;
 }
 
 // Returns the index of a robot's track, or none if the robot has no track.
@@ -332,7 +258,9 @@ RunData read_run(const std::string& folder) {
                              " -- PROGRAM' makes one, 'playpen grade TASK --out " + folder +
                              " -- PROGRAM' several");
   }
-  read_trajectory(path / kPlottedFile, run);
+  for (grade::Trajectory& trajectory : grade::read_trajectories(path / kPlottedFile)) {
+    run.tracks.push_back(track_of(std::move(trajectory)));
+  }
   read_report(path / kReport, run);
   read_grade(path, run);
   return run;

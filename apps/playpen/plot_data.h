@@ -5,20 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/pose.h"
+#include "grade/trajectory.h"
 #include "sim/simulation/scene_snapshot.h"
 #include "sim/world/description.h"
 
 /// The data that `playpen plot` reads from result folders.
 namespace playpen {
 
-/// The trajectory of a robot. All lists have one value per row of trajectory.csv.
-struct Track {
-  std::string robot;
-  std::vector<double> time_s;
-  std::vector<sim::Pose> X_WB;
-  std::vector<double> v_mps;
-  std::vector<double> omega_radps;
+/// The trajectory of a robot, with what the charts show besides. All lists have one value per row
+/// of trajectory.csv.
+struct Track : grade::Trajectory {
   std::vector<double> path_m;  ///< length of the path so far
   /// Distance to the nearest solid object; empty if the world is unknown.
   std::vector<double> clearance_m;
