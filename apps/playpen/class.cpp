@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "commands.h"
+#include "course/class_likeness.h"
 #include "course/class_runs.h"
 #include "course/results.h"
 #include "preload.h"
@@ -110,6 +111,27 @@ std::vector<grade::Task> load_tasks(const ClassRequest& request) {
   return tasks;
 }
 
+/// The programs that everybody in a class knows: the templates of the tasks, and those that the
+/// user names. A single submission is not compared with others.
+std::vector<course::Submission> baselines_of(const ClassRequest& request,
+                                             const course::ClassSettings& settings) {
+  std::vector<course::Submission> baselines;
+  if (settings.submissions.size() < 2) return baselines;
+  for (const ProjectTemplate& kind : kProjectTemplates) {
+    const auto is_its_task = [&kind](const grade::Task& task) { return task.name == kind.task; };
+    const std::optional<fs::path> folder = template_folder(kind);
+    if (folder && std::any_of(settings.tasks.begin(), settings.tasks.end(), is_its_task)) {
+      baselines.push_back(
+          course::one_submission(*folder, std::string("template ") + kind.name, {}));
+    }
+  }
+  for (const std::string& place : request.baselines) {
+    baselines.push_back(course::one_submission(place, "", {}));
+  }
+  course::name_folders(baselines);
+  return baselines;
+}
+
 }  // namespace
 
 int grade_class(const ClassRequest& request) {
@@ -144,12 +166,19 @@ int grade_class(const ClassRequest& request) {
   settings.build.launcher = [&isolated](const std::vector<std::string>& readable) {
     return isolated.build_launcher(readable);
   };
+  settings.baselines = baselines_of(request, settings);
   fs::create_directories(request.output_folder);
 
   ClassProgressLine line;
-  const course::ClassResult result = course::grade_class(
+  course::ClassResult result = course::grade_class(
       settings, [&line](const course::ClassProgress& progress) { line.show(progress); });
   line.clear();
+  for (const course::SubmissionResult& one : result.baselines) {
+    if (one.build.built) continue;
+    std::cerr << "playpen: the baseline '" << one.id << "' has no program: " << one.build.reason
+              << '\n';
+  }
+  if (result.complete) course::compare_submissions(result, request.output_folder);
   course::write_results(result, request.output_folder);
   std::cout << course::class_table(result, terminal_columns(STDOUT_FILENO));
   if (!result.complete) {

@@ -40,6 +40,11 @@ void add_class(CommandLine& line) {
       .add_option("--program", request->program,
                   "File name of the program, where a submission compiles to several")
       ->type_name("NAME");
+  CLI::Option* const baseline = command.add_option(
+      "--baseline", request->baselines,
+      "A program that everybody knows, a folder or an archive: what submissions do like it is no "
+      "likeness; can be repeated");
+  line.takes(baseline->type_name("PLACE")->expected(1)->take_all(), ValueKind::Kind::kFile);
   add_grading_options(command, request->seeds, request->jobs, request->timeout_s);
   add_parsed(command, "--build-timeout", "Wall-clock limit of compiling a submission [300]", "S",
              "a number of seconds above 0", [request](const std::string& text) {

@@ -56,12 +56,13 @@ struct GradeRequest {
 
 /// Arguments of `playpen class`.
 struct ClassRequest {
-  std::vector<std::string> tasks;  ///< as the user wrote them, see load_task(); at least one
-  std::string submissions_folder;  ///< "": there is only `submission`
-  std::string submission;          ///< a folder or an archive; "": there is a folder of them
-  std::string id;                  ///< of the person of `submission`; "": its name
-  bool must_pass = false;          ///< whether a run that does not pass is a failure
-  std::string roster_file;         ///< "": none
+  std::vector<std::string> tasks;      ///< as the user wrote them, see load_task(); at least one
+  std::string submissions_folder;      ///< "": there is only `submission`
+  std::string submission;              ///< a folder or an archive; "": there is a folder of them
+  std::string id;                      ///< of the person of `submission`; "": its name
+  std::vector<std::string> baselines;  ///< folders and archives of programs that everybody knows
+  bool must_pass = false;              ///< whether a run that does not pass is a failure
+  std::string roster_file;             ///< "": none
   std::string output_folder;
   std::string program;               ///< name of the programs' file; "": any
   std::vector<std::uint64_t> seeds;  ///< empty: those of the tasks

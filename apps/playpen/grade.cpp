@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstring>
 #include <iostream>
 #include <stdexcept>
 #include <thread>
@@ -12,11 +11,11 @@
 
 #include "commands.h"
 #include "debugger_hint.h"
+#include "grade/text.h"
 #include "playerlike/host/program.h"
 #include "preload.h"
 #include "shipped.h"
 #include "sim/core/number_text.h"
-#include "sim/core/replace_file.h"
 #include "sim/world/realism.h"
 #include "terminal.h"
 
@@ -40,17 +39,6 @@ class ProgressLine {
  private:
   bool is_terminal_ = isatty(STDERR_FILENO) != 0;
 };
-
-void write_file(const fs::path& file, const std::string& text) {
-  if (file.has_parent_path()) {
-    std::error_code ignored;  // a missing result is reported below
-    fs::create_directories(file.parent_path(), ignored);
-  }
-  if (const int error = sim::replace_file(file.string(), text)) {
-    throw std::runtime_error("the file '" + file.string() +
-                             "' can't be written: " + std::strerror(error));
-  }
-}
 
 /// The name by which the user would call a world.
 std::string short_name_of(const std::string& file) {
@@ -159,14 +147,14 @@ int grade_program(GradeRequest request) {
         if (std::exchange(written, progress.ended) == progress.ended) return;  // no change
         grade::Grade present = known;
         present.program = request.command;
-        write_file(file, grade::json_text(present));
+        grade::write_text_file(file, grade::json_text(present));
       });
   line.clear();
   result.program = request.command;  // as the user wrote it
   std::cout << grade::table(result, {.columns = terminal_columns(STDOUT_FILENO),
                                      .colour = shows_colour(STDOUT_FILENO),
                                      .advice = Advice(request, settings)});
-  write_file(file, grade::json_text(result));
+  grade::write_text_file(file, grade::json_text(result));
   std::cout << "details: " << file.string() << '\n';
   return result.passed() == result.runs.size() ? kOk : kProgramFailed;
 }

@@ -53,8 +53,11 @@ struct LikePair {
   std::size_t second = 0;   ///< index of another one, > first
   std::size_t runs = 0;     ///< runs that were compared
   std::size_t alike = 0;    ///< runs whose trajectories are alike
-  double distance_m = 0.0;  ///< see docs/decisions/likeness.md
+  double distance_m = 0.0;  ///< mean, until they part, in the run that is most alike [m]
   std::string picture;      ///< path in the output folder; "": none
+  double likeness = 0.0;    ///< mean of the runs (docs/decisions/likeness.md) [sqrt(m rad)]
+  double threshold = 0.0;   ///< the least likeness of a pair that is listed
+  double shared_m = 0.0;    ///< how far both drive together in the run that is most alike [m]
 };
 
 /// A graded class.
@@ -62,6 +65,8 @@ struct ClassResult {
   std::vector<grade::Task> tasks;
   std::vector<SubmissionResult> submissions;  ///< ordered by id
   std::vector<LikePair> pairs;                ///< the most alike first
+  /// Programs that everybody knows: what submissions do like them is no likeness.
+  std::vector<SubmissionResult> baselines;
   bool isolated = true;
   bool complete = true;  ///< false: this process was told to stop before the end
 };

@@ -2,11 +2,10 @@
 #include "course/class_runs.h"
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -14,10 +13,10 @@
 #include "grade/rubric.h"
 #include "grade/run_record.h"
 #include "grade/runs.h"
+#include "grade/text.h"
 #include "sim/core/file.h"
 #include "sim/core/hash.h"
 #include "sim/core/number_text.h"
-#include "sim/core/replace_file.h"
 
 namespace playpen::course {
 namespace {
@@ -30,14 +29,6 @@ std::string read_text(const fs::path& file) {
   std::string text;
   if (sim::read_whole_file(file.string(), {}, text)) return {};
   return text;
-}
-
-void write_text(const fs::path& file, const std::string& text) {
-  fs::create_directories(file.parent_path());
-  if (const int error = sim::replace_file(file.string(), text)) {
-    throw std::runtime_error("the file '" + file.string() +
-                             "' can't be written: " + std::strerror(error));
-  }
 }
 
 std::string hash_text(const std::vector<std::string>& parts) {
@@ -60,7 +51,7 @@ json read_record(const fs::path& file, const std::string& key) {
 
 void write_record(const fs::path& file, const std::string& key, json value) {
   const json record = {{"key", key}, {"value", std::move(value)}};
-  write_text(file, record.dump(-1, ' ', false, json::error_handler_t::replace) + '\n');
+  grade::write_text_file(file, record.dump(-1, ' ', false, json::error_handler_t::replace) + '\n');
 }
 
 json to_json(const Build& build) {
@@ -117,16 +108,20 @@ class ClassGrading {
       : settings_(settings), on_progress_(on_progress), out_(settings.output_folder) {
     result_.tasks = settings.tasks;
     result_.isolated = settings.isolated;
-    for (const Submission& submission : settings.submissions) {
-      SubmissionResult one;
-      one.id = submission.person.id;
-      one.name = submission.person.name;
-      one.folder = "submissions/" + submission.folder;
-      one.handed_in = !submission.place.empty();
-      if (!one.handed_in) one.build.reason = "nothing was handed in";
-      result_.submissions.push_back(std::move(one));
+    for (const auto* all : {&settings.submissions, &settings.baselines}) {
+      const char* const folder = all == &settings.submissions ? "submissions/" : "baselines/";
+      for (const Submission& submission : *all) {
+        SubmissionResult one;
+        one.id = submission.person.id;
+        one.name = submission.person.name;
+        one.folder = folder + submission.folder;
+        one.handed_in = !submission.place.empty();
+        if (!one.handed_in) one.build.reason = "nothing was handed in";
+        result_.submissions.push_back(std::move(one));
+        submissions_.push_back(&submission);
+      }
     }
-    build_keys_.resize(settings.submissions.size());
+    build_keys_.resize(submissions_.size());
   }
 
   ClassResult grade() {
@@ -140,6 +135,10 @@ class ClassGrading {
       for (const grade::Task& task : result_.tasks) one.most_points += maximum_points(task);
       for (const grade::Grade& grade : one.grades) one.points += mean_points(grade);
     }
+    const auto first_baseline =
+        result_.submissions.begin() + static_cast<std::ptrdiff_t>(settings_.submissions.size());
+    std::move(first_baseline, result_.submissions.end(), std::back_inserter(result_.baselines));
+    result_.submissions.erase(first_baseline, result_.submissions.end());
     return std::move(result_);
   }
 
@@ -185,12 +184,12 @@ class ClassGrading {
     std::vector<std::unique_ptr<SubmissionBuild>> builds;
     std::vector<std::size_t> submission_of;
     std::vector<playerlike::ProgramJob> jobs;
-    for (std::size_t i = 0; i < settings_.submissions.size(); ++i) {
+    for (std::size_t i = 0; i < submissions_.size(); ++i) {
       SubmissionResult& result = result_.submissions[i];
       if (!result.handed_in) continue;
       const fs::path folder = out_ / result.folder;
       build_keys_[i] =
-          hash_text({fingerprint_of(settings_.submissions[i]), settings_.version, build_commands(),
+          hash_text({fingerprint_of(*submissions_[i]), settings_.version, build_commands(),
                      settings_.build.program, sim::shortest_text(settings_.build.timeout_s)});
       const std::optional<Build> known =
           build_from(read_record(record_of_build(i), build_keys_[i]));
@@ -199,8 +198,7 @@ class ClassGrading {
         ++progress_.known;
         continue;
       }
-      auto build =
-          std::make_unique<SubmissionBuild>(settings_.submissions[i], folder, settings_.build);
+      auto build = std::make_unique<SubmissionBuild>(*submissions_[i], folder, settings_.build);
       if (!build->obstacle().empty()) {
         result.build.reason = build->obstacle();
         continue;
@@ -308,7 +306,8 @@ class ClassGrading {
   const ClassSettings& settings_;
   const std::function<void(const ClassProgress&)>& on_progress_;
   const fs::path out_;
-  ClassResult result_;
+  ClassResult result_;  ///< until the end, with baselines among its submissions
+  std::vector<const Submission*> submissions_;  ///< in the same order
   ClassProgress progress_;
   std::vector<std::unique_ptr<grade::PreparedTask>> tasks_;
   std::vector<std::string> build_keys_;  ///< by submission; "": nothing to build

@@ -20,6 +20,7 @@ namespace playpen::course {
 struct ClassSettings {
   std::vector<grade::Task> tasks;       ///< at least one, with different names
   std::vector<Submission> submissions;  ///< see find_submissions()
+  std::vector<Submission> baselines;    ///< programs that everybody knows, such as the template
   std::string output_folder;
   std::string version;  ///< of Playpen
   int jobs = 1;         ///< processes that run side by side, >= 1

@@ -6,13 +6,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <stdexcept>
 #include <vector>
 
 #include "grade/rubric.h"
 #include "grade/run_record.h"
+#include "grade/text.h"
 #include "sim/core/number_text.h"
-#include "sim/core/replace_file.h"
 #include "sim/core/utf8.h"
 
 namespace playpen::course {
@@ -167,14 +166,6 @@ std::string dumped(const ordered_json& document) {
   return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 
-void write_file(const fs::path& file, const std::string& text) {
-  fs::create_directories(file.parent_path());
-  if (const int error = sim::replace_file(file.string(), text)) {
-    throw std::runtime_error("the file '" + file.string() +
-                             "' can't be written: " + std::strerror(error));
-  }
-}
-
 bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
 
 /// The number of characters of a UTF-8 text.
@@ -319,6 +310,9 @@ std::string json_text(const ClassResult& result) {
                      {"second", plain_text(result.submissions[pair.second].id)},
                      {"runs", pair.runs},
                      {"alike", pair.alike},
+                     {"likeness", pair.likeness},
+                     {"threshold", pair.threshold},
+                     {"shared", pair.shared_m},
                      {"distance", pair.distance_m},
                      {"picture", pair.picture}});
   }
@@ -374,11 +368,11 @@ std::string gradescope_text(const SubmissionResult& submission) {
 }
 
 void write_results(const ClassResult& result, const fs::path& folder) {
-  write_file(folder / "class.json", json_text(result));
-  write_file(folder / "results.csv", csv_text(result));
-  write_file(folder / "junit.xml", junit_text(result));
+  grade::write_text_file(folder / "class.json", json_text(result));
+  grade::write_text_file(folder / "results.csv", csv_text(result));
+  grade::write_text_file(folder / "junit.xml", junit_text(result));
   for (const SubmissionResult& one : result.submissions) {
-    write_file(folder / one.folder / "results.json", gradescope_text(one));
+    grade::write_text_file(folder / one.folder / "results.json", gradescope_text(one));
   }
 }
 

@@ -137,17 +137,6 @@ const Person* find_person(const std::vector<Person>& roster, const std::string& 
   return found;
 }
 
-void name_folders(std::vector<Submission>& submissions) {
-  std::set<std::string> taken;
-  for (Submission& submission : submissions) {
-    const std::string name = folder_name(submission.person.id);
-    submission.folder = name;
-    for (int i = 2; !taken.insert(lower(submission.folder)).second; ++i) {
-      submission.folder = name + "_" + std::to_string(i);
-    }
-  }
-}
-
 /// Calls a function with each regular file of a submission's folder and its path there, in the
 /// order of their paths.
 template <typename Function>
@@ -261,6 +250,17 @@ std::vector<Submission> find_submissions(const fs::path& folder,
   for (auto& [id, submission] : found) submissions.push_back(std::move(submission));
   name_folders(submissions);
   return submissions;
+}
+
+void name_folders(std::vector<Submission>& submissions) {
+  std::set<std::string> taken;
+  for (Submission& submission : submissions) {
+    const std::string name = folder_name(submission.person.id);
+    submission.folder = name;
+    for (int i = 2; !taken.insert(lower(submission.folder)).second; ++i) {
+      submission.folder = name + "_" + std::to_string(i);
+    }
+  }
 }
 
 Submission one_submission(const fs::path& place, const std::string& id, const fs::path& left_out) {

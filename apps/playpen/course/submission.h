@@ -51,6 +51,9 @@ struct Submission {
 [[nodiscard]] Submission one_submission(const std::filesystem::path& place, const std::string& id,
                                         const std::filesystem::path& left_out);
 
+/// Gives each submission a name for its folder that differs from those of the others.
+void name_folders(std::vector<Submission>& submissions);
+
 /// A text that is different if any name or content of a submission is. Symbolic links and special
 /// files do not count.
 /// @throws std::runtime_error if a file cannot be read.

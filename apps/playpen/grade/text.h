@@ -1,12 +1,18 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace playpen::grade {
 
 /// A number with the given number of decimals, or with more if rounding would make it equal to a
 /// limit that it differs from: 0.97996 is not "0.980" beside a limit of 0.98.
 [[nodiscard]] std::string telling_number(double value, double limit, int decimals);
+
+/// Writes a file of results, with the folders that are missing, and replaces an existing one.
+/// @throws std::runtime_error that names the file.
+void write_text_file(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace playpen::grade
