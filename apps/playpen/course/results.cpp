@@ -174,9 +174,10 @@ std::size_t length_of(const std::string& text) {
 }
 
 /// A text of a column, whose width is counted in characters.
-std::string padded(const std::string& text, std::size_t width) {
+std::string padded(const std::string& text, std::size_t width, bool is_number) {
   const std::size_t length = length_of(text);
-  return text + std::string(length < width ? width - length : 0, ' ');
+  const std::string blanks(length < width ? width - length : 0, ' ');
+  return is_number ? blanks + text : text + blanks;
 }
 
 std::string cut(const std::string& text, std::size_t width) {
@@ -249,6 +250,7 @@ std::string class_table(const ClassResult& result, std::size_t columns) {
   }
   constexpr std::size_t kReason = 4;
   constexpr std::size_t kName = 1;
+  constexpr std::size_t kPoints = 2;
   std::vector<std::size_t> widths(kReason, 0);
   for (const auto& row : rows) {
     for (std::size_t i = 0; i < kReason; ++i) {
@@ -261,7 +263,7 @@ std::string class_table(const ClassResult& result, std::size_t columns) {
   for (const auto& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < kReason; ++i) {
-      if (i != kName || names) line += padded(row[i], widths[i]) + "  ";
+      if (i != kName || names) line += padded(row[i], widths[i], i == kPoints) + "  ";
     }
     const std::size_t used = length_of(line);
     line += cut(row[kReason], columns > used ? columns - used : 0);

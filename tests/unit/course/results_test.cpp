@@ -66,9 +66,9 @@ TEST(ClassTable, Rows_BestFirstWithReasons) {
   const std::string table = class_table(small_class(), 64);
   EXPECT_EQ(table,
             "id        name          points  passed  reason\n"
-            "carl                    40.0    -       nothing was handed in\n"
-            "ada       Byron, \"Ada\"  33.5    1 of 3  3 collisions & <more>...\n"
-            "=1+1?[2J  B\\xff         0.0     -       does not compile\n"
+            "carl                      40.0  -       nothing was handed in\n"
+            "ada       Byron, \"Ada\"    33.5  1 of 3  3 collisions & <more>...\n"
+            "=1+1?[2J  B\\xff            0.0  -       does not compile\n"
             "alike: =1+1?[2J and ada in 2 of 3 runs\n"
             "3 submissions, 1 compiled, 0 passed all runs\n");
 }
