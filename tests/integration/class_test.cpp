@@ -200,6 +200,26 @@ TEST_F(Class, HostileBuild_ReachesNothing) {
   EXPECT_EQ(row_of(whole, "eve").at("build").at("program"), "build/source/robot");
 }
 
+TEST_F(Class, BuildThatLocksItsFolder_CanBeRepeated) {
+  hand_in("eve/Makefile",
+          "robot:\n\tmkdir -p a/b/c\n\tchmod 000 a/b\n\tchmod 000 a\n\tchmod 555 .\n");
+  ASSERT_EQ(grade().status, 0);
+  hand_in("eve/Makefile", kMakefile);
+  const ProcessResult result = grade();
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(row_of(result_of(folder_ / "out"), "eve").at("build").at("built"), true);
+}
+
+TEST_F(Class, BuildThatFillsDisk_IsEndedAndRemoved) {
+  hand_in("eve/Makefile",
+          "robot:\n\tfor i in 1 2 3 4 5 6 7 8 9 10; do head -c 60000000 /dev/zero > $$i; done\n"
+          "\tsleep 1000000\n");
+  ASSERT_EQ(grade().status, 0);
+  EXPECT_EQ(row_of(result_of(folder_ / "out"), "eve").at("reason"),
+            "compiling wrote more than 500 MB");
+  EXPECT_FALSE(fs::exists(folder_ / "out/submissions/eve/build/source/1"));
+}
+
 TEST_F(Class, BuildWithoutEnd_IsEnded) {
   hand_in("ada/Makefile", "robot: ; sleep 1000000\n");
   const ProcessResult result = grade("out", {"--build-timeout", "0.5"});

@@ -83,6 +83,22 @@ bool is_program(const fs::path& file) {
          header.e_machine == own.e_machine && (header.e_type == ET_EXEC || header.e_type == ET_DYN);
 }
 
+/// Removes a folder that a build has left, also if it has taken away the rights to do so.
+void remove_tree(const fs::path& folder) {
+  std::error_code error;
+  fs::remove_all(folder, error);
+  if (!error) return;
+  if (!fs::is_symlink(folder, error)) {
+    fs::permissions(folder, fs::perms::owner_all, fs::perm_options::add, error);
+  }
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->symlink_status(error).type() != fs::file_type::directory) continue;
+    fs::permissions(entry->path(), fs::perms::owner_all, fs::perm_options::add, error);
+  }
+  fs::remove_all(folder);
+}
+
 /// For the user of a sandbox of root, who is another one.
 void let_everybody_write(const fs::path& folder) {
   constexpr fs::perms kReadAndWrite = fs::perms::owner_read | fs::perms::owner_write |
@@ -107,7 +123,7 @@ SubmissionBuild::SubmissionBuild(const Submission& submission, fs::path folder,
                                  const BuildSettings& settings)
     : folder_(std::move(folder)), settings_(settings) {
   const fs::path source = folder_ / kSource;
-  fs::remove_all(source);
+  remove_tree(source);
   fs::create_directories(source);
   if (submission.is_archive) {
     archive_ = fs::absolute(submission.place);
@@ -147,6 +163,7 @@ Build SubmissionBuild::result(const playerlike::JobEnd& end) const {
     build.reason = "compiling took more than " + sim::shortest_text(settings_.timeout_s) + " s";
   } else if (end.kind == Kind::kTooMuchOutput) {
     build.reason = "compiling wrote more than " + std::to_string(kMostBuilt / 1'000'000) + " MB";
+    remove_tree(folder_ / kSource);
   } else if (end.kind != Kind::kEnded) {
     build.reason = "compiling was interrupted";
   } else if (!end.program.success()) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "grade/grade.h"
+#include "grade/individual.h"
 #include "grade/rubric.h"
 #include "grade/run_record.h"
 #include "grade/runs.h"
@@ -258,19 +259,30 @@ class ClassGrading {
     std::size_t submission = 0;
     std::string key;
     fs::path records;
+    std::optional<grade::PreparedTask> own_task;  ///< with this person's conditions
     grade::GradeSettings settings;
     grade::Grade grade;
     std::unique_ptr<grade::ProgramRuns> runs;
   };
 
-  void prepare_runs(std::size_t submission, const grade::PreparedTask& task,
+  void prepare_runs(std::size_t submission, const grade::PreparedTask& common_task,
                     const std::string& task_key) {
-    const SubmissionResult& result = result_.submissions[submission];
+    SubmissionResult& result = result_.submissions[submission];
     const fs::path folder = fs::absolute(out_ / result.folder);
     const fs::path program = folder / result.build.program;
     const fs::path source = source_folder(folder);
     runs_.push_back(std::make_unique<Runs>());
     Runs& runs = *runs_.back();
+    if (settings_.individual) {
+      grade::IndividualTask own =
+          individual_task(common_task.task(), result.id,
+                          (folder / "conditions" / common_task.task().name).string());
+      runs.own_task.emplace(std::move(own.task));
+      for (const std::string& sentence : own.sentences) {
+        result.note += (result.note.empty() ? "" : "; ") + sentence;
+      }
+    }
+    const grade::PreparedTask& task = runs.own_task ? *runs.own_task : common_task;
     runs.submission = submission;
     runs.key = hash_text({build_keys_[submission], task_key, settings_.isolated ? "1" : "0"});
     runs.settings.program = {program.string()};
