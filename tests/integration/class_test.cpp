@@ -180,6 +180,27 @@ TEST_F(Class, Killed_GoesOnToTheSameResult) {
   EXPECT_EQ(result_of(folder_ / "killed"), result_of(folder_ / "whole"));
 }
 
+TEST_F(Class, Individual_DerivedFromIdAlone) {
+  for (const char* id : {"ada", "bob"}) hand_in(std::string(id) + "/Makefile", kMakefile);
+  ASSERT_EQ(grade("out", {"--individual"}).status, 0);
+  const json whole = result_of(folder_ / "out");
+  const json& ada = row_of(whole, "ada");
+  EXPECT_THAT(ada.at("note").get<std::string>(), HasSubstr("start at"));
+  EXPECT_NE(ada.at("note"), row_of(whole, "bob").at("note"));
+  const auto world_of = [this](const std::string& out, const std::string& id) {
+    return read_bytes(folder_ / out + "/submissions/" + id + "/conditions/drive/room.json");
+  };
+  EXPECT_NE(world_of("out", "ada"), world_of("out", "bob"));
+  // At home, with another name of the folder.
+  folder_.write("home/Makefile", kMakefile);
+  const ProcessResult result =
+      playpen({"class", folder_ / "task/drive.task.json", "--submission", folder_ / "home", "--id",
+               "ada", "--individual", "--out", folder_ / "own", "--isolated", "best"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(world_of("own", "ada"), world_of("out", "ada"));
+  EXPECT_EQ(row_of(result_of(folder_ / "own"), "ada").at("note"), ada.at("note"));
+}
+
 TEST_F(Class, HostileBuild_ReachesNothing) {
   folder_.write("secret", "what only the teacher knows");
   const std::string mark = folder_ / "mark";

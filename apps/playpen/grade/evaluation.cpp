@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -29,18 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using playerlike::Report;
-
-/// Radius of the largest circle around the origin inside a convex outline [m].
-double inscribed_radius(const sim::Polygon& outline) {
-  double radius = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const sim::Vec2& a = outline[i];
-    const sim::Vec2 side = outline[(i + 1) % outline.size()] - a;
-    // Distance of the origin from the line through a side.
-    radius = std::min(radius, std::abs(side.x() * a.y() - side.y() * a.x()) / side.norm());
-  }
-  return radius;
-}
 
 [[noreturn]] void refuse(const Task& task, const char* id, const char* pointer,
                          std::string expected, std::string found, std::string hint = "") {

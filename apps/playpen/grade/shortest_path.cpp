@@ -163,6 +163,17 @@ bool touches(const Corner& corner, std::int64_t dx, std::int64_t dy) {
 
 }  // namespace
 
+double inscribed_radius(const sim::Polygon& outline) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const sim::Vec2& a = outline[i];
+    const sim::Vec2 side = outline[(i + 1) % outline.size()] - a;
+    // Distance of the origin from the line through a side.
+    radius = std::min(radius, std::abs(side.x() * a.y() - side.y() * a.x()) / side.norm());
+  }
+  return radius;
+}
+
 sim::OccupancyMap inflate(const sim::OccupancyMap& map, double radius_m) {
   sim::OccupancyMap result = map;
   for (float& cell : result.cells) cell = cell > kSolidAbove ? 1.0F : 0.0F;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/core/pose.h"
+#include "sim/world/description.h"
 #include "sim/world/occupancy_map.h"
 
 namespace playpen::grade {
@@ -14,6 +15,9 @@ struct Way {
   double length_m = 0.0;          ///< [m]
   std::vector<sim::Vec2> points;  ///< in W, from start to goal [m]
 };
+
+/// Radius of the largest circle around the origin inside a convex outline [m].
+[[nodiscard]] double inscribed_radius(const sim::Polygon& outline);
 
 /// Inflates a map for the centre of a round robot: a cell becomes solid if the distance from its
 /// centre to the area of a solid cell is less than the radius.
