@@ -112,8 +112,8 @@ std::string pairs_section(const ClassResult& result) {
   if (result.pairs.empty()) return "";
   std::string html =
       "<h2 id=\"alike\">Programs that drive alike</h2>\n"
-      "<p>The robots of these pairs drove the same way, and neither as the template nor as a "
-      "solution does. That is a reason to compare both sources, not a verdict.</p>\n"
+      "<p>The robots of these pairs drove the same way, and not as the template or another "
+      "baseline does. That is a reason to compare both sources, not a verdict.</p>\n"
       "<div class=\"pictures\">\n";
   for (const LikePair& pair : result.pairs) {
     const SubmissionResult& first = result.submissions[pair.first];
