@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "course/class_likeness.h"
 #include "course/class_runs.h"
+#include "course/html_report.h"
 #include "course/results.h"
 #include "preload.h"
 #include "project.h"
@@ -182,12 +183,14 @@ int grade_class(const ClassRequest& request) {
   // Under other conditions, robots drive other ways.
   if (result.complete && !request.individual) course::compare_submissions(result, request.output_folder);
   course::write_results(result, request.output_folder);
+  course::write_html_report(result, request.output_folder);
   std::cout << course::class_table(result, terminal_columns(STDOUT_FILENO));
   if (!result.complete) {
     std::cout << "interrupted: the same command goes on from here\n";
     return kProgramFailed;
   }
-  std::cout << "details: " << (fs::path(request.output_folder) / "class.json").string() << '\n';
+  std::cout << "details: " << (fs::path(request.output_folder) / "class.json").string() << '\n'
+            << "report: " << (fs::path(request.output_folder) / "index.html").string() << '\n';
   const bool all_passed =
       std::all_of(result.submissions.begin(), result.submissions.end(),
                   [](const auto& one) { return one.build.built && one.passed() == one.runs(); });

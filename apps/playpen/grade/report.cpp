@@ -131,19 +131,32 @@ Row row_of(const Task& task, const GradedRun& run) {
           run.ending == Ending::kNotRun ? "-" : sim::fixed_text(run.wall_time_s, 1)};
 }
 
+/// The headings, and the rows of the runs.
+std::vector<Row> rows_of(const Grade& grade) {
+  std::vector<Row> rows;
+  Row headings;
+  for (const Column& column : kColumns) headings.emplace_back(column.heading);
+  rows.push_back(std::move(headings));
+  for (const GradedRun& run : grade.runs) rows.push_back(row_of(grade.task, run));
+  return rows;
+}
+
+/// The columns that are not hidden.
+std::vector<std::size_t> shown_columns(const std::vector<Row>& rows) {
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < std::size(kColumns); ++i) {
+    const auto is_measured = [i](const Row& row) { return row[i] != "-"; };
+    const bool any = std::any_of(rows.begin() + 1, rows.end(), is_measured);
+    if (any || !kColumns[i].is_optional) shown.push_back(i);
+  }
+  return shown;
+}
+
 /// The runs' rows, the visible columns and their widths.
 class Table {
  public:
-  Table(const Grade& grade, const TableStyle& style) : style_(style) {
-    Row headings;
-    for (const Column& column : kColumns) headings.emplace_back(column.heading);
-    rows_.push_back(std::move(headings));
-    for (const GradedRun& run : grade.runs) rows_.push_back(row_of(grade.task, run));
-    for (std::size_t i = 0; i < std::size(kColumns); ++i) {
-      const auto is_measured = [i](const Row& row) { return row[i] != "-"; };
-      const bool any = std::any_of(rows_.begin() + 1, rows_.end(), is_measured);
-      if (any || !kColumns[i].is_optional) shown_.push_back(i);
-    }
+  Table(const Grade& grade, const TableStyle& style)
+      : style_(style), rows_(rows_of(grade)), shown_(shown_columns(rows_)) {
     fit();
   }
 
@@ -282,6 +295,18 @@ ordered_json points_json(const Task& task, const GradedRun& run) {
 std::size_t Grade::passed() const noexcept {
   return static_cast<std::size_t>(
       std::count_if(runs.begin(), runs.end(), [](const GradedRun& run) { return run.passed(); }));
+}
+
+std::vector<std::vector<std::string>> table_cells(const Grade& grade) {
+  const std::vector<Row> rows = rows_of(grade);
+  std::vector<std::vector<std::string>> cells;
+  for (const Row& row : rows) {
+    std::vector<std::string>& shown = cells.emplace_back();
+    for (const std::size_t column : shown_columns(rows)) {
+      if (column != std::size(kColumns) - 1) shown.push_back(row[column]);  // the wall-clock time
+    }
+  }
+  return cells;
 }
 
 std::string table(const Grade& grade, const TableStyle& style) {

@@ -37,6 +37,10 @@ struct TableStyle {
 /// all). Sentences below the table are not wrapped: they may be longer than a line.
 [[nodiscard]] std::string table(const Grade& grade, const TableStyle& style = {});
 
+/// The cells of the table for other layouts: the headings, then a row per run. Measures without any
+/// values have no column, and neither has the wall-clock time.
+[[nodiscard]] std::vector<std::vector<std::string>> table_cells(const Grade& grade);
+
 /// The grade as JSON (docs/grading.md), for programs. Equal grades give equal text, except for the
 /// members called wall_time.
 [[nodiscard]] std::string json_text(const Grade& grade);

@@ -1,0 +1,282 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <map>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "course/html_page.h"
+#include "course/html_report.h"
+#include "course/html_text.h"
+#include "course/results.h"
+#include "sim/core/number_text.h"
+
+namespace playpen::course {
+namespace {
+
+namespace fs = std::filesystem;
+using grade::Ending;
+using grade::GradedRun;
+
+constexpr std::size_t kOutputLines = 40;
+constexpr std::size_t kCompilerLines = 120;
+
+std::string name_of_run(const GradedRun& run) {
+  return html_escaped(run.world) + ", seed " + std::to_string(run.seed);
+}
+
+// Explanations of the headings of the table of runs.
+std::string heading_words(const std::string& heading) {
+  static const std::map<std::string, std::string> kWords = {{"", "verdict"},
+                                                            {"cover", "coverage"},
+                                                            {"correct", "map correctness"},
+                                                            {"path", "path [m]"},
+                                                            {"ratio", "path ratio"},
+                                                            {"coll", "collisions"},
+                                                            {"clear", "clearance [m]"},
+                                                            {"sim", "simulated [s]"}};
+  const auto words = kWords.find(heading);
+  return words == kWords.end() ? heading : words->second;
+}
+
+std::string runs_table(const grade::Grade& grade) {
+  const std::vector<std::vector<std::string>> cells = grade::table_cells(grade);
+  std::string html =
+      "<div class=\"wide\" role=\"region\" aria-label=\"Runs\" "
+      "tabindex=\"0\">\n<table>\n<caption>" +
+      std::to_string(grade.passed()) + " of " + std::to_string(grade.runs.size()) +
+      " runs passed</caption>\n<thead><tr>";
+  for (const std::string& heading : cells.front()) {
+    html += "<th scope=\"col\">" + heading_words(heading) + "</th>";
+  }
+  html += "</tr></thead>\n<tbody>\n";
+  for (std::size_t r = 1; r < cells.size(); ++r) {
+    html += "<tr>";
+    for (std::size_t c = 0; c < cells[r].size(); ++c) {
+      const std::string& cell = cells[r][c];
+      if (cells.front()[c].empty()) {
+        const bool passed = cell == "pass";
+        html += std::string("<td class=\"") + (passed ? "good" : "bad") + "\">" +
+                (passed ? "passed" : "failed") + "</td>";
+      } else {
+        html += "<td class=\"nowrap\">" + html_escaped(cell) + "</td>";
+      }
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n</div>\n";
+}
+
+// The reasons of a run, in words for its student.
+std::vector<std::string> reasons_of(const GradedRun& run) {
+  std::vector<std::string> reasons = run.faults;
+  switch (run.ending) {
+    case Ending::kSignal:
+      reasons.emplace_back("The program crashed. A debugger shows the line.");
+      break;
+    case Ending::kTimedOut:
+      reasons.emplace_back(
+          "The program took too long: look for loops that never read from the robot.");
+      break;
+    case Ending::kTooMuchOutput:
+      reasons.emplace_back("The program wrote too much: print less in each step.");
+      break;
+    default:
+      break;
+  }
+  return reasons;
+}
+
+// All reasons of a grade, each once, with its runs.
+std::string reasons_list(const grade::Grade& grade) {
+  std::vector<std::pair<std::string, std::vector<const GradedRun*>>> reasons;
+  for (const GradedRun& run : grade.runs) {
+    for (const std::string& reason : reasons_of(run)) {
+      auto known = std::find_if(reasons.begin(), reasons.end(),
+                                [&](const auto& entry) { return entry.first == reason; });
+      if (known == reasons.end()) known = reasons.insert(known, {reason, {}});
+      known->second.push_back(&run);
+    }
+  }
+  if (reasons.empty()) return "";
+  constexpr std::size_t kMostNamed = 5;
+  std::string html = "<h3>Why runs failed</h3>\n<ul>\n";
+  for (const auto& [reason, runs] : reasons) {
+    html += "<li>" + html_escaped(reason) + " <span class=\"faint\">(";
+    for (std::size_t i = 0; i < std::min(runs.size(), kMostNamed); ++i) {
+      html += (i > 0 ? "; " : "") + name_of_run(*runs[i]);
+    }
+    if (runs.size() > kMostNamed) {
+      html += "; and " + std::to_string(runs.size() - kMostNamed) + " more";
+    }
+    html += ")</span></li>\n";
+  }
+  return html + "</ul>\n";
+}
+
+// Whether a run is better than another one: it passed, has fewer faults, more points, a better map,
+// fewer collisions, or a longer distance.
+bool is_better(const GradedRun& a, const GradedRun& b) {
+  const auto merit = [](const GradedRun& run) {
+    const grade::Measures& m = run.measures;
+    return std::vector<double>{-static_cast<double>(run.faults.size()),
+                               m.score.value_or(0.0),
+                               m.reached.value_or(false) ? 1.0 : 0.0,
+                               m.coverage.value_or(0.0),
+                               -static_cast<double>(m.collisions.value_or(0)),
+                               -m.path_ratio.value_or(0.0),
+                               m.distance_m.value_or(0.0)};
+  };
+  return merit(a) > merit(b);
+}
+
+// A word for a shell (POSIX).
+std::string quoted_word(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=:+,@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + '\'';
+}
+
+// The command that repeats a run.
+std::string repeat_command(const ClassResult& result, const SubmissionResult& submission,
+                           const grade::Task& task, const GradedRun& run) {
+  std::vector<std::string> words = {"playpen", "run", run.world, "--seed",
+                                    std::to_string(run.seed)};
+  if (task.duration_s)
+    words.insert(words.end(), {"--duration", sim::shortest_text(*task.duration_s)});
+  if (run.asked.realism != "course") words.insert(words.end(), {"--realism", run.asked.realism});
+  if (result.isolated) words.emplace_back("--isolated=required");
+  const std::string program = fs::path(submission.build.program).filename().string();
+  words.insert(words.end(), {"--", "./" + program});
+  words.insert(words.end(), task.arguments.begin(), task.arguments.end());
+  for (const grade::TaskWorld& world : task.worlds) {
+    if (grade::world_name(world.file) != run.world) continue;
+    words.insert(words.end(), world.arguments.begin(), world.arguments.end());
+  }
+  std::string command;
+  for (const std::string& word : words) command += (command.empty() ? "" : " ") + quoted_word(word);
+  return command;
+}
+
+// The files of a grade's runs, seen from the page of the submission.
+class RunFiles {
+ public:
+  RunFiles(const fs::path& submission, const grade::Grade& grade)
+      : submission_(submission), task_(grade.task.name) {}
+
+  [[nodiscard]] fs::path path(const GradedRun& run, const char* name) const {
+    return submission_ / url_path(run, name);
+  }
+  [[nodiscard]] std::string url(const GradedRun& run, const char* name) const {
+    return url_of(url_path(run, name));
+  }
+  [[nodiscard]] bool has(const GradedRun& run, const char* name) const {
+    std::error_code error;
+    return fs::symlink_status(path(run, name), error).type() == fs::file_type::regular;
+  }
+
+ private:
+  [[nodiscard]] fs::path url_path(const GradedRun& run, const char* name) const {
+    return fs::path(task_) / run.folder / name;
+  }
+
+  fs::path submission_;
+  std::string task_;
+};
+
+std::string figure_of(const RunFiles& files, const GradedRun& run, const std::string& which) {
+  constexpr const char* kPicture = "scene.png";
+  if (!files.has(run, kPicture)) return "";
+  const std::string url = files.url(run, kPicture);
+  return "<figure><a href=\"" + url + "\"><img loading=\"lazy\" src=\"" + url +
+         "\" alt=\"Where the robot drove in " + name_of_run(run) + "\"></a><figcaption>" + which +
+         ": " + name_of_run(run) + ", " + (run.passed() ? "passed" : "failed") +
+         "</figcaption></figure>\n";
+}
+
+std::string log_block(const LogTail& log, const std::string& label) {
+  return std::string(log.is_whole ? "" : "<p class=\"faint\">Only the last lines:</p>\n") +
+         "<pre tabindex=\"0\" role=\"region\" aria-label=\"" + label + "\">" +
+         [&] {
+           std::string lines;  // html_escaped() replaces line breaks, too
+           for (std::size_t begin = 0; begin < log.text.size();) {
+             const std::size_t end = std::min(log.text.find('\n', begin), log.text.size());
+             lines += html_escaped(log.text.substr(begin, end - begin)) + '\n';
+             begin = end + 1;
+           }
+           return lines;
+         }() +
+         "</pre>\n";
+}
+
+std::string grade_section(const ClassResult& result, const SubmissionResult& submission,
+                          const grade::Grade& grade, const fs::path& folder) {
+  std::string html = "<h2>" + html_escaped(grade.task.name) + "</h2>\n";
+  if (grade.runs.empty()) return html + "<p>There are no runs.</p>\n";
+  html += runs_table(grade) + reasons_list(grade);
+  const RunFiles files(folder / submission.folder, grade);
+  const auto best = std::min_element(grade.runs.begin(), grade.runs.end(), is_better);
+  const auto worst = std::max_element(grade.runs.begin(), grade.runs.end(), is_better);
+  std::string figures = figure_of(files, *best, grade.runs.size() > 1 ? "Best run" : "The run");
+  if (worst != best) figures += figure_of(files, *worst, "Worst run");
+  if (!figures.empty()) {
+    html += "<h3>Where the robot drove</h3>\n<div class=\"pictures\">\n" + figures + "</div>\n";
+  }
+  if (worst->passed()) return html;
+  const LogTail log = tail_of(files.path(*worst, "program.log"), kOutputLines);
+  if (!log.text.empty()) {
+    html += "<h3>What the program printed in " + name_of_run(*worst) + "</h3>\n" +
+            log_block(log, "Output of the program");
+  }
+  if (!submission.build.program.empty()) {
+    html += "<h3>To repeat " + name_of_run(*worst) + "</h3>\n<pre tabindex=\"0\">" +
+            html_escaped(repeat_command(result, submission, grade.task, *worst)) + "</pre>\n";
+  }
+  return html;
+}
+
+std::string points_text(const SubmissionResult& submission) {
+  std::string text = "<li><b>" + sim::fixed_text(submission.points, 1) + "</b> ";
+  if (submission.most_points > 0.0)
+    text += "of " + sim::fixed_text(submission.most_points, 1) + ' ';
+  return text + "points</li>";
+}
+
+}  // namespace
+
+std::string submission_page(const ClassResult& result, std::size_t index, const fs::path& folder) {
+  const SubmissionResult& submission = result.submissions.at(index);
+  const std::string title = html_escaped(submission.id);
+  // The way back, however deep the folder is.
+  const fs::path back = fs::path("index.html").lexically_relative(submission.folder);
+  std::string body = "<nav><a href=\"" + url_of(back) +
+                     "\">All submissions</a></nav>\n<main>\n<h1>" + isolated_name(submission.id);
+  if (!submission.name.empty()) body += ": " + isolated_name(submission.name);
+  body += "</h1>\n<ul class=\"facts\">" + points_text(submission);
+  if (submission.runs() > 0) {
+    body += "<li><b>" + std::to_string(submission.passed()) + "</b> of " +
+            std::to_string(submission.runs()) + " runs passed</li>";
+  }
+  body += "<li>" + state_mark(submission) + "</li></ul>\n";
+  if (!submission.note.empty()) body += "<p>" + html_escaped(submission.note) + "</p>\n";
+  if (!submission.build.built) {
+    body +=
+        "<p class=\"bad\">There is no program: " + html_escaped(submission.build.reason) + "</p>\n";
+  }
+  for (const grade::Grade& grade : submission.grades) {
+    body += grade_section(result, submission, grade, folder);
+  }
+  if (!submission.build.log.empty()) {
+    const LogTail log = tail_of(folder / submission.folder / submission.build.log, kCompilerLines);
+    body += "<h2>What the compiler printed</h2>\n" +
+            (log.text.empty() ? std::string("<p>Nothing.</p>\n")
+                              : log_block(log, "Output of the compiler"));
+  }
+  return html_page(title, body + "</main>\n", "");
+}
+
+}  // namespace playpen::course
