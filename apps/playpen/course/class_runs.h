@@ -25,9 +25,9 @@ struct ClassSettings {
   std::string version;  ///< of Playpen
   int jobs = 1;         ///< processes that run side by side, >= 1
   BuildSettings build;
-  std::optional<sim::Realism> realism;         ///< empty: that of each world
-  bool individual = false;  ///< whether each submission has conditions of its own
-  bool isolated = true;                        ///< whether the launchers make sandboxes
+  std::optional<sim::Realism> realism;  ///< empty: that of each world
+  bool individual = false;              ///< whether each submission has conditions of its own
+  bool isolated = true;                 ///< whether the launchers make sandboxes
   playerlike::EnvironmentChanges environment;  ///< of the programs, besides what the run needs
   /// Words before a program that runs it in a sandbox; no words: none.
   /// @param task    that it runs on.

@@ -68,26 +68,6 @@ std::string runs_table(const grade::Grade& grade) {
   return html + "</tbody>\n</table>\n</div>\n";
 }
 
-// The reasons of a run, in words for its student.
-std::vector<std::string> reasons_of(const GradedRun& run) {
-  std::vector<std::string> reasons = run.faults;
-  switch (run.ending) {
-    case Ending::kSignal:
-      reasons.emplace_back("The program crashed. A debugger shows the line.");
-      break;
-    case Ending::kTimedOut:
-      reasons.emplace_back(
-          "The program took too long: look for loops that never read from the robot.");
-      break;
-    case Ending::kTooMuchOutput:
-      reasons.emplace_back("The program wrote too much: print less in each step.");
-      break;
-    default:
-      break;
-  }
-  return reasons;
-}
-
 // All reasons of a grade, each once, with its runs.
 std::string reasons_list(const grade::Grade& grade) {
   std::vector<std::pair<std::string, std::vector<const GradedRun*>>> reasons;

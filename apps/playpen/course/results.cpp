@@ -121,7 +121,7 @@ JunitSuite suite_of(const SubmissionResult& submission) {
   for (const grade::Grade& grade : submission.grades) {
     for (const grade::GradedRun& run : grade.runs) {
       suite.add_case(submission.id + '.' + grade.task.name, run_name(run), run.wall_time_s,
-                     "failure", run.faults);
+                     "failure", reasons_of(run));
     }
   }
   return suite;
@@ -228,6 +228,31 @@ std::string main_reason(const SubmissionResult& submission) {
   if (submission.runs() == 1) return plain_text(most->first);
   return plain_text(most->first) + " (" + std::to_string(most->second) + " of " +
          std::to_string(submission.runs()) + " runs)";
+}
+
+std::vector<std::string> reasons_of(const grade::GradedRun& run) {
+  std::vector<std::string> reasons = run.faults;
+  if (const auto& first = run.measures.first_collision; first && !run.passed()) {
+    reasons.push_back("first hit " + first->partner + " at (" +
+                      sim::fixed_text(first->place.x(), 2) + ", " +
+                      sim::fixed_text(first->place.y(), 2) + ") after " +
+                      sim::fixed_text(first->time_s, 1) + " s");
+  }
+  switch (run.ending) {
+    case grade::Ending::kSignal:
+      reasons.emplace_back("the program crashed: a debugger shows the line");
+      break;
+    case grade::Ending::kTimedOut:
+      reasons.emplace_back(
+          "the program took too long: look for loops that never read from the robot");
+      break;
+    case grade::Ending::kTooMuchOutput:
+      reasons.emplace_back("the program wrote too much: print less in each step");
+      break;
+    default:
+      break;
+  }
+  return reasons;
 }
 
 std::vector<std::size_t> ranking(const ClassResult& result) {
@@ -351,7 +376,7 @@ std::string gradescope_text(const SubmissionResult& submission) {
     for (const grade::GradedRun& run : grade.runs) {
       wall_time_s += run.wall_time_s;
       ordered_json& test =
-          add(grade.task.name + ": " + run_name(run), run.passed(), joined(run.faults, "; "));
+          add(grade.task.name + ": " + run_name(run), run.passed(), joined(reasons_of(run), "; "));
       // The shares of the runs make up the whole score.
       const auto runs = static_cast<double>(grade.runs.size());
       test["score"] = points_of(grade.task, run).total / runs;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "course/class_result.h"
 
@@ -12,6 +13,10 @@ namespace playpen::course {
 /// Why a submission has not passed everywhere, in one sentence: why there is no program, or the
 /// reason that most of its runs have, and how many. "": all runs passed.
 [[nodiscard]] std::string main_reason(const SubmissionResult& submission);
+
+/// Why a run failed, in words for its student: its faults, where it first hit something ("first hit
+/// block_3 at (1.20, 2.05) after 31.4 s"), and what to look for. Empty for a run that has passed.
+[[nodiscard]] std::vector<std::string> reasons_of(const grade::GradedRun& run);
 
 /// A text without control characters and invalid UTF-8, for names and reasons that come from
 /// submissions.

@@ -264,7 +264,7 @@ TEST_F(HtmlReport, Ranking_BestFirstWithEqualRanks) {
 
 TEST_F(HtmlReport, SubmissionThatFails_HasReasonsPicturesOutputAndCommand) {
   const std::string page = page_of("ada");
-  EXPECT_THAT(page, HasSubstr("The program crashed. A debugger shows the line. <span "
+  EXPECT_THAT(page, HasSubstr("the program crashed: a debugger shows the line <span "
                               "class=\"faint\">(maze, seed 3)"));
   EXPECT_THAT(page, HasSubstr("2 collisions <span class=\"faint\">(maze, seed 2; maze, seed 3)"));
   EXPECT_THAT(page, HasSubstr("too late &amp; &lt;slow&gt;"));

@@ -44,6 +44,8 @@ ClassResult small_class() {
   ada.grades = {{task, {"robot"}, {}, true}};
   ada.grades.front().runs = {run_with(1, {}), run_with(2, {"3 collisions & <more>", "late"}),
                              run_with(3, {"3 collisions & <more>"})};
+  ada.grades.front().runs[1].measures.first_collision =
+      grade::Contact{31.42, "block_3", {1.2, 2.049}};
   ada.points = 33.5;
   ada.most_points = 100.0;
   SubmissionResult bob;
@@ -98,7 +100,8 @@ TEST(ClassJunit, Suites_EscapedAndCounted) {
                              "errors=\"2\" time=\"3.500\">"));
   EXPECT_THAT(xml, HasSubstr("<testsuite name=\"ada\" tests=\"4\" failures=\"2\" errors=\"0\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"3 collisions &amp; &lt;more&gt;\">"
-                             "3 collisions &amp; &lt;more&gt;; late</failure>"));
+                             "3 collisions &amp; &lt;more&gt;; late; "
+                             "first hit block_3 at (1.20, 2.05) after 31.4 s</failure>"));
   EXPECT_THAT(xml, HasSubstr("<error message=\"does not compile\">"));
   EXPECT_THAT(xml, Not(HasSubstr("\x1b")));
 }
@@ -114,7 +117,8 @@ TEST(Gradescope, Members_Documented) {
   EXPECT_DOUBLE_EQ(result.at("tests").at(1).at("score"), 100.0 / 3);
   EXPECT_DOUBLE_EQ(result.at("tests").at(2).at("max_score"), 100.0 / 3);
   EXPECT_EQ(result.at("tests").at(2).at("score"), 0.0);
-  EXPECT_EQ(result.at("tests").at(2).at("output"), "3 collisions & <more>; late");
+  EXPECT_EQ(result.at("tests").at(2).at("output"),
+            "3 collisions & <more>; late; first hit block_3 at (1.20, 2.05) after 31.4 s");
 }
 
 }  // namespace
