@@ -134,6 +134,11 @@ TEST_F(Class, Submissions_EachHasItsRow) {
   EXPECT_THAT(read_bytes(folder_ / "out/submissions/eve/build.log"),
               HasSubstr("neither CMakeLists.txt, nor a makefile, nor sources"));
   EXPECT_THAT(first.out, HasSubstr("7 submissions, 3 compiled, 1 passed all runs\n"));
+  EXPECT_THAT(read_bytes(folder_ / "out/index.html"),
+              AllOf(HasSubstr("href=\"submissions/ada/index.html\""),
+                    HasSubstr("<b>7</b> submissions</li><li><b>3</b> compile")));
+  EXPECT_THAT(read_bytes(folder_ / "out/submissions/ada/index.html"),
+              HasSubstr("src=\"drive/room_seed1/scene.png\""));
   for (const char* file : {"results.csv", "junit.xml", "submissions/ada/results.json",
                            "submissions/ada/drive/room_seed1/trajectory.csv"}) {
     EXPECT_TRUE(fs::exists(folder_ / "out/" + file)) << file;

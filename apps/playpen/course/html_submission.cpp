@@ -16,7 +16,6 @@ namespace playpen::course {
 namespace {
 
 namespace fs = std::filesystem;
-using grade::Ending;
 using grade::GradedRun;
 
 constexpr std::size_t kOutputLines = 40;
