@@ -119,6 +119,8 @@ TEST_F(Class, Submissions_EachHasItsRow) {
   EXPECT_THAT(first.err,
               AllOf(HasSubstr("compile: 6 submissions\n"), HasSubstr("drive: 6 runs\n")));
   const json whole = result_of(folder_ / "out");
+  const std::string page = read_bytes(folder_ / "out/submissions/bob/index.html");
+  EXPECT_THAT(page, HasSubstr("playpen run room --seed"));
   const json& ada = row_of(whole, "ada");
   EXPECT_EQ(ada.at("passed"), 2) << ada << read_bytes(folder_ / "out/submissions/ada/build.log");
   EXPECT_EQ(ada.at("name"), "Ada Byron");
@@ -150,6 +152,7 @@ TEST_F(Class, Submissions_EachHasItsRow) {
                                 HasSubstr("drive: 0 runs, 6 known from before\n")));
   EXPECT_EQ(second.out, first.out);
   EXPECT_EQ(result_of(folder_ / "out"), whole);
+  EXPECT_EQ(read_bytes(folder_ / "out/submissions/bob/index.html"), page);
   hand_in("dan/Makefile", kMakefile);
   const ProcessResult third = grade("out", {"--roster", folder_ / "roster.csv"});
   EXPECT_THAT(third.err, AllOf(HasSubstr("compile: 1 submissions, 5 known from before\n"),
@@ -192,6 +195,8 @@ TEST_F(Class, Individual_DerivedFromIdAlone) {
   const json& ada = row_of(whole, "ada");
   EXPECT_THAT(ada.at("note").get<std::string>(), HasSubstr("start at"));
   EXPECT_NE(ada.at("note"), row_of(whole, "bob").at("note"));
+  EXPECT_THAT(read_bytes(folder_ / "out/submissions/ada/index.html"),
+              HasSubstr("playpen run conditions/drive/room.json --seed"));
   const auto world_of = [this](const std::string& out, const std::string& id) {
     return read_bytes(folder_ / out + "/submissions/" + id + "/conditions/drive/room.json");
   };

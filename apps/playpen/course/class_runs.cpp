@@ -300,7 +300,9 @@ class ClassGrading {
           const json value =
               read_record(runs.records / (prepared.folder + ".json"), run_key(runs.key, prepared));
           std::optional<grade::GradedRun> known = grade::read_run(value.dump());
-          if (known) ++progress_.known;
+          if (!known) return known;
+          known->asked = prepared.asked;  // the record has only what came of it
+          ++progress_.known;
           return known;
         });
   }

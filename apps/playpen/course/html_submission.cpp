@@ -123,7 +123,10 @@ std::string quoted_word(const std::string& word) {
 // The command that repeats a run.
 std::string repeat_command(const ClassResult& result, const SubmissionResult& submission,
                            const grade::Task& task, const GradedRun& run) {
-  std::vector<std::string> words = {"playpen", "run", run.world, "--seed",
+  // Worlds of this person's own are beside the page.
+  const std::string world_of_own = "conditions/" + task.name + "/" + run.world + ".json";
+  std::vector<std::string> words = {"playpen", "run",
+                                    submission.note.empty() ? run.world : world_of_own, "--seed",
                                     std::to_string(run.seed)};
   if (task.duration_s)
     words.insert(words.end(), {"--duration", sim::shortest_text(*task.duration_s)});
