@@ -41,6 +41,7 @@ th button::after { content: " \2195"; color: var(--faint); }
 th[aria-sort=ascending] button::after { content: " \2191"; color: var(--ink); }
 th[aria-sort=descending] button::after { content: " \2193"; color: var(--ink); }
 .like { padding: 0 .4rem; border-radius: .6rem; color: var(--mark); background: var(--mark-back);
+  display: inline-block; max-width: 14rem; overflow: hidden; text-overflow: ellipsis;
   white-space: nowrap; }
 .pictures { display: grid; gap: 1.25rem;
   grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr)); }

@@ -180,8 +180,11 @@ std::string figure_of(const RunFiles& files, const GradedRun& run, const std::st
          "</figcaption></figure>\n";
 }
 
-std::string log_block(const LogTail& log, const std::string& label) {
-  return std::string(log.is_whole ? "" : "<p class=\"faint\">Only the last lines:</p>\n") +
+// @param url  of the whole log.
+std::string log_block(const LogTail& log, const std::string& label, const std::string& url) {
+  return std::string(log.is_whole ? ""
+                                  : "<p>The last lines of <a href=\"" + url +
+                                        "\">the whole output</a>:</p>\n") +
          "<pre tabindex=\"0\" role=\"region\" aria-label=\"" + label + "\">" +
          [&] {
            std::string lines;  // html_escaped() replaces line breaks, too
@@ -212,7 +215,7 @@ std::string grade_section(const ClassResult& result, const SubmissionResult& sub
   const LogTail log = tail_of(files.path(*worst, "program.log"), kOutputLines);
   if (!log.text.empty()) {
     html += "<h3>What the program printed in " + name_of_run(*worst) + "</h3>\n" +
-            log_block(log, "Output of the program");
+            log_block(log, "Output of the program", files.url(*worst, "program.log"));
   }
   if (!submission.build.program.empty()) {
     html += "<h3>To repeat " + name_of_run(*worst) + "</h3>\n<pre tabindex=\"0\">" +
@@ -254,9 +257,10 @@ std::string submission_page(const ClassResult& result, std::size_t index, const 
   }
   if (!submission.build.log.empty()) {
     const LogTail log = tail_of(folder / submission.folder / submission.build.log, kCompilerLines);
-    body += "<h2>What the compiler printed</h2>\n" +
-            (log.text.empty() ? std::string("<p>Nothing.</p>\n")
-                              : log_block(log, "Output of the compiler"));
+    body +=
+        "<h2>What the compiler printed</h2>\n" +
+        (log.text.empty() ? std::string("<p>Nothing.</p>\n")
+                          : log_block(log, "Output of the compiler", url_of(submission.build.log)));
   }
   return html_page(title, body + "</main>\n", "");
 }

@@ -201,7 +201,8 @@ class HtmlReport : public testing::Test {
     folder_.write("submissions/ada/maze/maze_seed2/program.log",
                   "start\n\x1b[31m</pre><script>alert(1)</script>\x1b[0m\nlast & least\n");
     folder_.write("submissions/ada/build.log", "");
-    folder_.write(hostile.folder + "/build.log", "main.cc:1: error: vector<int>\x07\n");
+    folder_.write(hostile.folder + "/build.log",
+                  "first\n" + std::string(200, '\n') + "main.cc:1: error: vector<int>\x07\n");
     folder_.write("pairs/0 1.png", "png");
     write_html_report(result_, folder_.path());
   }
@@ -286,6 +287,7 @@ TEST_F(HtmlReport, NoProgram_SaysWhyAndShowsTheCompiler) {
   EXPECT_THAT(page_of(kHostile),
               HasSubstr("There is no program: does not compile: &lt;script&gt;"));
   EXPECT_THAT(page_of(kHostile), HasSubstr("What the compiler printed"));
+  EXPECT_THAT(page_of(kHostile), HasSubstr("last lines of <a href=\"build.log\">"));
   EXPECT_THAT(page_of("zoe"), HasSubstr("nothing was handed in"));
   EXPECT_THAT(page_of("zoe"), Not(HasSubstr("What the compiler printed")));
 }
