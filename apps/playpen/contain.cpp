@@ -174,7 +174,7 @@ SandboxSettings sandbox_of_build(const ContainRequest& request) {
   const std::vector<fs::path> own = own_folders();
   std::error_code error;
   if (fs::exists(own.at(1) / "CMakeCache.txt", error)) {
-    const fs::path source = own.back();
+    const fs::path& source = own.back();
     for (const char* name : {"libplayerlike/include", "libsim/include", "worlds"}) {
       settings.readable.push_back(source / name);
     }

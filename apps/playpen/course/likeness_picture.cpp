@@ -46,10 +46,10 @@ class Scale {
     const Vec2 p = (p_W - low_) * px_per_m_;
     return {left_px_ + p.x(), kHeading + height_px_ - p.y()};
   }
-  [[nodiscard]] std::vector<Vec2> operator()(const std::vector<Vec2>& points_W) const {
+  [[nodiscard]] std::vector<Vec2> operator()(const std::vector<Vec2>& places) const {
     std::vector<Vec2> points;
-    points.reserve(points_W.size());
-    for (const Vec2& p_W : points_W) points.push_back((*this)(p_W));
+    points.reserve(places.size());
+    for (const Vec2& p_W : places) points.push_back((*this)(p_W));
     return points;
   }
   [[nodiscard]] int page_height() const {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "sim/core/number_text.h"
 #include "temporary_folder.h"
 
 namespace playpen::course {
@@ -21,10 +22,11 @@ std::string circle(double radius) {
   constexpr double kSpeed = 0.3;
   for (int k = 0; k < kSamples; ++k) {
     const double angle = kSpeed * 0.1 * k / radius;
-    text += std::to_string(0.1 * k) + ",r1," + std::to_string(1.7 + radius * std::cos(angle)) +
-            ',' + std::to_string(1.7 + radius * std::sin(angle)) + ',' +
-            std::to_string(std::remainder(angle + M_PI_2, 2 * M_PI)) + ",0.3," +
-            std::to_string(kSpeed / radius) + ",0\n";
+    const double yaw = std::remainder(angle + M_PI_2, 2 * M_PI);
+    text += sim::fixed_text(0.1 * k, 3) + ",r1," +
+            sim::fixed_text(1.7 + radius * std::cos(angle), 6) + ',' +
+            sim::fixed_text(1.7 + radius * std::sin(angle), 6) + ',' + sim::fixed_text(yaw, 6) +
+            ",0.3," + sim::fixed_text(kSpeed / radius, 6) + ",0\n";
   }
   return text;
 }
