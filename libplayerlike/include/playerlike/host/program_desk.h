@@ -39,7 +39,8 @@ class ProgramDesk {
   [[nodiscard]] bool is_busy() const noexcept;
   /// Answers questions.
   /// @param program  process id of the program that the run has started.
-  void handle(pid_t program);
+  /// @param on_conflict  called when a program is refused, before it hears of that, if set.
+  void handle(pid_t program, const std::function<void()>& on_conflict = {});
   /// Why a program was refused; "" if none was.
   [[nodiscard]] const std::string& conflict() const noexcept { return conflict_; }
 

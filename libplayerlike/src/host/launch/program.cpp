@@ -377,10 +377,12 @@ ProgramEnd run_program(const std::vector<std::string>& command,
       return result;
     }
     if (watch.desk != nullptr && watch.desk->conflict().empty()) {
-      watch.desk->handle(program.program());
-      if (!watch.desk->conflict().empty()) {
+      // The refused program may end the others, whose report must know of the conflict.
+      watch.desk->handle(program.program(), [&watch] {
         if (watch.tell) watch.tell(watch.desk->conflict());
         if (watch.kept != nullptr) watch.kept->note_conflict();
+      });
+      if (!watch.desk->conflict().empty()) {
         static_cast<void>(requests.note(SIGTERM));
         program.send_signal(SIGTERM);
       }

@@ -84,13 +84,15 @@ bool ProgramDesk::is_busy() const noexcept {
   return std::any_of(known_.begin(), known_.end(), [](const Known& known) { return known.asks; });
 }
 
-void ProgramDesk::handle(pid_t program) {
+void ProgramDesk::handle(pid_t program, const std::function<void()>& on_conflict) {
   accept_new();
   read_messages();
   for (Known& known : known_) {
     if (!known.asks) continue;
+    const bool agreed = conflict_.empty();
     const std::string answer = answer_to(known, program);
     if (answer.empty()) continue;
+    if (agreed && !conflict_.empty() && on_conflict) on_conflict();
     known.asks = false;
     static_cast<void>(send(known.descriptor, answer.data(), answer.size(), MSG_NOSIGNAL));
   }
