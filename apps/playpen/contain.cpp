@@ -169,17 +169,20 @@ SandboxSettings sandbox_of_run(const ContainRequest& request, const Door& door) 
 SandboxSettings sandbox_of_build(const ContainRequest& request) {
   SandboxSettings settings = sandbox_of(request);
   settings.writable.push_back(settings.folder);
-  // What the package of a build folder names in the source tree. The worlds are none of it, but
-  // their folder must exist.
+  // What the package names: of an installation its folders, of a build folder those of the source
+  // tree. The worlds are none of it, but their folder must exist.
   const std::vector<fs::path> own = own_folders();
+  const fs::path& prefix = own.at(1);
   std::error_code error;
-  if (fs::exists(own.at(1) / "CMakeCache.txt", error)) {
-    const fs::path& source = own.back();
-    for (const char* name : {"libplayerlike/include", "libsim/include", "worlds"}) {
-      settings.readable.push_back(source / name);
-    }
-    settings.hidden.push_back(source / "worlds");
+  const bool is_build = fs::exists(prefix / "CMakeCache.txt", error);
+  const std::vector<fs::path> places =
+      is_build ? std::vector{own.back() / "libplayerlike/include", own.back() / "libsim/include",
+                             own.back() / "worlds"}
+               : std::vector{prefix / "include", prefix / "share/cmake", prefix / "share/playpen"};
+  for (const fs::path& place : places) {
+    if (fs::is_directory(place, error)) settings.readable.push_back(place);
   }
+  settings.hidden.push_back(is_build ? places.back() : places.back() / "worlds");
   return settings;
 }
 

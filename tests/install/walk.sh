@@ -108,6 +108,22 @@ g++ wander.cc $(pkg-config --cflags --libs playerc++) -o wander
 says '60.0 s simulated' "$playpen" run cave --duration 60 -- ./wander
 has out/cave/scene.png out/cave/report.json
 
+headline "A class: a CMake project, and makefiles by pkg-config and by names"
+mkdir "$HOME/walk/class"
+cd "$HOME/walk/class"
+cp -r ../intro cmake
+mkdir flags names
+cp ../pioneer/wander.cc flags
+cp ../pioneer/wander.cc names
+# shellcheck disable=SC2016  # make's words
+printf 'robot: ; $(CXX) wander.cc $$(pkg-config --cflags --libs playerc++) -o robot\n' >flags/Makefile
+# shellcheck disable=SC2016
+printf 'robot: ; $(CXX) wander.cc -lplayerc++ -o robot\n' >names/Makefile
+unset PKG_CONFIG_PATH
+says '3 submissions, 3 compiled, 1 passed all runs' "$playpen" class par_intro --seeds 1, \
+  --submissions . --out "$HOME/walk/graded" --isolated best
+has ../graded/index.html ../graded/results.csv ../graded/submissions/cmake/par_intro/par_intro_seed1/scene.png
+
 headline "playpen new, list and doctor"
 says 'cave' "$playpen" list
 # playpen_new_test builds the others, too, against the build folder.
