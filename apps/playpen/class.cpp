@@ -181,7 +181,8 @@ int grade_class(const ClassRequest& request) {
               << '\n';
   }
   // Under other conditions, robots drive other ways.
-  if (result.complete && !request.individual) course::compare_submissions(result, request.output_folder);
+  if (result.complete && !request.individual)
+    course::compare_submissions(result, request.output_folder);
   course::write_results(result, request.output_folder);
   course::write_html_report(result, request.output_folder);
   std::cout << course::class_table(result, terminal_columns(STDOUT_FILENO));

@@ -61,7 +61,7 @@ struct ClassRequest {
   std::string submission;              ///< a folder or an archive; "": there is a folder of them
   std::string id;                      ///< of the person of `submission`; "": its name
   std::vector<std::string> baselines;  ///< folders and archives of programs that everybody knows
-  bool individual = false;              ///< whether each person has conditions of their own
+  bool individual = false;             ///< whether each person has conditions of their own
   bool must_pass = false;              ///< whether a run that does not pass is a failure
   std::string roster_file;             ///< "": none
   std::string output_folder;

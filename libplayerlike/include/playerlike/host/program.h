@@ -140,9 +140,9 @@ struct RunWatch {
 struct ProgramJob {
   std::vector<std::string> command;  ///< path (see find_program()) and arguments; not empty
   EnvironmentChanges environment;
-  std::string output_file;          ///< receives standard output and standard error; overwritten
-  std::string folder = {};          ///< folder whose size is limited; "": none
-  std::uint64_t folder_limit = 0;   ///< maximum size of all files in the folder [bytes]
+  std::string output_file;         ///< receives standard output and standard error; overwritten
+  std::string folder = {};         ///< folder whose size is limited; "": none
+  std::uint64_t folder_limit = 0;  ///< maximum size of all files in the folder [bytes]
   std::uint64_t output_limit = 10'000'000;  ///< of output_file [bytes]; further output is dropped,
                                             ///< and the file's last line says so
   /// If set, called just before the start; returns further changes of the environment.
