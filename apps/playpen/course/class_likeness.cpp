@@ -109,6 +109,10 @@ void compare_submissions(ClassResult& result, const fs::path& folder) {
     pair.likeness = likeness.likeness;
     pair.threshold = likeness.threshold;
     pair.shared_m = likeness.shared_m;
+    if (result.pairs.size() >= kMostDrawnPairs) {
+      result.pairs.push_back(std::move(pair));
+      continue;
+    }
     pair.picture = "pairs/" + fs::path(first.folder).filename().string() + "-" +
                    fs::path(second.folder).filename().string() + ".svg";
     const CommonRun& run = runs[likeness.run];

@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <stdexcept>
 #include <vector>
 
 #include "course/html_page.h"
 #include "course/html_style.h"
 #include "course/html_text.h"
 #include "course/results.h"
+#include "grade/text.h"
 #include "sim/core/number_text.h"
-#include "sim/core/replace_file.h"
 
 namespace playpen::course {
 namespace {
@@ -115,21 +114,26 @@ std::string pairs_section(const ClassResult& result) {
       "<p>The robots of these pairs drove the same way, and not as the template or another "
       "baseline does. That is a reason to compare both sources, not a verdict.</p>\n"
       "<div class=\"pictures\">\n";
+  std::size_t shown = 0;
   for (const LikePair& pair : result.pairs) {
+    if (pair.picture.empty()) continue;
+    ++shown;
     const SubmissionResult& first = result.submissions[pair.first];
     const SubmissionResult& second = result.submissions[pair.second];
-    html += "<figure>";
-    if (!pair.picture.empty()) {
-      const std::string url = url_of(pair.picture);
-      html += "<a href=\"" + url + "\"><img loading=\"lazy\" src=\"" + url +
-              "\" alt=\"Trajectories of " + html_escaped(first.id) + " and " +
-              html_escaped(second.id) + " over each other\"></a>";
-    }
+    const std::string url = url_of(pair.picture);
+    html += "<figure><a href=\"" + url + "\"><img loading=\"lazy\" src=\"" + url +
+            "\" alt=\"Trajectories of " + html_escaped(first.id) + " and " +
+            html_escaped(second.id) + " over each other\"></a>";
     html += "<figcaption>" + link_to(first) + " and " + link_to(second) + ": alike in " +
             std::to_string(pair.alike) + " of " + std::to_string(pair.runs) +
             " runs</figcaption></figure>\n";
   }
-  return html + "</div>\n";
+  html += "</div>\n";
+  if (shown < result.pairs.size()) {
+    html += "<p>" + std::to_string(result.pairs.size() - shown) +
+            " more pairs are in <a href=\"class.json\">class.json</a>.</p>\n";
+  }
+  return html;
 }
 
 std::string class_facts(const ClassResult& result) {
@@ -159,15 +163,6 @@ std::string class_facts(const ClassResult& result) {
   return html;
 }
 
-void write_page(const fs::path& file, const std::string& text) {
-  std::error_code ignored;  // a missing folder is reported below
-  fs::create_directories(file.parent_path(), ignored);
-  if (const int error = sim::replace_file(file.string(), text)) {
-    throw std::runtime_error("the file '" + file.string() +
-                             "' can't be written: " + std::strerror(error));
-  }
-}
-
 }  // namespace
 
 std::string overview_page(const ClassResult& result) {
@@ -180,10 +175,10 @@ std::string overview_page(const ClassResult& result) {
 
 void write_html_report(const ClassResult& result, const fs::path& folder) {
   for (std::size_t i = 0; i < result.submissions.size(); ++i) {
-    write_page(folder / result.submissions[i].folder / "index.html",
-               submission_page(result, i, folder));
+    grade::write_text_file(folder / result.submissions[i].folder / "index.html",
+                           submission_page(result, i, folder));
   }
-  write_page(folder / "index.html", overview_page(result));
+  grade::write_text_file(folder / "index.html", overview_page(result));
 }
 
 }  // namespace playpen::course

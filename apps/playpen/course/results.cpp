@@ -294,10 +294,16 @@ std::string class_table(const ClassResult& result, std::size_t columns) {
     line += cut(row[kReason], columns > used ? columns - used : 0);
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }
-  for (const LikePair& pair : result.pairs) {
+  constexpr std::size_t kMostPairs = 20;
+  const std::size_t pairs = std::min(result.pairs.size(), kMostPairs);
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const LikePair& pair = result.pairs[i];
     text += "alike: " + plain_text(result.submissions[pair.first].id) + " and " +
             plain_text(result.submissions[pair.second].id) + " in " + std::to_string(pair.alike) +
             " of " + std::to_string(pair.runs) + " runs\n";
+  }
+  if (pairs < result.pairs.size()) {
+    text += "alike: " + std::to_string(result.pairs.size() - pairs) + " more pairs\n";
   }
   std::size_t built = 0;
   std::size_t all = 0;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <string>
 
 #include "sim/core/number_text.h"
@@ -81,6 +82,16 @@ TEST_F(CompareSubmissions, EqualDrives_ListedDrawnAndExported) {
   EXPECT_EQ(pair.picture, "pairs/ada-eve.svg");
   EXPECT_TRUE(fs::exists(folder_ / pair.picture));
   EXPECT_TRUE(fs::exists(folder_ / "sources/bob/main.cc"));
+}
+
+TEST_F(CompareSubmissions, ManyPairs_OnlySomeDrawn) {
+  constexpr std::size_t kPrograms = 16;  // 120 pairs
+  for (std::size_t i = 0; i < kPrograms; ++i) hand_in("s" + std::to_string(i), 1.0);
+  compare_submissions(result_, folder_.path());
+  ASSERT_EQ(result_.pairs.size(), kPrograms * (kPrograms - 1) / 2);
+  EXPECT_EQ(result_.pairs[kMostDrawnPairs].picture, "");
+  const auto drawn = std::distance(fs::directory_iterator(folder_ / "pairs"), {});
+  EXPECT_EQ(static_cast<std::size_t>(drawn), kMostDrawnPairs);
 }
 
 TEST_F(CompareSubmissions, Baseline_ExplainsLikeness) {

@@ -75,6 +75,12 @@ TEST(ClassTable, Rows_BestFirstWithReasons) {
             "3 submissions, 1 compiled, 0 passed all runs\n");
 }
 
+TEST(ClassTable, ManyPairs_Counted) {
+  ClassResult result = small_class();
+  result.pairs.assign(25, result.pairs.front());
+  EXPECT_THAT(class_table(result, 80), HasSubstr("\nalike: 5 more pairs\n3 submissions"));
+}
+
 TEST(ClassCsv, Values_QuotedAndNoFormulas) {
   const std::string csv = csv_text(small_class());
   EXPECT_THAT(csv, HasSubstr("'=1+1?[2J,"));
