@@ -341,7 +341,9 @@ class Space(unittest.TestCase):
             lambda: arm.joints.get_local_data().result(TIMEOUT)["one"] == 0.4, self.simu))
         waiting = arm.trajectory({"starttime": self.simu.time() + 1e6, "points": [
             {"positions": [0, 0], "time_from_start": 1}]})
-        waiting.cancel()
+        # A thread of pymorse sends the request, maybe after a call of cancel().
+        self.assertTrue(wait_for(lambda: waiting.cancel() or waiting.done(), self.simu))
+        self.assertRaises(pymorse.MorseServicePreempted, waiting.result, TIMEOUT)
         arm.rotate("one", 0.1).result(TIMEOUT)
         self.assertEqual(arm.get_IK_limits("one").result(TIMEOUT), [-math.pi / 2, math.pi / 2])
         self.assertEqual(arm.get_dofs().result(TIMEOUT)["one"], [False, False, True])
