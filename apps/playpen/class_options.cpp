@@ -1,10 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <memory>
 
 #include "command_line.h"
 #include "grading_options.h"
-#include "parsed_option.h"
 #include "run_options.h"
 
 namespace playpen {
@@ -46,14 +44,8 @@ void add_class(CommandLine& line) {
       "likeness; can be repeated");
   line.takes(baseline->type_name("PLACE")->expected(1)->take_all(), ValueKind::Kind::kFile);
   add_grading_options(command, request->seeds, request->jobs, request->timeout_s);
-  add_parsed(command, "--build-timeout", "Wall-clock limit of compiling a submission [300]", "S",
-             "a number of seconds above 0", [request](const std::string& text) {
-               double seconds = 0.0;
-               const bool good =
-                   parse_number(text, seconds) && std::isfinite(seconds) && seconds > 0.0;
-               if (good) request->build_timeout_s = seconds;
-               return good;
-             });
+  add_time_limit(command, "--build-timeout", "Wall-clock limit of compiling a submission [300]",
+                 request->build_timeout_s);
   add_realism(line, command, request->realism);
   add_isolation(line, command, request->isolation);
   command.add_flag("--individual", request->individual,

@@ -33,6 +33,18 @@ bool parse_seeds(const std::string& text, std::vector<std::uint64_t>& seeds) {
 
 }  // namespace
 
+void add_time_limit(CLI::App& command, const char* name, const char* description,
+                    std::optional<double>& limit_s) {
+  add_parsed(command, name, description, "S", "a number of seconds above 0",
+             [&limit_s](const std::string& text) {
+               double seconds = 0.0;
+               const bool good =
+                   parse_number(text, seconds) && std::isfinite(seconds) && seconds > 0.0;
+               if (good) limit_s = seconds;
+               return good;
+             });
+}
+
 void add_grading_options(CLI::App& command, std::vector<std::uint64_t>& seeds, int& jobs,
                          std::optional<double>& timeout_s) {
   add_parsed(command, "--seeds", "N: the seeds 1 to N; or a list of seeds, '7,' for one", "N,N,...",
@@ -42,14 +54,7 @@ void add_grading_options(CLI::App& command, std::vector<std::uint64_t>& seeds, i
              "a whole number from 1 to 1000", [&jobs](const std::string& text) {
                return parse_number(text, jobs) && jobs >= 1 && jobs <= 1000;
              });
-  add_parsed(command, "--timeout", "Wall-clock limit of a run [the task's]", "S",
-             "a number of seconds above 0", [&timeout_s](const std::string& text) {
-               double seconds = 0.0;
-               const bool good =
-                   parse_number(text, seconds) && std::isfinite(seconds) && seconds > 0.0;
-               if (good) timeout_s = seconds;
-               return good;
-             });
+  add_time_limit(command, "--timeout", "Wall-clock limit of a run [the task's]", timeout_s);
 }
 
 }  // namespace playpen

@@ -8,6 +8,10 @@
 
 namespace playpen {
 
+/// Adds an option with a number of seconds above 0. The limit must outlive the command.
+void add_time_limit(CLI::App& command, const char* name, const char* description,
+                    std::optional<double>& limit_s);
+
 /// Adds the options of `playpen grade` and `playpen class`: --seeds, --jobs and --timeout. The
 /// values must outlive the command.
 void add_grading_options(CLI::App& command, std::vector<std::uint64_t>& seeds, int& jobs,

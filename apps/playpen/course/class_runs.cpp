@@ -221,7 +221,6 @@ class ClassGrading {
     progress_ = {};
     progress_.step = ClassProgress::Step::kRun;
     progress_.task = task.task().name;
-    runs_.clear();
     const std::string task_key = key_of(task.task());
     for (std::size_t i = 0; i < result_.submissions.size(); ++i) {
       if (result_.submissions[i].build.built) prepare_runs(i, task, task_key);

@@ -9,8 +9,8 @@
 /// Texts of submissions in HTML pages. Whatever they contain, they stay text.
 namespace playpen::course {
 
-/// A text for the content of an element or for an attribute in double quotes: without control
-/// characters (see plain_text()), and with &, <, >, " and ' as references.
+/// A text for the content of an element of HTML or XML, or for an attribute in double quotes:
+/// without control characters (see plain_text()), and with &, <, >, " and ' as references.
 [[nodiscard]] std::string html_escaped(const std::string& text);
 
 /// A relative path as a URL: each byte but letters, digits and -._~/ is percent-encoded (RFC 3986).

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "course/html_text.h"
 #include "grade/rubric.h"
 #include "grade/run_record.h"
 #include "grade/text.h"
@@ -38,31 +39,8 @@ std::string csv_value(const std::string& text) {
   return quoted + '"';
 }
 
-std::string xml(const std::string& text) {
-  std::string result;
-  for (const char c : plain_text(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 std::string attribute(const char* name, const std::string& value) {
-  return std::string(" ") + name + "=\"" + xml(value) + '"';
+  return std::string(" ") + name + "=\"" + html_escaped(value) + '"';
 }
 
 std::string time_text(double seconds) { return sim::fixed_text(seconds, 3); }
@@ -86,7 +64,7 @@ class JunitSuite {
     }
     ++(std::strcmp(element, "error") == 0 ? errors_ : failures_);
     cases_ += std::string(">\n      <") + element + attribute("message", reasons.front()) + ">" +
-              xml(joined(reasons, "; ")) + "</" + element + ">\n    </testcase>\n";
+              html_escaped(joined(reasons, "; ")) + "</" + element + ">\n    </testcase>\n";
   }
   [[nodiscard]] std::string text(const std::string& name) const {
     return "  <testsuite" + attribute("name", name) + numbers() + ">\n" + cases_ +

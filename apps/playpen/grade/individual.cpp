@@ -3,25 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include "grade/evaluation.h"
 #include "grade/map_score.h"
 #include "grade/shortest_path.h"
+#include "grade/text.h"
 #include "grade/world_patch.h"
 #include "sim/core/degrees.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
 #include "sim/core/number_text.h"
 #include "sim/core/random_stream.h"
-#include "sim/core/replace_file.h"
 #include "sim/io/world_io.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/outline.h"
@@ -384,14 +382,11 @@ std::vector<std::uint64_t> individual_seeds(const Task& task, std::string_view s
 IndividualTask individual_task(const Task& task, std::string_view student,
                                const std::string& folder) {
   IndividualTask result{task, {}};
-  std::filesystem::create_directories(folder);
   for (TaskWorld& world : result.task.worlds) {
     const IndividualWorld own = individual_world(task, world, student);
     const std::string file =
         (std::filesystem::path(folder) / (world_name(world.file) + ".json")).string();
-    if (const int error = sim::replace_file(file, own.text)) {
-      throw std::runtime_error("cannot write " + file + ": " + std::strerror(error));
-    }
+    write_text_file(file, own.text);
     world.file = file;
     result.sentences.push_back(own.sentence);
   }

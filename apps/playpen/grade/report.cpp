@@ -299,12 +299,12 @@ std::size_t Grade::passed() const noexcept {
 
 std::vector<std::vector<std::string>> table_cells(const Grade& grade) {
   const std::vector<Row> rows = rows_of(grade);
+  std::vector<std::size_t> columns = shown_columns(rows);
+  std::erase(columns, std::size(kColumns) - 1);  // the wall-clock time
   std::vector<std::vector<std::string>> cells;
   for (const Row& row : rows) {
     std::vector<std::string>& shown = cells.emplace_back();
-    for (const std::size_t column : shown_columns(rows)) {
-      if (column != std::size(kColumns) - 1) shown.push_back(row[column]);  // the wall-clock time
-    }
+    for (const std::size_t column : columns) shown.push_back(row[column]);
   }
   return cells;
 }
