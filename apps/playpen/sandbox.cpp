@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -152,6 +153,15 @@ Status read_status(const fs::path& file) {
   return status;
 }
 
+/// Whether a folder is this process's root: that of a process whose sandbox is not set up yet, or
+/// of one that has got its number.
+bool is_own_root(const std::string& folder) {
+  struct stat own {};
+  struct stat other {};
+  return stat("/", &own) != 0 || stat(folder.c_str(), &other) != 0 ||
+         (own.st_dev == other.st_dev && own.st_ino == other.st_ino);
+}
+
 std::string text_of(int descriptor) {
   std::string text(4096, '\0');
   const ssize_t size = pread(descriptor, text.data(), text.size(), 0);
@@ -296,7 +306,7 @@ std::string SandboxedProgram::folder_of_sandbox() {
 
 std::string SandboxedProgram::excess() {
   const std::string root = folder_of_sandbox();
-  if (root.empty()) return {};
+  if (root.empty() || is_own_root(root)) return {};
   Status all;
   std::error_code error;
   for (fs::directory_iterator entry(root + "/proc", error), end; !error && entry != end;
