@@ -2,15 +2,21 @@
 // The parts of a host, each tested alone: clients, lockstep, pace, inputs and so on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "host/launch/processes.h"
 #include "host/requests/blackboard.h"
 #include "host/results/results.h"
 #include "host/stepping/alarms.h"
@@ -539,6 +545,27 @@ TEST(BlackboardTest, HoldsAtMost1024Entries) {
   board.set(change("0", 1), 0, 2);
   board.publish({});
   EXPECT_THROW(board.set(change("more", 1), 0), SessionError);
+}
+
+// The system gives an error when a process ends between the opening and the reading of its file,
+// which happens in some of 100 listings here.
+TEST(ProcessesTest, SomeEndMeanwhile_OthersAreListed) {
+  std::atomic<bool> over{false};
+  std::thread births([&over] {
+    while (!over) {
+      std::array<pid_t, 8> children{};
+      for (pid_t& child : children) {
+        child = fork();
+        if (child == 0) _exit(0);
+      }
+      for (const pid_t child : children) waitpid(child, nullptr, 0);
+    }
+  });
+  for (int i = 0; i < 300; ++i) {
+    EXPECT_NO_THROW(EXPECT_EQ(living_processes().at(getpid()).parent, getppid()));
+  }
+  over = true;
+  births.join();
 }
 
 }  // namespace

@@ -18,13 +18,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <string_view>
 #include <utility>
 
 #include "host/launch/processes.h"
 #include "process/end_of_program.h"
+#include "sim/core/file.h"
 
 namespace playerlike {
 namespace {
@@ -95,8 +95,9 @@ std::map<pid_t, ProcessState> living_processes() {
   while (const dirent* entry = readdir(folder)) {
     const auto number = static_cast<pid_t>(std::strtol(entry->d_name, nullptr, 10));
     if (number <= 0) continue;
-    std::ifstream file("/proc/" + std::to_string(number) + "/stat");
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::string text;
+    // A process may vanish before its file is read: the error leaves the text empty.
+    if (sim::read_whole_file("/proc/" + std::to_string(number) + "/stat", {}, text)) continue;
     // "PID (NAME) STATE PARENT ..."; the name may contain any characters.
     const std::size_t name_end = text.rfind(')');
     if (name_end == std::string::npos || text.size() < name_end + 5) continue;
