@@ -2,8 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -16,10 +14,10 @@
 #include "course/html_report.h"
 #include "course/results.h"
 #include "preload.h"
+#include "progress_bar.h"
 #include "project.h"
 #include "shipped.h"
 #include "sim/core/error.h"
-#include "sim/core/number_text.h"
 #include "terminal.h"
 
 namespace playpen {
@@ -27,55 +25,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "5 s", "3 min", "2.5 h".
-std::string rough_time(double seconds) {
-  constexpr double kMinute_s = 60.0;
-  constexpr double kHour_s = 3600.0;
-  if (seconds < 2 * kMinute_s) return sim::fixed_text(std::ceil(seconds), 0) + " s";
-  if (seconds < 2 * kHour_s) return sim::fixed_text(std::ceil(seconds / kMinute_s), 0) + " min";
-  return sim::fixed_text(seconds / kHour_s, 1) + " h";
-}
-
-/// The progress of a class: a bar that overwrites itself on a terminal, else a line for each step.
+/// Shows what is being done with a class.
 class ClassProgressLine {
  public:
   void show(const course::ClassProgress& progress) {
-    if (progress.ended == 0 && progress.running == 0) begin(progress);
-    if (!is_terminal_ || progress.all == 0) return;
-    constexpr std::size_t kWidth = 20;
-    const std::size_t filled = kWidth * progress.ended / progress.all;
-    std::string line = "\r\033[K" + name_ + " [" + std::string(filled, '#') +
-                       std::string(kWidth - filled, ' ') + "] " + std::to_string(progress.ended) +
-                       " of " + std::to_string(progress.all);
-    if (progress.ended > 0) {
-      const std::chrono::duration<double> spent = Clock::now() - start_;
-      const double each = spent.count() / static_cast<double>(progress.ended);
-      line +=
-          ", " + rough_time(each * static_cast<double>(progress.all - progress.ended)) + " left";
+    if (progress.ended == 0 && progress.running == 0) {
+      const bool builds = progress.step == course::ClassProgress::Step::kBuild;
+      bar_.begin(builds ? "compiling" : progress.task);
+      std::cerr << (builds ? "compile: " : progress.task + ": ") << progress.all
+                << (builds ? " submissions" : " runs");
+      if (progress.known > 0) std::cerr << ", " << progress.known << " known from before";
+      std::cerr << '\n';
     }
-    std::cerr << line << std::flush;
+    bar_.show(progress.ended, progress.all);
   }
-  void clear() const {
-    if (is_terminal_) std::cerr << "\r\033[K" << std::flush;
-  }
+  void clear() const { bar_.clear(); }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  void begin(const course::ClassProgress& progress) {
-    clear();
-    start_ = Clock::now();
-    const bool builds = progress.step == course::ClassProgress::Step::kBuild;
-    name_ = builds ? "compiling" : progress.task;
-    std::cerr << (builds ? "compile: " : progress.task + ": ") << progress.all
-              << (builds ? " submissions" : " runs");
-    if (progress.known > 0) std::cerr << ", " << progress.known << " known from before";
-    std::cerr << '\n';
-  }
-
-  bool is_terminal_ = isatty(STDERR_FILENO) != 0;
-  std::string name_;
-  Clock::time_point start_;
+  ProgressBar bar_;
 };
 
 /// The variables by which build tools find this Playpen.

@@ -54,6 +54,7 @@ CommandLine::CommandLine(std::string name)
   add_run(*this);
   add_grade(*this);
   add_class(*this);
+  add_batch(*this);
   add_serve(*this);
   add_new(*this);
   add_import(*this);

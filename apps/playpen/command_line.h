@@ -63,6 +63,7 @@ void add_run(CommandLine& line);
 void add_serve(CommandLine& line);
 void add_grade(CommandLine& line);
 void add_class(CommandLine& line);
+void add_batch(CommandLine& line);
 void add_import(CommandLine& line);
 void add_check(CommandLine& line);
 void add_render(CommandLine& line);

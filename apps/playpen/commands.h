@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -80,6 +81,43 @@ struct ClassRequest {
 /// @throws sim::ConfigError for a bad task, world or roster, or a folder without submissions;
 ///         std::exception if a folder or file can't be written, or programs can't be isolated.
 [[nodiscard]] int grade_class(const ClassRequest& request);
+
+/// Who runs the units of a batch.
+enum class Engine {
+  kLocal,     ///< this process
+  kSlurm,     ///< an array of jobs
+  kParallel,  ///< GNU parallel
+};
+
+/// A part of a batch: the number `number` of `count`, 1 <= number <= count.
+struct BatchPart {
+  std::size_t number = 1;
+  std::size_t count = 1;
+};
+
+/// Arguments of `playpen batch`.
+struct BatchRequest {
+  std::string plan;  ///< file; "": the batch that the output folder contains
+  std::string output_folder;
+  int jobs = 0;  ///< 0: the number of processors
+  Engine engine = Engine::kLocal;
+  std::size_t parts = 0;                    ///< for an engine; 0: chosen by the number of runs
+  std::vector<std::string> engine_options;  ///< words for the engine's command
+  bool wait = false;                        ///< until the engine has ended
+  bool collect = false;                     ///< only collect results, run nothing
+  bool failed = false;                      ///< run those again that did not end well
+  std::optional<BatchPart> part;            ///< run only this part, and collect nothing
+  std::string repeat;                       ///< id of a unit to run with a window; "": none
+  IsolationSettings isolation;
+  std::string invocation;  ///< how the user calls playpen, for advice
+};
+
+/// Runs the units of a plan, here or by an engine, and collects their results.
+/// @return kOk if all units have results (or, without waiting, if the engine has got them);
+///         kProgramFailed if some have none.
+/// @throws sim::ConfigError for a bad plan, task or world, playerlike::ProgramError if a program
+///         can't be started, std::exception if a folder or file can't be written or read.
+[[nodiscard]] int run_batch(const BatchRequest& request);
 
 /// Runs a client program on a world and prints a summary unless the request says quiet.
 /// @throws sim::ConfigError for a bad world, playerlike::ProgramError if the program can't be

@@ -45,15 +45,19 @@ void add_time_limit(CLI::App& command, const char* name, const char* description
              });
 }
 
+void add_jobs(CLI::App& command, int& jobs) {
+  add_parsed(command, "--jobs", "Programs that run side by side [the number of processors]", "N",
+             "a whole number from 1 to 1000", [&jobs](const std::string& text) {
+               return parse_number(text, jobs) && jobs >= 1 && jobs <= 1000;
+             });
+}
+
 void add_grading_options(CLI::App& command, std::vector<std::uint64_t>& seeds, int& jobs,
                          std::optional<double>& timeout_s) {
   add_parsed(command, "--seeds", "N: the seeds 1 to N; or a list of seeds, '7,' for one", "N,N,...",
              "a number from 1 to 10000, or different seeds with commas between them",
              [&seeds](const std::string& text) { return parse_seeds(text, seeds); });
-  add_parsed(command, "--jobs", "Programs that run side by side [the number of processors]", "N",
-             "a whole number from 1 to 1000", [&jobs](const std::string& text) {
-               return parse_number(text, jobs) && jobs >= 1 && jobs <= 1000;
-             });
+  add_jobs(command, jobs);
   add_time_limit(command, "--timeout", "Wall-clock limit of a run [the task's]", timeout_s);
 }
 

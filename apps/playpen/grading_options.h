@@ -12,6 +12,10 @@ namespace playpen {
 void add_time_limit(CLI::App& command, const char* name, const char* description,
                     std::optional<double>& limit_s);
 
+/// Adds --jobs.
+/// @param jobs  receives the number, 1..1000; must outlive the command.
+void add_jobs(CLI::App& command, int& jobs);
+
 /// Adds the options of `playpen grade` and `playpen class`: --seeds, --jobs and --timeout. The
 /// values must outlive the command.
 void add_grading_options(CLI::App& command, std::vector<std::uint64_t>& seeds, int& jobs,

@@ -46,16 +46,6 @@ std::string wrapped(const std::string& text, std::size_t columns, std::size_t in
   return lines;
 }
 
-std::string shell_word(const std::string& word) {
-  const bool is_plain = !word.empty() && word.find_first_not_of(
-                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                             "0123456789_-./+:@%,=~") == std::string::npos;
-  if (is_plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + '\'';
-}
-
 std::string tinted(const std::string& text, Tint tint, bool colour) {
   if (!colour) return text;
   const char* code = "1";  // ECMA-48, select graphic rendition: bold

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <string>
 
+#include "grade/text.h"
+
 /// Properties of the terminal that the command writes to.
 namespace playpen {
 
@@ -23,8 +25,7 @@ inline constexpr std::size_t kUsualColumns = 80;
 /// with `indent` blanks. Lines break at blanks; a longer word gets its own line.
 [[nodiscard]] std::string wrapped(const std::string& text, std::size_t columns, std::size_t indent);
 
-/// Quotes a word for the shell, if necessary.
-[[nodiscard]] std::string shell_word(const std::string& word);
+using grade::shell_word;
 
 /// Meaning of a text, for its colour.
 enum class Tint { kGood, kBad, kWarning, kStrong };

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "grade/fingerprint.h"
 #include "grade/grade.h"
 #include "grade/individual.h"
 #include "grade/rubric.h"
@@ -16,7 +17,6 @@
 #include "grade/runs.h"
 #include "grade/text.h"
 #include "sim/core/file.h"
-#include "sim/core/hash.h"
 #include "sim/core/number_text.h"
 
 namespace playpen::course {
@@ -30,12 +30,6 @@ std::string read_text(const fs::path& file) {
   std::string text;
   if (sim::read_whole_file(file.string(), {}, text)) return {};
   return text;
-}
-
-std::string hash_text(const std::vector<std::string>& parts) {
-  sim::StateHash hash;
-  for (const std::string& part : parts) hash.add(std::string_view(part));
-  return sim::hexadecimal_text(hash.value(), 16);
 }
 
 /// Whether a process had its end, not one that this process gave it because of a signal.
@@ -70,16 +64,6 @@ std::optional<Build> build_from(const json& value) {
   } catch (const json::exception&) {
     return std::nullopt;
   }
-}
-
-/// What the results of a task's runs depend on. Its rubric and its texts are not part of it.
-std::string key_of(const grade::Task& task) {
-  json document = json::parse(read_text(task.file), nullptr, false, /*ignore_comments=*/true);
-  if (document.is_object()) {
-    for (const char* name : {"rubric", "description", "$schema"}) document.erase(name);
-  }
-  return hash_text({document.dump(-1, ' ', false, json::error_handler_t::replace),
-                    sim::shortest_text(task.timeout_s)});
 }
 
 /// The folder in which a program runs: that of its project.
@@ -190,7 +174,7 @@ class ClassGrading {
       if (!result.handed_in) continue;
       const fs::path folder = out_ / result.folder;
       build_keys_[i] =
-          hash_text({fingerprint_of(*submissions_[i]), settings_.version, build_commands(),
+          grade::fingerprint_of({fingerprint_of(*submissions_[i]), settings_.version, build_commands(),
                      settings_.build.program, sim::shortest_text(settings_.build.timeout_s)});
       const std::optional<Build> known =
           build_from(read_record(record_of_build(i), build_keys_[i]));
@@ -221,7 +205,8 @@ class ClassGrading {
     progress_ = {};
     progress_.step = ClassProgress::Step::kRun;
     progress_.task = task.task().name;
-    const std::string task_key = key_of(task.task());
+    const std::string task_key = grade::fingerprint_of(
+        {grade::fingerprint_of(task.task()), sim::shortest_text(task.task().timeout_s)});
     for (std::size_t i = 0; i < result_.submissions.size(); ++i) {
       if (result_.submissions[i].build.built) prepare_runs(i, task, task_key);
     }
@@ -283,7 +268,7 @@ class ClassGrading {
     }
     const grade::PreparedTask& task = runs.own_task ? *runs.own_task : common_task;
     runs.submission = submission;
-    runs.key = hash_text({build_keys_[submission], task_key, settings_.isolated ? "1" : "0"});
+    runs.key = grade::fingerprint_of({build_keys_[submission], task_key, settings_.isolated ? "1" : "0"});
     runs.settings.program = {program.string()};
     runs.settings.output_folder = (folder / task.task().name).string();
     runs.records = folder / "records" / task.task().name;
@@ -307,7 +292,7 @@ class ClassGrading {
   }
 
   [[nodiscard]] static std::string run_key(const std::string& key, const grade::GradedRun& run) {
-    return hash_text({key, run.folder, std::to_string(run.asked.world),
+    return grade::fingerprint_of({key, run.folder, std::to_string(run.asked.world),
                       std::to_string(run.asked.seed), run.asked.realism,
                       run.asked.duration_s ? sim::shortest_text(*run.asked.duration_s) : "-"});
   }

@@ -110,16 +110,6 @@ bool is_better(const GradedRun& a, const GradedRun& b) {
   return merit(a) > merit(b);
 }
 
-// A word for a shell (POSIX).
-std::string quoted_word(const std::string& word) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=:+,@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + '\'';
-}
-
 // The command that repeats a run.
 std::string repeat_command(const ClassResult& result, const SubmissionResult& submission,
                            const grade::Task& task, const GradedRun& run) {
@@ -140,7 +130,7 @@ std::string repeat_command(const ClassResult& result, const SubmissionResult& su
     words.insert(words.end(), world.arguments.begin(), world.arguments.end());
   }
   std::string command;
-  for (const std::string& word : words) command += (command.empty() ? "" : " ") + quoted_word(word);
+  for (const std::string& word : words) command += (command.empty() ? "" : " ") + grade::shell_word(word);
   return command;
 }
 

@@ -19,6 +19,7 @@ namespace playpen::course {
 namespace {
 
 namespace fs = std::filesystem;
+using grade::csv_value;
 using nlohmann::ordered_json;
 
 std::string points_text(double points) { return sim::fixed_text(points, 1); }
@@ -27,16 +28,6 @@ std::string joined(const std::vector<std::string>& parts, const char* between) {
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : between) + plain_text(part);
   return text;
-}
-
-/// A value of a CSV file.
-std::string csv_value(const std::string& text) {
-  std::string value = plain_text(text);
-  if (!value.empty() && std::strchr("=+-@", value.front()) != nullptr) value.insert(0, "'");
-  if (value.find_first_of(",\"\n") == std::string::npos) return value;
-  std::string quoted = "\"";
-  for (const char c : value) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
 }
 
 std::string attribute(const char* name, const std::string& value) {
@@ -171,15 +162,6 @@ std::string cut(const std::string& text, std::size_t width) {
 }
 
 }  // namespace
-
-std::string plain_text(const std::string& text) {
-  std::string result;
-  for (const char c : sim::escape_invalid_utf8(text)) {
-    const bool is_control = static_cast<unsigned char>(c) < ' ' || c == '\x7F';
-    result += is_control ? '?' : c;
-  }
-  return result;
-}
 
 std::string main_reason(const SubmissionResult& submission) {
   if (!submission.build.built) return plain_text(submission.build.reason);

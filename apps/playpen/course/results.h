@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "course/class_result.h"
+#include "grade/text.h"
 
 namespace playpen::course {
 
@@ -18,9 +19,7 @@ namespace playpen::course {
 /// block_3 at (1.20, 2.05) after 31.4 s"), and what to look for. Empty for a run that has passed.
 [[nodiscard]] std::vector<std::string> reasons_of(const grade::GradedRun& run);
 
-/// A text without control characters and invalid UTF-8, for names and reasons that come from
-/// submissions.
-[[nodiscard]] std::string plain_text(const std::string& text);
+using grade::plain_text;
 
 /// The indices of the submissions, those with the most points first; equals in the order of ids.
 [[nodiscard]] std::vector<std::size_t> ranking(const ClassResult& result);

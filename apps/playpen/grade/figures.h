@@ -20,25 +20,26 @@ struct Figure {
   std::string_view name;
   Member member;
   FigureNeed need = FigureNeed::kNothing;
+  std::string_view unit = {};  ///< of its numbers; "": none
 };
 
 /// The figures of a run that are measures, in the order of the JSON file.
 inline constexpr std::array kFigures{
     Figure{"reached", &Measures::reached, FigureNeed::kGoal},
-    Figure{"goal_distance", &Measures::goal_distance_m, FigureNeed::kGoal},
+    Figure{"goal_distance", &Measures::goal_distance_m, FigureNeed::kGoal, "m"},
     Figure{"coverage", &Measures::coverage, FigureNeed::kMap},
     Figure{"correctness", &Measures::correctness, FigureNeed::kMap},
     Figure{"drawn", &Measures::drawn, FigureNeed::kMap},
     Figure{"seen", &Measures::seen, FigureNeed::kMap},
-    Figure{"path_length", &Measures::path_length_m},
-    Figure{"distance", &Measures::distance_m},
-    Figure{"visited_area", &Measures::visited_area_m2},
-    Figure{"shortest_path", &Measures::shortest_path_m, FigureNeed::kGoal},
+    Figure{"path_length", &Measures::path_length_m, FigureNeed::kNothing, "m"},
+    Figure{"distance", &Measures::distance_m, FigureNeed::kNothing, "m"},
+    Figure{"visited_area", &Measures::visited_area_m2, FigureNeed::kNothing, "m^2"},
+    Figure{"shortest_path", &Measures::shortest_path_m, FigureNeed::kGoal, "m"},
     Figure{"path_ratio", &Measures::path_ratio, FigureNeed::kGoal},
     Figure{"collisions", &Measures::collisions},
-    Figure{"least_clearance", &Measures::least_clearance_m},
-    Figure{"stalled_time", &Measures::stalled_time_s},
-    Figure{"sim_time", &Measures::sim_time_s},
+    Figure{"least_clearance", &Measures::least_clearance_m, FigureNeed::kNothing, "m"},
+    Figure{"stalled_time", &Measures::stalled_time_s, FigureNeed::kNothing, "s"},
+    Figure{"sim_time", &Measures::sim_time_s, FigureNeed::kNothing, "s"},
     Figure{"score", &Measures::score, FigureNeed::kController},
 };
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -17,7 +16,6 @@
 #include "grade/world_patch.h"
 #include "sim/core/degrees.h"
 #include "sim/core/error.h"
-#include "sim/core/file.h"
 #include "sim/core/number_text.h"
 #include "sim/core/random_stream.h"
 #include "sim/io/world_io.h"
@@ -301,23 +299,6 @@ class StartSearch {
   std::size_t reachable_ = 0;  ///< cells that the centre can reach from the task's start
 };
 
-/// The text of a world file, and what it describes.
-std::pair<std::string, sim::WorldDescription> read_json_world(const std::string& file) {
-  if (file.empty()) {
-    sim::WorldDescription world = sim::load_world("");
-    return {nlohmann::json{{"name", world.name}}.dump(), std::move(world)};
-  }
-  std::string text;
-  if (sim::read_whole_file(file, {}, text) ||
-      !nlohmann::json::accept(text, /*ignore_comments=*/true)) {
-    static_cast<void>(sim::load_world(file));  // throws, unless it can read other formats
-    throw sim::ConfigError(sim::ConfigIssue{
-        "task/world-of-stage", file, "", "a world file in JSON for individual conditions",
-        "a file of Stage or Player, or a pipe", "translate it with playpen import"});
-  }
-  return {text, sim::load_world_text(text, file)};
-}
-
 /// "a", "a and b", "a, b and c".
 template <typename Items, typename ToText>
 std::string listed(const Items& items, ToText to_text) {
@@ -349,7 +330,7 @@ std::string sentence_of(const std::string& name, const IndividualWorld& world) {
 
 IndividualWorld individual_world(const Task& task, const TaskWorld& world,
                                  std::string_view student) {
-  const auto [text, description] = read_json_world(world.file);
+  const auto [text, description] = read_json_world(world.file, "individual conditions");
   const std::string name = world_name(world.file);
   const StartSearch search(task, world, description);
   sim::RandomStream random = random_for(task, name, student);

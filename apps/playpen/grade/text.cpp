@@ -7,6 +7,7 @@
 
 #include "sim/core/number_text.h"
 #include "sim/core/replace_file.h"
+#include "sim/core/utf8.h"
 
 namespace playpen::grade {
 
@@ -17,6 +18,34 @@ std::string telling_number(double value, double limit, int decimals) {
     ++decimals;
   }
   return sim::fixed_text(value, decimals);
+}
+
+std::string plain_text(const std::string& text) {
+  std::string result;
+  for (const char c : sim::escape_invalid_utf8(text)) {
+    const bool is_control = static_cast<unsigned char>(c) < ' ' || c == '\x7F';
+    result += is_control ? '?' : c;
+  }
+  return result;
+}
+
+std::string csv_value(const std::string& text) {
+  std::string value = plain_text(text);
+  if (!value.empty() && std::strchr("=+-@", value.front()) != nullptr) value.insert(0, "'");
+  if (value.find_first_of(",\"\n") == std::string::npos) return value;
+  std::string quoted = "\"";
+  for (const char c : value) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string shell_word(const std::string& word) {
+  const bool is_plain = !word.empty() && word.find_first_not_of(
+                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                             "0123456789_-./+:@%,=~") == std::string::npos;
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + '\'';
 }
 
 void write_text_file(const std::filesystem::path& file, std::string_view text) {

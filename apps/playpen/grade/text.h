@@ -11,6 +11,17 @@ namespace playpen::grade {
 /// limit that it differs from: 0.97996 is not "0.980" beside a limit of 0.98.
 [[nodiscard]] std::string telling_number(double value, double limit, int decimals);
 
+/// A text without control characters and invalid UTF-8, for names and reasons that come from
+/// programs and their authors.
+[[nodiscard]] std::string plain_text(const std::string& text);
+
+/// A value of a CSV file (RFC 4180), as plain_text(). An apostrophe precedes a text that
+/// spreadsheets would take for a formula.
+[[nodiscard]] std::string csv_value(const std::string& text);
+
+/// Quotes a word for the shell, if necessary.
+[[nodiscard]] std::string shell_word(const std::string& word);
+
 /// Writes a file of results, with the folders that are missing, and replaces an existing one.
 /// @throws std::runtime_error that names the file.
 void write_text_file(const std::filesystem::path& file, std::string_view text);

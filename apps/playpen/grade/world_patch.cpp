@@ -1,11 +1,18 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "grade/world_patch.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
 
 #include "sim/core/degrees.h"
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+#include "sim/simulation/simulation.h"
 
 namespace playpen::grade {
 namespace {
@@ -85,7 +92,56 @@ void set_blocks(ordered_json& root, const sim::WorldDescription& world,
   }
 }
 
+/// The words of a JSON pointer.
+std::vector<std::string> words_of(const std::string& pointer) {
+  std::vector<std::string> words;
+  for (ordered_json::json_pointer rest(pointer); !rest.empty(); rest.pop_back()) {
+    words.push_back(rest.back());
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
+/// Sets a value. Objects get missing members; lists do not get missing elements.
+void set_value(ordered_json& root, const std::string& file, const WorldValue& value) {
+  ordered_json* place = &root;
+  for (const std::string& word : words_of(value.pointer)) {
+    if (place->is_null()) *place = ordered_json::object();
+    if (place->is_object()) {
+      place = &(*place)[word];
+      continue;
+    }
+    std::size_t index = 0;
+    const char* const end = word.data() + word.size();
+    const auto [rest, error] = std::from_chars(word.data(), end, index);
+    if (!place->is_array() || error != std::errc() || rest != end || index >= place->size()) {
+      throw sim::ConfigError(sim::ConfigIssue{
+          "plan/parameter", file, value.pointer, "a place that the world file has",
+          place->is_array() ? "a list of " + std::to_string(place->size()) + " before '" + word + "'"
+                            : "neither an object nor a list before '" + word + "'"});
+    }
+    place = &(*place)[index];
+  }
+  *place = ordered_json::parse(value.value);
+}
+
 }  // namespace
+
+JsonWorld read_json_world(const std::string& file, const char* purpose) {
+  if (file.empty()) {
+    sim::WorldDescription world = sim::load_world("");
+    return {ordered_json{{"name", world.name}}.dump(), std::move(world)};
+  }
+  std::string text;
+  if (sim::read_whole_file(file, {}, text) ||
+      !ordered_json::accept(text, /*ignore_comments=*/true)) {
+    static_cast<void>(sim::load_world(file));  // throws, unless it can read other formats
+    throw sim::ConfigError(sim::ConfigIssue{
+        "task/world-of-stage", file, "", std::string("a world file in JSON for ") + purpose,
+        "a file of Stage or Player, or a pipe", "translate it with playpen import"});
+  }
+  return {text, sim::load_world_text(text, file)};
+}
 
 std::string patched_world(const std::string& text, const sim::WorldDescription& world,
                           const WorldPatch& patch) {
@@ -93,6 +149,7 @@ std::string patched_world(const std::string& text, const sim::WorldDescription& 
   make_names_absolute(root, fs::path(world.file).parent_path());
   if (patch.start) set_start(root, world, patch.robot, *patch.start);
   if (patch.extended) set_blocks(root, world, *patch.extended);
+  for (const WorldValue& value : patch.values) set_value(root, world.file, value);
   return root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 
