@@ -56,6 +56,13 @@ void Extent::add(double value) {
   high_ = is_first ? value : std::max(high_, value);
 }
 
+void Extent::add(const ChartPoint& point) {
+  add(point.value);
+  add(point.interval.low);
+  add(point.interval.high);
+  for (const double value : point.values) add(value);
+}
+
 Interval Extent::range() const {
   constexpr double kNearlyEqual = 1e-9;  // of the numbers; below it, digits tell them apart no more
   if (is_empty()) return {0.0, 1.0};
@@ -205,7 +212,11 @@ std::string shortened_in_middle(const std::string& text, double cap_height_px, d
   std::size_t too_many = std::min(characters.size(), kMostBytes);
   while (too_many - kept > 1) {
     const std::size_t middle = (kept + too_many) / 2;
-    (fits(ends_of(characters, middle)) ? kept : too_many) = middle;
+    if (fits(ends_of(characters, middle))) {
+      kept = middle;
+    } else {
+      too_many = middle;
+    }
   }
   return ends_of(characters, kept);
 }

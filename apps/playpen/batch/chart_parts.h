@@ -25,8 +25,11 @@ constexpr double kChartSmallText = 8.6;  ///< of numbers and notes
 class Extent {
  public:
   void add(double value);
+  /// Adds the mean, the interval and the single runs.
+  void add(const ChartPoint& point);
   [[nodiscard]] bool is_empty() const noexcept { return low_ > high_; }
-  /// The range from the least to the greatest; wider if they are equal, or nearly.
+  /// The range from the least to the greatest; wider if they are equal, or nearly. Without numbers:
+  /// 0 to 1.
   [[nodiscard]] Interval range() const;
 
  private:

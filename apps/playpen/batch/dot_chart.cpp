@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "batch/chart_parts.h"
 #include "sim/core/number_text.h"
@@ -73,16 +75,25 @@ std::size_t drop_last_rows(std::vector<Group>& groups) {
   return dropped;
 }
 
-// Texts of means: four digits of the greatest one, and the same decimals for all.
+// Texts of means: four digits of the greatest one, and the same decimals for all. Shares that are
+// not whole percents have one decimal.
 class MeanTexts {
  public:
   explicit MeanTexts(bool is_share) : is_share_(is_share) {}
 
-  // @param largest  the greatest size of a mean.
-  void set_digits(double largest) {
+  // @param means  as they are shown.
+  void set_digits(const std::vector<double>& means) {
     constexpr int kDigits = 4;
+    double largest = 0.0;
+    bool are_whole = true;
+    for (const double mean : means) {
+      largest = std::max(largest, std::abs(mean));
+      are_whole = are_whole && std::abs(mean - std::round(mean)) < 0.01;
+    }
     is_fixed_ = is_share_ || largest == 0.0 || (largest >= 1e-3 && largest < 1e7);
-    if (is_fixed_ && largest > 0.0 && !is_share_) {
+    if (is_share_) {
+      decimals_ = are_whole ? 0 : 1;
+    } else if (is_fixed_ && largest > 0.0) {
       decimals_ = std::max(kDigits - 1 - static_cast<int>(std::floor(std::log10(largest))), 0);
     }
   }
@@ -118,12 +129,7 @@ class DotChart final : public PlacedChart {
     set_rows();
     Extent extent;
     for (const Group& group : groups_) {
-      for (const Row& row : group.rows) {
-        extent.add(row.point->value);
-        extent.add(row.point->interval.low);
-        extent.add(row.point->interval.high);
-        for (const double value : row.point->values) extent.add(value);
-      }
+      for (const Row& row : group.rows) extent.add(*row.point);
     }
     axis_ = value_axis(chart, extent, left_, right_, 8);
     axis_.thin_out();
@@ -163,21 +169,18 @@ class DotChart final : public PlacedChart {
  private:
   // The columns of labels, of the panel and of numbers.
   void set_columns() {
-    double largest = 0.0;
+    std::vector<double> means;
     for (const Group& group : groups_) {
-      for (const Row& row : group.rows) {
-        largest = std::max(largest, std::abs(shown(chart_, row.point->value)));
-      }
+      for (const Row& row : group.rows) means.push_back(shown(chart_, row.point->value));
     }
-    mean_text_.set_digits(largest);
+    mean_text_.set_digits(means);
     double label_px = 60.0;
     double number_px = 30.0;
     for (const Group& group : groups_) {
       label_px = std::max(label_px, Drawing::text_width_px(group.label, kChartText));
-      for (const Row& row : group.rows) {
-        const std::string number = mean_text_(shown(chart_, row.point->value));
-        number_px = std::max(number_px, Drawing::text_width_px(number, kChartSmallText));
-      }
+    }
+    for (const double mean : means) {
+      number_px = std::max(number_px, Drawing::text_width_px(mean_text_(mean), kChartSmallText));
     }
     left_ = kChartMargin + label_px + kBesidePanel;
     right_ = kChartWidth - kChartMargin - number_px - kBesidePanel;

@@ -1,7 +1,11 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "batch/chart_parts.h"
 
@@ -20,6 +24,7 @@ using sim::render::page_palette::kInk;
 constexpr double kPanelHeight = 430.0;
 constexpr std::size_t kMostBands = 2;  // more bands cover each other
 constexpr double kBeside = 5.0;        // between the bars of two series
+constexpr double kMostBeside = 100.0;  // from a parameter to the bars of the outer series
 
 class LineChart final : public PlacedChart {
  public:
@@ -33,7 +38,10 @@ class LineChart final : public PlacedChart {
         x_axis_(parameters().range(), left_ + room(), kRight - room(), 8, "") {
     x_axis_.thin_out();
     if (has_whole_parameters()) x_axis_.keep_whole();
-    beside_ = with_bands() ? 0.0 : std::min(kBeside, 0.7 * least_gap() / series_count());
+    if (!with_bands()) {
+      beside_ = std::min(
+          {kBeside, 0.7 * least_gap() / series_count(), 2.0 * kMostBeside / series_count()});
+    }
   }
 
   [[nodiscard]] Drawing draw() const override {
@@ -72,18 +80,14 @@ class LineChart final : public PlacedChart {
   [[nodiscard]] double series_count() const { return static_cast<double>(chart_.series.size()); }
   // Between the axis and the outer points.
   [[nodiscard]] double room() const {
-    return 22.0 + (with_bands() ? 0.0 : 0.5 * kBeside * series_count());
+    return 22.0 + (with_bands() ? 0.0 : std::min(0.5 * kBeside * series_count(), kMostBeside));
   }
 
   [[nodiscard]] Extent values() const {
     Extent extent;
     for (const ChartSeries& series : chart_.series) {
       for (const ChartPoint& point : series.points) {
-        if (!point.x) continue;
-        extent.add(point.value);
-        extent.add(point.interval.low);
-        extent.add(point.interval.high);
-        for (const double value : point.values) extent.add(value);
+        if (point.x) extent.add(point);
       }
     }
     return extent;

@@ -142,6 +142,8 @@ TEST(DotChart, Shares_ArePercent) {
   const double all = place_in_chart(chart, 0, 0)->x();
   const double none = place_in_chart(chart, 0, 1)->x();
   EXPECT_NEAR(place_in_chart(chart, 0, 2)->x(), 0.75 * none + 0.25 * all, 1e-6);
+  chart.series[0].points[2].value = 1.0 / 3.0;
+  EXPECT_THAT(draw_chart(chart).svg(), HasSubstr(">33.3 %<"));
 }
 
 TEST(LineChart, Means_AreOverTheParameter) {
