@@ -21,6 +21,12 @@ namespace {
 using sim::Colour;
 using sim::Vec2;
 using sim::render::Drawing;
+using sim::render::Tick;
+using sim::render::ticks;
+using sim::render::page_palette::kFaintInk;
+using sim::render::page_palette::kFrame;
+using sim::render::page_palette::kGrid;
+using sim::render::page_palette::kInk;
 using Align = Drawing::Align;
 
 constexpr int kWidth = 1200;
@@ -36,10 +42,6 @@ constexpr double kSceneGap = 14.0;      // between scenes side by side
 constexpr double kSceneFoot = 64.0;     // below a scene, for its key and the next scene's title
 constexpr double kText = 10.0;          // height of a capital letter [pixels]
 constexpr double kSmallText = 8.6;
-constexpr Colour kInk{0x35, 0x38, 0x3d, 0xff};
-constexpr Colour kFaintInk{0x6d, 0x6f, 0x72, 0xff};
-constexpr Colour kGrid{0xe4, 0xe4, 0xe2, 0xff};
-constexpr Colour kFrame{0xb4, 0xb6, 0xb8, 0xff};
 constexpr Colour kRed{0xe0, 0x1e, 0x37, 0xff};
 constexpr Colour kGreen{0x1c, 0x8a, 0x3c, 0xff};
 constexpr std::size_t kMostEntries = 8;  // maximum number of entries in the legend
@@ -110,10 +112,6 @@ std::vector<Series> series_of(const std::vector<RunData>& runs) {
   return all;
 }
 
-std::string tick_text(double value) {
-  return sim::rounded_text(std::abs(value) < 1e-12 ? 0.0 : value, 6);
-}
-
 // The mark of a collision, as in pictures of scenes.
 void add_cross(Drawing& page, const Vec2& place) {
   for (const double side : {-1.0, 1.0}) {
@@ -169,18 +167,19 @@ class Chart {
   }
 
   void draw_grid(bool with_times) {
-    for (const double time_s : ticks(0.0, end_s_, 8)) {
-      page_.add_line({{x(time_s), top_}, {x(time_s), bottom_}}, kGrid, 1.0);
+    for (const Tick& tick : ticks(0.0, end_s_, 8)) {
+      page_.add_line({{x(tick.value), top_}, {x(tick.value), bottom_}}, kGrid, 1.0);
       if (with_times) {
-        page_.add_text(tick_text(time_s), {x(time_s), bottom_ + 18.0}, kSmallText, kFaintInk,
+        page_.add_text(tick.text, {x(tick.value), bottom_ + 18.0}, kSmallText, kFaintInk,
                        Align::kMiddle);
       }
     }
-    for (const double value : ticks(low_, high_, 5)) {
-      const bool is_zero = std::abs(value) < 1e-12 && low_ < 0.0;
-      page_.add_line({{kLeft, y(value)}, {kRight, y(value)}}, is_zero ? kFrame : kGrid, 1.0);
-      page_.add_text(tick_text(value), {kLeft - 7.0, y(value) + 0.5 * kSmallText}, kSmallText,
-                     kFaintInk, Align::kRight);
+    for (const Tick& tick : ticks(low_, high_, 5)) {
+      const bool is_zero = tick.value == 0.0 && low_ < 0.0;
+      const double height = y(tick.value);
+      page_.add_line({{kLeft, height}, {kRight, height}}, is_zero ? kFrame : kGrid, 1.0);
+      page_.add_text(tick.text, {kLeft - 7.0, height + 0.5 * kSmallText}, kSmallText, kFaintInk,
+                     Align::kRight);
     }
     page_.add_line({{kLeft, top_}, {kLeft, bottom_}, {kRight, bottom_}}, kFrame, 1.2);
   }
@@ -420,20 +419,6 @@ void draw_scenes(Drawing& page, const SceneGrid& grid, const std::vector<Group>&
 }
 
 }  // namespace
-
-std::vector<double> ticks(double least, double most, int count) {
-  const double rough = (most - least) / std::max(count, 1);
-  if (!(rough > 0.0) || !std::isfinite(rough)) return {};
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  double step = 10.0 * power;
-  for (const double factor : {5.0, 2.0, 1.0}) {
-    if (factor * power >= rough * (1.0 - 1e-9)) step = factor * power;
-  }
-  std::vector<double> all;
-  const double first = std::ceil(least / step - 1e-9);
-  for (double i = first; i * step <= most + 1e-9 * step; i += 1.0) all.push_back(i * step);
-  return all;
-}
 
 Drawing plot_page(const std::vector<RunData>& runs) {
   constexpr std::size_t kMostScenes = 40;  // the page would become too high

@@ -9,10 +9,6 @@
 
 namespace playpen {
 
-/// Returns the values of an axis's ticks: round, evenly spaced numbers in [least, most].
-/// @param count  approximate number of ticks.
-[[nodiscard]] std::vector<double> ticks(double least, double most, int count);
-
 /// Draws the page of `playpen plot`. The left side shows speed, turn rate, clearance and path
 /// length over time; crosses mark collisions, diamonds reached goals. The right side shows the
 /// trajectories, on one scene for each world. The first run has solid curves, the other runs have

@@ -145,9 +145,10 @@ PLAYERLIKE = arrows({
     "par_exploration_changing": "imr-h libCCMorse par_exploration",
     "par_chase": "imr-h libCCMorse par_common",
     "par_localization": "imr-h libCCMorse par_common",
-    "playpen": "messages process host connect server playpen/grade playpen/course",
+    "playpen": "messages process host connect server playpen/grade playpen/course playpen/batch",
     "playpen/grade": "messages host",
     "playpen/course": "messages host playpen/grade",
+    "playpen/batch": "messages host playpen/grade",
     "playpen/view": "view",
 })
 
@@ -218,9 +219,9 @@ def playerlike_folder(path):
     place = path[m.end():] if (m := PLAYERLIKE_PREFIX.match(path)) else path
     if place.startswith("player-"):
         return "player-"
-    if path.startswith("apps/") and (m := re.match(r"playpen/(course|grade|view)(?=/)", place)):
+    if path.startswith("apps/") and (m := re.match(r"playpen/(batch|course|grade|view)(?=/)", place)):
         return m[0]
-    if (m := re.match(r"(course|grade)/", place)):
+    if (m := re.match(r"(batch|course|grade)/", place)):
         return "playpen/" + m[1]
     return first_folder(place)
 
@@ -606,6 +607,9 @@ def self_test():
     includes("apps/par_intro/template/x.cc", "libCCMorse/CCMorse.h")
     includes("apps/playpen/x.cpp", "world/x.h", "public headers only")
     includes("apps/playpen/x.cpp", "X11/Xlib.h", "windows belong")
+    includes("apps/playpen/batch/x.cpp", "course/x.h", "from playpen/batch to playpen/course")
+    includes("apps/playpen/batch/x.cpp", "grade/x.h")
+    includes("apps/playpen/course/x.cpp", "batch/x.h", "from playpen/course to playpen/batch")
 
     includes("libsim/src/devices/x.cpp", "box2d/box2d.h", "Box2D")
     includes("libsim/src/physics/x.cpp", "box2d/box2d.h")

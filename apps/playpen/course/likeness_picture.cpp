@@ -22,7 +22,7 @@ constexpr int kPageWidth = 900;
 constexpr double kMargin = 30.0;     // around the arena [pixels]
 constexpr double kHeading = 96.0;    // space above the arena [pixels]
 constexpr double kCapHeight = 10.0;  // of letters [pixels]
-constexpr Colour kTextColour{0x35, 0x38, 0x3d, 0xff};
+constexpr Colour kTextColour = sim::render::page_palette::kInk;
 constexpr Colour kFloor{0xf7, 0xf7, 0xf5, 0xff};
 constexpr Colour kSolid{0xb9, 0xbb, 0xbe, 0xff};
 constexpr Colour kWide{0x8c, 0xbc, 0xf0, 0xff};

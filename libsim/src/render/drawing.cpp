@@ -243,4 +243,24 @@ Colour distinct_colour(std::size_t number) {
   return mix(colour, round % 2 == 1 ? palette::kWheel : palette::kLight, share);
 }
 
+std::vector<Tick> ticks(double least, double most, int count) {
+  constexpr double kTolerance = 1e-9;  // of a step, for the rounding of 1 / 10 and the like
+  constexpr double kResolved = 1e-12;  // of the numbers
+  const double largest = std::max(std::abs(least), std::abs(most));
+  const double rough = (most - least) / std::max(count, 1);
+  if (!(rough > kResolved * largest) || !std::isfinite(rough)) return {};
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10.0 * power;
+  for (const double factor : {5.0, 2.0, 1.0}) {
+    if (factor * power >= rough * (1.0 - kTolerance)) step = factor * power;
+  }
+  const int needed = 2 + static_cast<int>(std::floor(std::log10(largest) - std::log10(power)));
+  std::vector<Tick> all;
+  for (double i = std::ceil(least / step - kTolerance); i * step <= most + kTolerance * step;
+       i += 1.0) {
+    all.push_back({i * step, rounded_text(i == 0.0 ? 0.0 : i * step, std::max(needed, 6))});
+  }
+  return all;
+}
+
 }  // namespace sim::render

@@ -387,6 +387,29 @@ TEST(Drawing, PictureAndSvg_SameItems) {
   EXPECT_THROW(Drawing(63, 100), std::invalid_argument);
 }
 
+std::string texts_of(const std::vector<Tick>& ticks) {
+  std::string texts;
+  for (const Tick& tick : ticks) texts += (texts.empty() ? "" : " ") + tick.text;
+  return texts;
+}
+
+TEST(Ticks, Ranges_RoundNumbers) {
+  EXPECT_EQ(texts_of(ticks(0.0, 1.0, 5)), "0 0.2 0.4 0.6 0.8 1");
+  EXPECT_EQ(texts_of(ticks(-0.3, 0.3, 6)), "-0.3 -0.2 -0.1 0 0.1 0.2 0.3");
+  EXPECT_EQ(texts_of(ticks(0.1, 10.9, 5)), "5 10");
+  EXPECT_EQ(texts_of(ticks(1e9, 1e9 + 4.0, 4)),
+            "1000000000 1000000001 1000000002 1000000003 1000000004");
+  EXPECT_EQ(texts_of(ticks(0.0, 3e300, 3)), "0 1e+300 2e+300 3e+300");
+  EXPECT_EQ(texts_of(ticks(-2e-17, 2e-17, 4)), "-2e-17 -1e-17 0 1e-17 2e-17");
+}
+
+TEST(Ticks, UnusableRange_NoTicks) {
+  EXPECT_EQ(texts_of(ticks(1.0, 1.0, 5)), "");
+  EXPECT_EQ(texts_of(ticks(2.0, 1.0, 5)), "");
+  EXPECT_EQ(texts_of(ticks(1.0, std::nextafter(1.0, 2.0), 5)), "");
+  EXPECT_EQ(texts_of(ticks(-1.7e308, 1.7e308, 5)), "");
+}
+
 TEST(Drawing, ManyColours_Differ) {
   for (std::size_t i = 0; i < 30; ++i) {
     for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(distinct_colour(i) == distinct_colour(k));

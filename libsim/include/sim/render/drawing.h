@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <variant>
 #include <vector>
@@ -75,7 +76,28 @@ class Drawing {
   std::vector<Item> items_;  // in drawing order
 };
 
+/// Colours of the parts that all pages share.
+namespace page_palette {
+inline constexpr Colour kInk{0x35, 0x38, 0x3d};       ///< of titles and names
+inline constexpr Colour kFaintInk{0x6d, 0x6f, 0x72};  ///< of numbers and notes
+inline constexpr Colour kGrid{0xe4, 0xe4, 0xe2};      ///< of lines at ticks
+inline constexpr Colour kFrame{0xb4, 0xb6, 0xb8};     ///< of axes
+}  // namespace page_palette
+
 /// Returns the colour with the given number, from 0, of a series of distinguishable colours.
 [[nodiscard]] Colour distinct_colour(std::size_t number);
+
+/// A number on an axis.
+struct Tick {
+  double value = 0.0;
+  std::string text;  ///< the value, with as many digits as tell the axis's ticks apart
+};
+
+/// Returns the ticks of an axis: round, evenly spaced numbers in [least, most], 1, 2 or 5 times a
+/// power of ten apart.
+/// @param count  approximate number of ticks, >= 1; never exceeded by more than one.
+/// @return empty unless least < most, or if doubles cannot resolve the range (1e-12 of the
+/// numbers).
+[[nodiscard]] std::vector<Tick> ticks(double least, double most, int count);
 
 }  // namespace sim::render
