@@ -78,8 +78,8 @@ batch::Batch batch_of(const BatchRequest& request, const fs::path& out) {
     batch::Batch known = batch::read_batch(out);
     if (known.version == PLAYPEN_VERSION) return known;
     throw std::runtime_error("the batch of '" + out.string() + "' belongs to Playpen " +
-                             known.version + ", and this is Playpen " PLAYPEN_VERSION
-                             ": give its plan again");
+                             known.version +
+                             ", and this is Playpen " PLAYPEN_VERSION ": give its plan again");
   }
   batch::Plan plan = batch::read_plan(request.plan);
   find_files_of(plan);
@@ -110,8 +110,8 @@ bool run_here(const batch::Batch& batch, const std::vector<std::size_t>& units,
   if (!isolated.isolated()) virtual_time.add_to(settings.environment);
   add_libraries_folder(settings.environment);
   settings.launcher = [&](const batch::Condition& condition) {
-    return isolated.launcher(virtual_time.file(), {out.string(), batch.task_file, condition.file,
-                                                   condition.original});
+    return isolated.launcher(virtual_time.file(),
+                             {out.string(), batch.task_file, condition.file, condition.original});
   };
   ProgressBar bar;
   bool begun = false;

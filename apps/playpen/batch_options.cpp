@@ -71,18 +71,16 @@ void add_batch(CommandLine& line) {
   line.takes(out->required()->type_name("DIR"), ValueKind::Kind::kFolder);
   add_jobs(command, request->jobs);
   add_engine_options(line, command, *request);
-  CLI::Option* const collect = command.add_flag("--collect", request->collect,
-                                                "Run nothing, only collect the results");
+  CLI::Option* const collect =
+      command.add_flag("--collect", request->collect, "Run nothing, only collect the results");
   CLI::Option* const failed = command.add_flag(
       "--failed", request->failed, "Run those again whose program crashed or took too long");
   CLI::Option* const part =
       add_parsed(command, "--part", "Run only this part, and collect nothing: for engines", "K/N",
-                 "two whole numbers, as 3/20", [request](const std::string& text) {
-                   return parse_part(text, request->part);
-                 });
+                 "two whole numbers, as 3/20",
+                 [request](const std::string& text) { return parse_part(text, request->part); });
   CLI::Option* const repeat =
-      command
-          .add_option("--repeat", request->repeat, "Run this unit of the batch with a window")
+      command.add_option("--repeat", request->repeat, "Run this unit of the batch with a window")
           ->type_name("ID");
   add_isolation(line, command, request->isolation);
   failed->excludes(collect);

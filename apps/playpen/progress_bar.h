@@ -9,8 +9,8 @@
 
 namespace playpen {
 
-/// A line on standard error that overwrites itself: how much of a task is done, and the time that is
-/// left. Shows nothing unless standard error is a terminal.
+/// A line on standard error that overwrites itself: how much of a task is done, and the time that
+/// is left. Shows nothing unless standard error is a terminal.
 class ProgressBar {
  public:
   /// Starts a task, and its time.

@@ -82,9 +82,9 @@ std::string csv_condition(const Batch& batch, std::size_t program, std::size_t c
   for (const std::string& value : asked.values) {
     const ordered_json parsed = ordered_json::parse(value);
     // A negative number is no formula.
-    text += ',' + (parsed.is_number() ? value
-                                      : csv_value(parsed.is_string() ? parsed.get<std::string>()
-                                                                     : value));
+    text += ',' + (parsed.is_number()
+                       ? value
+                       : csv_value(parsed.is_string() ? parsed.get<std::string>() : value));
   }
   return text;
 }
@@ -122,8 +122,8 @@ std::string results_csv(const BatchResult& result) {
 }
 
 std::string statistics_csv(const Batch& batch, const std::vector<GroupSummary>& groups) {
-  std::string text = csv_names(batch) +
-                     ",figure,unit,count,mean,deviation,least,median,most,low,high\r\n";
+  std::string text =
+      csv_names(batch) + ",figure,unit,count,mean,deviation,least,median,most,low,high\r\n";
   for (const GroupSummary& group : groups) {
     const std::string begin = csv_condition(batch, group.program, group.condition);
     for (const FigureSummary& figure : group.figures) {
@@ -145,14 +145,12 @@ std::string statistics_csv(const Batch& batch, const std::vector<GroupSummary>& 
 ordered_json to_json(const FigureSummary& figure) {
   const Summary& s = figure.summary;
   if (figure.is_yes_or_no) {
-    return {{"count", s.count},
-            {"share", s.mean},
-            {"low", s.interval.low},
-            {"high", s.interval.high}};
+    return {
+        {"count", s.count}, {"share", s.mean}, {"low", s.interval.low}, {"high", s.interval.high}};
   }
-  return {{"count", s.count},          {"mean", s.mean},     {"deviation", s.deviation},
-          {"least", s.least},          {"median", s.median}, {"most", s.most},
-          {"low", s.interval.low},     {"high", s.interval.high}};
+  return {{"count", s.count},      {"mean", s.mean},         {"deviation", s.deviation},
+          {"least", s.least},      {"median", s.median},     {"most", s.most},
+          {"low", s.interval.low}, {"high", s.interval.high}};
 }
 
 std::string json_text(const BatchResult& result, const std::vector<GroupSummary>& groups) {
@@ -251,8 +249,8 @@ std::vector<GroupSummary> summarize(const BatchResult& result) {
     group.ended = runs.size();
     const bool is_last = i + 1 == units.size() || units[i + 1].program != group.program ||
                          units[i + 1].condition != group.condition;
-    if (is_last) group.figures = figures_of(runs, csv_condition(result.batch, group.program,
-                                                                group.condition));
+    if (is_last)
+      group.figures = figures_of(runs, csv_condition(result.batch, group.program, group.condition));
   }
   return groups;
 }

@@ -32,11 +32,11 @@ struct BatchResult {
 
 /// A figure of the runs of one program under one condition.
 struct FigureSummary {
-  std::string name;             ///< as in grade.json; "passed" for the verdict
-  std::string unit;             ///< "": none
-  bool is_yes_or_no = false;    ///< `summary` then has only count, mean (the share) and interval
-  Summary summary;              ///< of the runs that have the figure
-  std::vector<double> values;   ///< by seed
+  std::string name;            ///< as in grade.json; "passed" for the verdict
+  std::string unit;            ///< "": none
+  bool is_yes_or_no = false;   ///< `summary` then has only count, mean (the share) and interval
+  Summary summary;             ///< of the runs that have the figure
+  std::vector<double> values;  ///< by seed
 };
 
 /// The runs of one program under one condition.
@@ -54,8 +54,7 @@ struct GroupSummary {
 /// A line for each program and condition, for people.
 /// @param columns  width of the terminal [characters].
 [[nodiscard]] std::string batch_table(const BatchResult& result,
-                                      const std::vector<GroupSummary>& groups,
-                                      std::size_t columns);
+                                      const std::vector<GroupSummary>& groups, std::size_t columns);
 
 /// Writes results.csv (a line for each unit), statistics.csv (a line for each figure of a group),
 /// batch.json and a chart for each figure that differs between runs (docs/batch.md). Equal results

@@ -52,8 +52,9 @@ std::vector<std::string> slurm_command(const EngineCall& call,
 }
 
 std::vector<std::string> parallel_command(const EngineCall& call) {
-  std::vector<std::string> words = {"parallel", "--will-cite", "--retries", "3", "--joblog",
-                                    (call.out / "parallel.log").string()};
+  std::vector<std::string> words = {"parallel",  "--will-cite",
+                                    "--retries", "3",
+                                    "--joblog",  (call.out / "parallel.log").string()};
   words.insert(words.end(), call.options.begin(), call.options.end());
   // Parallel gives its command to a shell.
   words.push_back(shell_word(call.command) + " batch --out " + shell_word(call.out.string()) +

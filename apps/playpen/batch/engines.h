@@ -14,8 +14,7 @@ namespace playpen::batch {
 /// The units of a part: indices from `first` up to, and not including, `second`. Parts are equal in
 /// size but for one unit.
 /// @param part  1 to `parts`.
-[[nodiscard]] std::pair<std::size_t, std::size_t> units_of_part(std::size_t units,
-                                                                std::size_t part,
+[[nodiscard]] std::pair<std::size_t, std::size_t> units_of_part(std::size_t units, std::size_t part,
                                                                 std::size_t parts);
 
 /// A number of parts that keeps a cluster busy, and each of them for some time: one for 25 units,

@@ -41,8 +41,7 @@ std::vector<std::string> range_values(Reader& range) {
   const bool has_step = range.has("step");
   const bool has_count = range.has("count");
   const double step = range.number("step", 1.0, {0.0, 1e12, true, ""});
-  const std::int64_t asked =
-      range.integer("count", 2, 1, static_cast<std::int64_t>(kMostItems));
+  const std::int64_t asked = range.integer("count", 2, 1, static_cast<std::int64_t>(kMostItems));
   range.finish();
   if (has_step == has_count) {
     range.issue("plan/range", "either \"step\" or \"count\"", has_step ? "both" : "neither");
@@ -60,13 +59,13 @@ std::vector<std::string> range_values(Reader& range) {
                 sim::fixed_text(steps + 1.0, 0));
     return {};
   }
-  const auto count = has_count ? static_cast<std::size_t>(asked)
-                               : static_cast<std::size_t>(steps) + 1;
+  const auto count =
+      has_count ? static_cast<std::size_t>(asked) : static_cast<std::size_t>(steps) + 1;
   std::vector<std::string> values;
   for (std::size_t i = 0; i < count; ++i) {
     const double along = static_cast<double>(i);
-    values.push_back(decimal_text(has_step ? from + along * step
-                                           : from + along * ((to - from) / steps)));
+    values.push_back(
+        decimal_text(has_step ? from + along * step : from + along * ((to - from) / steps)));
   }
   return values;
 }
@@ -175,8 +174,7 @@ class PlanReader {
       return;
     }
     if (seeds->is_number()) {
-      const std::int64_t count =
-          root.integer("seeds", 1, 1, static_cast<std::int64_t>(kMostItems));
+      const std::int64_t count = root.integer("seeds", 1, 1, static_cast<std::int64_t>(kMostItems));
       for (std::int64_t seed = 1; seed <= count; ++seed) {
         plan_.seeds.push_back(static_cast<std::uint64_t>(seed));
       }

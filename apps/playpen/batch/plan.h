@@ -35,8 +35,8 @@ struct Plan {
   std::vector<std::string> worlds;       ///< as the plan has them; empty: those of the task
   std::vector<std::uint64_t> seeds;      ///< different; empty: those of the task
   std::vector<Parameter> parameters;
-  std::optional<double> duration_s;  ///< simulated limit; none: that of the task or world [s]
-  std::optional<double> timeout_s;   ///< wall-clock limit of a run; none: that of the task [s]
+  std::optional<double> duration_s;     ///< simulated limit; none: that of the task or world [s]
+  std::optional<double> timeout_s;      ///< wall-clock limit of a run; none: that of the task [s]
   std::optional<sim::Realism> realism;  ///< none: that of each world
 };
 

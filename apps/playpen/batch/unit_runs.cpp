@@ -74,7 +74,7 @@ class OwnFolder {
 };
 
 /// The units of one program under one condition, and their runs.
-struct Group {
+struct UnitGroup {
   std::size_t program = 0;
   std::size_t condition = 0;
   std::map<std::uint64_t, const Unit*> units;  ///< by seed
@@ -137,15 +137,15 @@ class UnitRuns {
   }
 
   bool run_some(const std::vector<const Unit*>& units) {
-    std::map<std::pair<std::size_t, std::size_t>, Group> groups;
+    std::map<std::pair<std::size_t, std::size_t>, UnitGroup> groups;
     for (const Unit* unit : units) {
-      Group& group = groups[{unit->program, unit->condition}];
+      UnitGroup& group = groups[{unit->program, unit->condition}];
       group.program = unit->program;
       group.condition = unit->condition;
       group.units.emplace(unit->seed, unit);
     }
     std::vector<playerlike::ProgramJob> jobs;
-    std::vector<std::pair<Group*, std::size_t>> places;
+    std::vector<std::pair<UnitGroup*, std::size_t>> places;
     for (auto& [key, group] : groups) {
       prepare(group);
       for (std::size_t job = 0; job < group.runs->jobs().size(); ++job) {
@@ -171,16 +171,16 @@ class UnitRuns {
     });
   }
 
-  void prepare(Group& group) {
+  void prepare(UnitGroup& group) {
     const Condition& condition = batch_.conditions[group.condition];
     grade::Task task = task_of(batch_, condition);
     task.seeds.clear();
     for (const auto& [seed, unit] : group.units) task.seeds.push_back(seed);
     group.task.emplace(std::move(task));
     group.settings.program = batch_.programs[group.program].command;
-    group.settings.output_folder = (own_.path() / (std::to_string(group.program) + '-' +
-                                                   std::to_string(group.condition)))
-                                       .string();
+    group.settings.output_folder =
+        (own_.path() / (std::to_string(group.program) + '-' + std::to_string(group.condition)))
+            .string();
     group.settings.realism = batch_.realism;
     group.settings.environment = settings_.environment;
     if (settings_.launcher) group.settings.launcher = settings_.launcher(condition);

@@ -41,7 +41,8 @@ std::uint64_t make_world(const Plan& plan, const fs::path& folder, Condition& co
   }
   const std::string changed = grade::patched_world(text, description, patch);
   condition.file =
-      (folder / (condition.world + "-" + grade::fingerprint_of({changed}) + ".json")).string();
+      (folder / (condition.world + "-" + grade::fingerprint_of_texts({changed}) + ".json"))
+          .string();
   grade::write_text_file(condition.file, changed);
   return sim::world_hash(sim::load_world(condition.file));
 }
@@ -134,8 +135,8 @@ Batch batch_from(const ordered_json& root) {
     batch.units.push_back({unit.at(0), unit.at(1), unit.at(2), unit.at(3)});
     const Unit& last = batch.units.back();
     // The id is the name of a folder.
-    const bool is_id = last.id.size() == 16 &&
-                       last.id.find_first_not_of("0123456789abcdef") == std::string::npos;
+    const bool is_id =
+        last.id.size() == 16 && last.id.find_first_not_of("0123456789abcdef") == std::string::npos;
     if (!is_id || last.program >= batch.programs.size() ||
         last.condition >= batch.conditions.size()) {
       throw std::invalid_argument("a unit");
@@ -185,7 +186,7 @@ Batch make_batch(const Plan& plan, const BatchSettings& settings) {
       batch.conditions.push_back(std::move(condition));
     }
   }
-  const std::string common = grade::fingerprint_of(
+  const std::string common = grade::fingerprint_of_texts(
       {settings.version, plan.task.empty() ? "" : grade::fingerprint_of(task),
        text_of(plan.duration_s), plan.realism ? std::string(sim::to_string(*plan.realism)) : "-",
        settings.isolation});
@@ -193,9 +194,10 @@ Batch make_batch(const Plan& plan, const BatchSettings& settings) {
     const std::string key = grade::fingerprint_of_command(batch.programs[program].command);
     for (std::size_t condition = 0; condition < batch.conditions.size(); ++condition) {
       for (const std::uint64_t seed : seeds) {
-        batch.units.push_back({grade::fingerprint_of({common, key, batch.conditions[condition].world,
-                                                      keys[condition], std::to_string(seed)}),
-                               program, condition, seed});
+        batch.units.push_back(
+            {grade::fingerprint_of_texts({common, key, batch.conditions[condition].world,
+                                          keys[condition], std::to_string(seed)}),
+             program, condition, seed});
       }
     }
   }

@@ -38,8 +38,8 @@ struct Batch {
   std::optional<double> duration_s;
   std::optional<double> timeout_s;
   std::optional<sim::Realism> realism;
-  std::string isolation = "off";      ///< level, as of --isolated
-  std::vector<std::string> readable;  ///< for isolated programs, absolute
+  std::string isolation = "off";         ///< level, as of --isolated
+  std::vector<std::string> readable;     ///< for isolated programs, absolute
   std::vector<PlannedProgram> programs;  ///< with absolute paths
   std::vector<std::string> parameters;   ///< their pointers
   std::vector<Condition> conditions;

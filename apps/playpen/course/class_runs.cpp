@@ -173,9 +173,9 @@ class ClassGrading {
       SubmissionResult& result = result_.submissions[i];
       if (!result.handed_in) continue;
       const fs::path folder = out_ / result.folder;
-      build_keys_[i] =
-          grade::fingerprint_of({fingerprint_of(*submissions_[i]), settings_.version, build_commands(),
-                     settings_.build.program, sim::shortest_text(settings_.build.timeout_s)});
+      build_keys_[i] = grade::fingerprint_of_texts(
+          {fingerprint_of(*submissions_[i]), settings_.version, build_commands(),
+           settings_.build.program, sim::shortest_text(settings_.build.timeout_s)});
       const std::optional<Build> known =
           build_from(read_record(record_of_build(i), build_keys_[i]));
       if (known && (!known->built || fs::is_regular_file(folder / known->program))) {
@@ -205,7 +205,7 @@ class ClassGrading {
     progress_ = {};
     progress_.step = ClassProgress::Step::kRun;
     progress_.task = task.task().name;
-    const std::string task_key = grade::fingerprint_of(
+    const std::string task_key = grade::fingerprint_of_texts(
         {grade::fingerprint_of(task.task()), sim::shortest_text(task.task().timeout_s)});
     for (std::size_t i = 0; i < result_.submissions.size(); ++i) {
       if (result_.submissions[i].build.built) prepare_runs(i, task, task_key);
@@ -268,7 +268,8 @@ class ClassGrading {
     }
     const grade::PreparedTask& task = runs.own_task ? *runs.own_task : common_task;
     runs.submission = submission;
-    runs.key = grade::fingerprint_of({build_keys_[submission], task_key, settings_.isolated ? "1" : "0"});
+    runs.key = grade::fingerprint_of_texts(
+        {build_keys_[submission], task_key, settings_.isolated ? "1" : "0"});
     runs.settings.program = {program.string()};
     runs.settings.output_folder = (folder / task.task().name).string();
     runs.records = folder / "records" / task.task().name;
@@ -292,9 +293,10 @@ class ClassGrading {
   }
 
   [[nodiscard]] static std::string run_key(const std::string& key, const grade::GradedRun& run) {
-    return grade::fingerprint_of({key, run.folder, std::to_string(run.asked.world),
-                      std::to_string(run.asked.seed), run.asked.realism,
-                      run.asked.duration_s ? sim::shortest_text(*run.asked.duration_s) : "-"});
+    return grade::fingerprint_of_texts(
+        {key, run.folder, std::to_string(run.asked.world), std::to_string(run.asked.seed),
+         run.asked.realism,
+         run.asked.duration_s ? sim::shortest_text(*run.asked.duration_s) : "-"});
   }
 
   [[nodiscard]] fs::path record_of_build(std::size_t submission) const {

@@ -130,7 +130,8 @@ std::string repeat_command(const ClassResult& result, const SubmissionResult& su
     words.insert(words.end(), world.arguments.begin(), world.arguments.end());
   }
   std::string command;
-  for (const std::string& word : words) command += (command.empty() ? "" : " ") + grade::shell_word(word);
+  for (const std::string& word : words)
+    command += (command.empty() ? "" : " ") + grade::shell_word(word);
   return command;
 }
 

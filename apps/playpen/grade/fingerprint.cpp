@@ -15,7 +15,7 @@ namespace playpen::grade {
 
 using nlohmann::json;
 
-std::string fingerprint_of(const std::vector<std::string>& texts) {
+std::string fingerprint_of_texts(const std::vector<std::string>& texts) {
   sim::StateHash hash;
   for (const std::string& text : texts) hash.add(std::string_view(text));
   return sim::hexadecimal_text(hash.value(), 16);
@@ -28,7 +28,7 @@ std::string fingerprint_of(const Task& task) {
   if (document.is_object()) {
     for (const char* name : {"rubric", "description", "$schema"}) document.erase(name);
   }
-  return fingerprint_of({document.dump(-1, ' ', false, json::error_handler_t::replace)});
+  return fingerprint_of_texts({document.dump(-1, ' ', false, json::error_handler_t::replace)});
 }
 
 std::string fingerprint_of_command(const std::vector<std::string>& command) {
@@ -43,7 +43,7 @@ std::string fingerprint_of_command(const std::vector<std::string>& command) {
     if (sim::read_whole_file(word, limits, content)) content = "unreadable";
     texts.push_back(std::move(content));
   }
-  return fingerprint_of(texts);
+  return fingerprint_of_texts(texts);
 }
 
 }  // namespace playpen::grade

@@ -10,7 +10,7 @@
 namespace playpen::grade {
 
 /// The fingerprint of some texts in this order: 16 hexadecimal digits.
-[[nodiscard]] std::string fingerprint_of(const std::vector<std::string>& texts);
+[[nodiscard]] std::string fingerprint_of_texts(const std::vector<std::string>& texts);
 
 /// The fingerprint of what the runs of a task depend on: its file without rubric and texts. Its
 /// worlds, seeds and limits are not part of it.

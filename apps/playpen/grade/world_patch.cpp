@@ -117,8 +117,9 @@ void set_value(ordered_json& root, const std::string& file, const WorldValue& va
     if (!place->is_array() || error != std::errc() || rest != end || index >= place->size()) {
       throw sim::ConfigError(sim::ConfigIssue{
           "plan/parameter", file, value.pointer, "a place that the world file has",
-          place->is_array() ? "a list of " + std::to_string(place->size()) + " before '" + word + "'"
-                            : "neither an object nor a list before '" + word + "'"});
+          place->is_array()
+              ? "a list of " + std::to_string(place->size()) + " before '" + word + "'"
+              : "neither an object nor a list before '" + word + "'"});
     }
     place = &(*place)[index];
   }

@@ -32,7 +32,7 @@ struct WorldPatch {
   std::optional<StartPose> start;  ///< none: as in the world
   /// Names of the extended dynamic obstacles; the others are retracted. None: as in the world.
   std::optional<std::set<std::string>> extended;
-  std::vector<WorldValue> values;  ///< set at last, in this order
+  std::vector<WorldValue> values = {};  ///< set at last, in this order
 };
 
 /// A world file in JSON.
