@@ -195,7 +195,21 @@ std::string json_text(const BatchResult& result, const std::vector<GroupSummary>
   return whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 
-/// A cell with the mean of a figure; "-" if it has no values.
+/// A column of the table for people: its heading, then a cell for each group.
+struct Column {
+  std::vector<std::string> cells;
+  bool is_words = false;
+
+  [[nodiscard]] std::size_t width() const {
+    std::size_t most = 0;
+    for (const std::string& cell : cells) most = std::max(most, cell.size());
+    return most;
+  }
+};
+
+constexpr std::size_t kGap = 2;
+
+/// The mean of a figure; "-" if it has no values.
 std::string mean_text(const GroupSummary& group, const char* name, int decimals) {
   const auto figure =
       std::find_if(group.figures.begin(), group.figures.end(),
@@ -206,8 +220,50 @@ std::string mean_text(const GroupSummary& group, const char* name, int decimals)
 std::string passed_text(const GroupSummary& group) {
   if (group.figures.empty()) return "-";
   const Summary& passed = group.figures.front().summary;
-  const double share = passed.mean * static_cast<double>(passed.count);
-  return sim::fixed_text(share, 0) + " of " + std::to_string(passed.count);
+  return sim::fixed_text(passed.mean * static_cast<double>(passed.count), 0) + " of " +
+         std::to_string(passed.count);
+}
+
+/// The end of a pointer that no other parameter has: "x", or "0/pose/x".
+std::string short_name(const std::vector<std::string>& pointers, std::size_t index) {
+  const std::string& pointer = pointers[index];
+  for (std::size_t slash = pointer.rfind('/'); slash != 0 && slash != std::string::npos;
+       slash = pointer.rfind('/', slash - 1)) {
+    const std::string end = pointer.substr(slash);
+    const auto has_end = [&end](const std::string& other) { return other.ends_with(end); };
+    if (std::count_if(pointers.begin(), pointers.end(), has_end) == 1) return end.substr(1);
+  }
+  return pointer;
+}
+
+/// The columns of the table: what differs between the groups, and some figures.
+std::vector<Column> columns_of(const Batch& batch, const std::vector<GroupSummary>& groups) {
+  std::vector<Column> columns;
+  const auto add = [&](const std::string& heading, bool is_words, const auto& cell_of) {
+    Column column{{heading}, is_words};
+    for (const GroupSummary& group : groups) column.cells.push_back(cell_of(group));
+    const bool differs = std::any_of(column.cells.begin() + 1, column.cells.end(),
+                                     [&](const auto& cell) { return cell != column.cells[1]; });
+    if (differs || !is_words || columns.empty()) columns.push_back(std::move(column));
+  };
+  add("program", true, [&](const GroupSummary& group) {
+    return grade::plain_text(batch.programs[group.program].name);
+  });
+  add("world", true,
+      [&](const GroupSummary& group) { return batch.conditions[group.condition].world; });
+  for (std::size_t i = 0; i < batch.parameters.size(); ++i) {
+    add(grade::plain_text(short_name(batch.parameters, i)), true,
+        [&](const GroupSummary& group) { return batch.conditions[group.condition].values[i]; });
+  }
+  add("passed", false, passed_text);
+  const auto add_mean = [&add](const char* heading, const char* figure, int decimals) {
+    add(heading, false,
+        [&](const GroupSummary& group) { return mean_text(group, figure, decimals); });
+  };
+  add_mean("path [m]", "path_length", 2);
+  add_mean("collisions", "collisions", 1);
+  add_mean("time [s]", "sim_time", 1);
+  return columns;
 }
 
 }  // namespace
@@ -257,39 +313,27 @@ std::vector<GroupSummary> summarize(const BatchResult& result) {
 
 std::string batch_table(const BatchResult& result, const std::vector<GroupSummary>& groups,
                         std::size_t columns) {
-  const Batch& batch = result.batch;
-  std::vector<std::vector<std::string>> rows = {{"program", "world"}};
-  for (const std::string& parameter : batch.parameters) rows.front().push_back(parameter);
-  const std::size_t words = rows.front().size();
-  for (const char* name : {"passed", "path [m]", "collisions", "time [s]"}) {
-    rows.front().emplace_back(name);
-  }
-  for (const GroupSummary& group : groups) {
-    const Condition& condition = batch.conditions[group.condition];
-    std::vector<std::string>& row = rows.emplace_back();
-    row = {grade::plain_text(batch.programs[group.program].name), condition.world};
-    row.insert(row.end(), condition.values.begin(), condition.values.end());
-    row.push_back(passed_text(group));
-    row.push_back(mean_text(group, "path_length", 2));
-    row.push_back(mean_text(group, "collisions", 1));
-    row.push_back(mean_text(group, "sim_time", 1));
-  }
+  std::vector<Column> table = columns_of(result.batch, groups);
+  const auto width = [&table] {
+    std::size_t sum = 0;
+    for (const Column& column : table) sum += column.width() + kGap;
+    return sum - kGap;
+  };
+  constexpr std::size_t kFewest = 2;
+  while (table.size() > kFewest && width() > columns) table.pop_back();
   std::string text;
-  for (const auto& row : rows) {
+  for (std::size_t row = 0; row < table.front().cells.size(); ++row) {
     std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      std::size_t width = 0;
-      for (const auto& other : rows) width = std::max(width, other[i].size());
-      const std::string blanks(width - row[i].size(), ' ');
-      line += (i > 0 ? "  " : "") + (i < words ? row[i] + blanks : blanks + row[i]);
+    for (const Column& column : table) {
+      const std::string& cell = column.cells[row];
+      const std::string blanks(column.width() - cell.size(), ' ');
+      line += (line.empty() ? "" : std::string(kGap, ' ')) +
+              (column.is_words ? cell + blanks : blanks + cell);
     }
-    // A line that is too long for the terminal would be broken in its middle.
-    line = line.substr(0, std::max<std::size_t>(columns, 40));
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }
-  text += std::to_string(result.runs.size()) + " runs, " + std::to_string(result.ended()) +
-          " ended, " + std::to_string(result.passed()) + " passed\n";
-  return text;
+  return text + std::to_string(result.runs.size()) + " runs, " + std::to_string(result.ended()) +
+         " ended, " + std::to_string(result.passed()) + " passed\n";
 }
 
 void write_results(const BatchResult& result, const std::vector<GroupSummary>& groups,
