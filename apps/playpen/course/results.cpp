@@ -11,6 +11,7 @@
 #include "course/html_text.h"
 #include "grade/rubric.h"
 #include "grade/run_record.h"
+#include "grade/sight.h"
 #include "grade/text.h"
 #include "sim/core/number_text.h"
 #include "sim/core/utf8.h"
@@ -193,10 +194,9 @@ std::string main_reason(const SubmissionResult& submission) {
 std::vector<std::string> reasons_of(const grade::GradedRun& run) {
   std::vector<std::string> reasons = run.faults;
   if (const auto& first = run.measures.first_collision; first && !run.passed()) {
-    reasons.push_back("first hit " + first->partner + " at (" +
-                      sim::fixed_text(first->place.x(), 2) + ", " +
-                      sim::fixed_text(first->place.y(), 2) + ") after " +
-                      sim::fixed_text(first->time_s, 1) + " s");
+    const std::string text = grade::contact_text(*first);
+    const auto tells = [&text](const std::string& fault) { return fault.ends_with(text); };
+    if (std::none_of(reasons.begin(), reasons.end(), tells)) reasons.push_back(text);
   }
   switch (run.ending) {
     case grade::Ending::kSignal:

@@ -15,8 +15,9 @@ namespace playpen::course {
 /// reason that most of its runs have, and how many. "": all runs passed.
 [[nodiscard]] std::string main_reason(const SubmissionResult& submission);
 
-/// Why a run failed, in words for its student: its faults, where it first hit something ("first hit
-/// block_3 at (1.20, 2.05) after 31.4 s"), and what to look for. Empty for a run that has passed.
+/// Why a run failed, in words for its student: its faults, where it first hit something (see
+/// grade::contact_text()) unless a fault says that, and what to look for. Empty for a run that has
+/// passed.
 [[nodiscard]] std::vector<std::string> reasons_of(const grade::GradedRun& run);
 
 using grade::plain_text;

@@ -15,7 +15,9 @@
 #include "grade/figures.h"
 #include "grade/map_score.h"
 #include "grade/shortest_path.h"
+#include "grade/sight.h"
 #include "grade/text.h"
+#include "grade/trajectory.h"
 #include "playerlike/host/report.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
@@ -65,7 +67,7 @@ std::optional<Blocks> read_blocks(const Report& report, const Reference& referen
     blocks.at_end[name] = state == "extended" || state == "rising" || state == "sinking";
     if (!blocks.at_end[name]) blocks.opened.insert(name);
   }
-  for (const sim::ObstacleDescription& block : reference.arena.obstacles) {
+  for (const sim::ObstacleDescription& block : reference.description.arena.obstacles) {
     if (block.state == sim::ObstacleState::kRetracted) blocks.opened.insert(block.name);
   }
   for (const Report::Event& event : *report.events) {
@@ -97,15 +99,17 @@ MapScore score_with_blocks(const sim::OccupancyMap& map, const Reference& refere
     return blocks.opened.count(name) == 0;
   };
   return score_map_within(
-      map, make_truth(with_blocks(reference.arena, stands)),
-      reachable_cells(make_truth(with_blocks(reference.arena, never_opened)), reference.start),
+      map, make_truth(with_blocks(reference.description.arena, stands)),
+      reachable_cells(make_truth(with_blocks(reference.description.arena, never_opened)),
+                      reference.start),
       seen);
 }
 
-/// What of the arena a report tells, for the judgement of a map.
+/// What of the arena a report tells, for the judgement of a map and of the first contact.
 struct Floor {
   std::optional<Blocks> blocks;
   std::optional<SeenFloor> seen;
+  bool is_unchanged = false;  ///< whether it is as it was at the start until the first contact
 };
 
 /// Reads the floor that a robot has seen from its entry in a report; nullopt if there is none.
@@ -223,6 +227,8 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
     read_verdict(report, reference, found);
     read_use(report, found);
     floor.blocks = read_blocks(report, reference);
+    floor.is_unchanged = found.first_collision && !may_have_changed(reference.description, report,
+                                                                    found.first_collision->time_s);
     measures = found;
     if (!measures.path_length_m) return "the report has no robot " + reference.robot;
   } catch (const std::exception& error) {
@@ -334,13 +340,9 @@ std::optional<std::string> impossible_path(const Reference& reference, const Mea
          " m): the robot has not driven there; does the world lock its objects (lock_objects)?";
 }
 
-/// ": the first after 10.61 s with border at (1.16, 3.72)"; "" if it is not known.
+/// ": first hit border at (1.16, 3.72) after 10.6 s"; "" if it is not known.
 std::string first_collision_text(const Measures& measures) {
-  if (!measures.first_collision) return "";
-  const Contact& first = *measures.first_collision;
-  return ": the first after " + sim::fixed_text(first.time_s, 2) + " s with " + first.partner +
-         " at (" + sim::fixed_text(first.place.x(), 2) + ", " +
-         sim::fixed_text(first.place.y(), 2) + ')';
+  return measures.first_collision ? ": " + contact_text(*measures.first_collision) : "";
 }
 
 /// Says that a map shows floor that the robot has not seen; "" if that makes no difference.
@@ -468,7 +470,7 @@ Reference make_reference(const Task& task, const TaskWorld& task_world,
   reference.robot = robot->name;
   require_known_names(task, reference, world);
   reference.start = robot->pose.position();
-  reference.arena = world.arena;
+  reference.description = world;
   reference.duration_s = task.duration_s;
   if (!reference.duration_s && world.simulation.duration_ns) {
     reference.duration_s = sim::to_seconds(*world.simulation.duration_ns);
@@ -554,14 +556,27 @@ std::vector<std::string> faults_of(const Thresholds& t, const Measures& m, Endin
 
 namespace {
 
-/// Adds the faults of a run whose report is known.
-void judge(const Task& task, const Reference& reference, bool completed, GradedRun& run) {
-  if (auto fault = impossible_path(reference, run.measures)) {
-    run.faults.push_back(*std::move(fault));
-  }
-  const std::vector<std::string> beyond = faults_of(
+/// The faults of a run whose report is known.
+std::vector<std::string> judge(const Task& task, const Reference& reference, bool completed,
+                               const GradedRun& run) {
+  std::vector<std::string> faults = faults_of(
       completed ? upper_limits(task.thresholds) : task.thresholds, run.measures, run.ending);
-  run.faults.insert(run.faults.end(), beyond.begin(), beyond.end());
+  if (auto fault = impossible_path(reference, run.measures)) {
+    faults.insert(faults.begin(), *std::move(fault));
+  }
+  return faults;
+}
+
+/// The sight of a run's first contact in an arena that has not changed; nullopt if it is not known.
+std::optional<Sight> find_sight(const Task& task, const Reference& reference,
+                                const fs::path& folder, const Contact& contact) {
+  try {
+    return sight_of(reference.description, reference.robot,
+                    read_trajectories(folder / "trajectory.csv"), contact,
+                    task.may_use ? task.may_use->devices : std::nullopt);
+  } catch (const std::exception&) {
+    return std::nullopt;  // it only explains a fault
+  }
 }
 
 }  // namespace
@@ -569,9 +584,9 @@ void judge(const Task& task, const Reference& reference, bool completed, GradedR
 void evaluate(const Task& task, const Reference& reference, const playerlike::JobEnd& end,
               const fs::path& folder, bool completed, GradedRun& run) {
   std::optional<std::string> problem;
+  Floor floor;
   if (end.kind != playerlike::JobEnd::Kind::kNotStarted) {
     run.measures.shortest_path_m = reference.shortest_path_m;
-    Floor floor;
     problem = read_report(folder / "report.json", reference, run.asked, run.measures, floor);
     if (!problem && !task.map_layer.empty()) {
       problem = read_drawn_map(folder, task, reference, floor, run.measures);
@@ -593,7 +608,15 @@ void evaluate(const Task& task, const Reference& reference, const playerlike::Jo
     run.faults.push_back(*std::move(problem));
   }
   // Without a report there is nothing to grade; the missing report is already a fault.
-  if (run.measures.sim_time_s) judge(task, reference, completed, run);
+  if (run.measures.sim_time_s) {
+    std::vector<std::string> more = judge(task, reference, completed, run);
+    if (floor.is_unchanged && !(run.faults.empty() && more.empty())) {
+      Contact& contact = *run.measures.first_collision;
+      contact.sight = find_sight(task, reference, folder, contact);
+      more = judge(task, reference, completed, run);  // the sentences contain the sight
+    }
+    run.faults.insert(run.faults.end(), more.begin(), more.end());
+  }
   if (run.faults.empty()) return;
   // A refusal alone is no fault, but it may be the reason of one.
   for (const Refusal& refusal : run.measures.refused) {

@@ -26,8 +26,8 @@ struct Reference {
   std::optional<double> duration_s;  ///< simulated limit [s]
   std::optional<Goal> goal;
   std::optional<double> shortest_path_m;  ///< from start to goal; none without a goal
-  sim::OccupancyMap truth;      ///< at the start; empty unless the task names a map or a goal
-  sim::ArenaDescription arena;  ///< at the start
+  sim::OccupancyMap truth;            ///< at the start; empty unless the task names a map or a goal
+  sim::WorldDescription description;  ///< of the world, at the start
 };
 
 /// Computes what does not depend on the program: the true map and the shortest path to the goal.
@@ -41,11 +41,50 @@ struct Reference {
 [[nodiscard]] Reference make_reference(const Task& task, const TaskWorld& task_world,
                                        const sim::WorldDescription& world);
 
+/// What a range sensor of the graded robot showed of a place before the robot touched it there.
+struct Sight {
+  /// Whether the sensor's last measurement before the contact showed the place; otherwise why not.
+  enum class State {
+    kShown,
+    kOutside,  ///< the place was outside of the sensor's field of view
+    kTooLow,   ///< the sensor looks over what was hit
+    kTooHigh,  ///< the sensor looks under it
+    kHidden,   ///< something was in front of the place
+  };
+  State state = State::kShown;
+  std::string sensor;  ///< name of the device
+  /// Time from the sensor's first measurement that showed the place without an interruption until
+  /// the contact [s]; 0 unless kShown. At most kLongestSight_s, which means that or longer.
+  double shown_for_s = 0.0;
+  /// Time from the last measurement that showed the place until the contact [s]; none if there was
+  /// none in the last kLongestSight_s before it, and if kShown.
+  std::optional<double> last_shown_s;
+  /// Distance of the robot's outline from the place at the first measurement that showed it, or at
+  /// the last one before the contact [m]; 0 within the outline.
+  double distance_m = 0.0;
+  /// Direction of the place from the sensor at that time, from the robot's heading,
+  /// counter-clockwise [rad], (-pi, pi].
+  double bearing_rad = 0.0;
+  double field_of_view_rad = 0.0;  ///< full angle of the sensor, of a sonar: of one cone [rad]
+};
+
+/// Limit of the times of a Sight [s].
+inline constexpr double kLongestSight_s = 60.0;
+
+/// All states of a Sight.
+inline constexpr std::array kSightStates{Sight::State::kShown, Sight::State::kOutside,
+                                         Sight::State::kTooLow, Sight::State::kTooHigh,
+                                         Sight::State::kHidden};
+
+/// Name of a state in the JSON file: "shown", "outside", "too-low", "too-high", "hidden".
+[[nodiscard]] std::string name_of(Sight::State state);
+
 /// A contact of the graded robot.
 struct Contact {
   double time_s = 0.0;
   std::string partner;                  ///< an obstacle, a robot, "border" or "wall"
   sim::Vec2 place = sim::Vec2::Zero();  ///< in W [m]
+  std::optional<Sight> sight = {};      ///< of the place; only of runs that fail; none: not known
 };
 
 /// Something that the task does not let a program use, and that the program has requested.

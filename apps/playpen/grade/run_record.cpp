@@ -27,12 +27,24 @@ ordered_json goal_json(const std::optional<Goal>& goal) {
   return {{"x", goal->position.x()}, {"y", goal->position.y()}, {"tolerance", goal->tolerance_m}};
 }
 
+ordered_json sight_json(const std::optional<Sight>& sight) {
+  if (!sight) return nullptr;
+  return {{"state", name_of(sight->state)},
+          {"sensor", sight->sensor},
+          {"shown_for", sight->shown_for_s},
+          {"last_shown", or_null(sight->last_shown_s)},
+          {"distance", sight->distance_m},
+          {"bearing", sight->bearing_rad},
+          {"field_of_view", sight->field_of_view_rad}};
+}
+
 ordered_json collision_json(const std::optional<Contact>& contact) {
   if (!contact) return nullptr;
   return {{"time", contact->time_s},
           {"with", contact->partner},
           {"x", contact->place.x()},
-          {"y", contact->place.y()}};
+          {"y", contact->place.y()},
+          {"sight", sight_json(contact->sight)}};
 }
 
 /// The run as in the JSON file of a grading, and what is missing there.
@@ -71,11 +83,27 @@ void read_into(const json& value, Refusal& into) {
   read_into(value.at("what"), into.what);
 }
 
+void read_into(const json& value, Sight& into) {
+  const auto name = value.at("state").get<std::string>();
+  for (const Sight::State state : kSightStates) {
+    if (name_of(state) == name) into.state = state;
+  }
+  read_into(value.at("sensor"), into.sensor);
+  read_into(value.at("shown_for"), into.shown_for_s);
+  read_into(value.at("last_shown"), into.last_shown_s);
+  read_into(value.at("distance"), into.distance_m);
+  read_into(value.at("bearing"), into.bearing_rad);
+  read_into(value.at("field_of_view"), into.field_of_view_rad);
+}
+
 void read_into(const json& value, Contact& into) {
   read_into(value.at("time"), into.time_s);
   read_into(value.at("with"), into.partner);
   read_into(value.at("x"), into.place.x());
   read_into(value.at("y"), into.place.y());
+  if (const json& sight = value.at("sight"); !sight.is_null()) {
+    read_into(sight, into.sight.emplace(Sight{}));
+  }
 }
 
 void read_into(const json& value, Goal& into) {

@@ -19,6 +19,7 @@
 #include "grade/map_score.h"
 #include "sim/core/base64.h"
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/io/map_file.h"
 #include "sim/simulation/simulation.h"
 #include "sim/simulation/world_hash.h"
@@ -534,11 +535,35 @@ TEST_F(EvaluateTest, FirstCollision_HasTimeAndPlace) {
   later["time"] = 12.0;
   write_report(json::object(), 20.0, {{"collisions", {of_b, of_a, later}}});
   EXPECT_THAT(evaluated().faults,
-              ElementsAre("collisions 2, at most 0 allowed: the first after 10.61 s with border at "
-                          "(1.16, 3.72)"));
+              ElementsAre("collisions 2, at most 0 allowed: first hit border at (1.16, 3.72) after "
+                          "10.6 s"));
   // A report lists the newest ones only.
   write_report(json::object(), 20.0, {{"collisions", {later}}});
   EXPECT_THAT(evaluated().faults, ElementsAre("collisions 2, at most 0 allowed"));
+}
+
+TEST_F(EvaluateTest, FirstCollision_SightIfRunFails) {
+  // Robot a drives along y = 1 with 0.2 m/s from x = 0.5 on. Its front, 0.087 m before its centre,
+  // is at the border, x = 2, after 7.065 s. It was 1.393 m away at the first scan, after 0.1 s.
+  std::string rows = "time,robot,x,y,yaw,v,omega,stalled\n";
+  for (int i = 0; i < 80; ++i) {
+    const std::string time = sim::fixed_text(0.1 * i, 3);
+    const std::string x = sim::fixed_text(0.5 + 0.02 * i, 6);
+    rows += time + ",a," + x + ",1,0,0.2,0,0\n" + time + ",b,1.5,1.5,0,0,0,0\n";
+  }
+  folder_.write("trajectory.csv", rows);
+  const json hit = {{"time", 7.07}, {"robot", "a"}, {"with", "border"}, {"x", 2.0}, {"y", 1.0}};
+  write_report({{"collisions", 1}}, 20.0, {{"collisions", {hit}}});
+  const GradedRun passed = evaluated();
+  ASSERT_TRUE(passed.passed() && passed.measures.first_collision);
+  EXPECT_FALSE(passed.measures.first_collision->sight) << "it explains only failures";
+  task_.thresholds.max_collisions = 0;
+  const GradedRun failed = evaluated();
+  EXPECT_THAT(failed.faults,
+              ElementsAre("collisions 1, at most 0 allowed: first hit border at (2.00, 1.00) after "
+                          "7.1 s; the laser had shown it for 7.0 s, at first 1.39 m ahead"));
+  folder_.write("trajectory.csv", "nonsense");
+  EXPECT_THAT(evaluated().faults, ElementsAre(testing::EndsWith("after 7.1 s")));
 }
 
 TEST_F(EvaluateTest, RefusedCommands_ExplainFailure) {

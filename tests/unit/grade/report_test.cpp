@@ -127,11 +127,23 @@ TEST(Table, Advice_PrintedOncePerKindOfEnd) {
 TEST(JsonText, HasFirstCollisionAndRefusals) {
   GradedRun run = good_run();
   run.measures.first_collision = Contact{10.5, "border", {1.25, 3.5}};
+  run.measures.first_collision->sight =
+      Sight{Sight::State::kOutside, "laser", 0.0, 2.5, 0.25, -1.5, 4.5};
   run.measures.commanded = {"a"};
   run.measures.refused = {{0.5, "the map of the world"}};
   const json whole = json::parse(json_text(grade_of({run}))).at("runs").at(0);
-  EXPECT_EQ(whole.at("first_collision"),
-            json({{"time", 10.5}, {"with", "border"}, {"x", 1.25}, {"y", 3.5}}));
+  EXPECT_EQ(whole.at("first_collision"), json({{"time", 10.5},
+                                               {"with", "border"},
+                                               {"x", 1.25},
+                                               {"y", 3.5},
+                                               {"sight",
+                                                {{"state", "outside"},
+                                                 {"sensor", "laser"},
+                                                 {"shown_for", 0.0},
+                                                 {"last_shown", 2.5},
+                                                 {"distance", 0.25},
+                                                 {"bearing", -1.5},
+                                                 {"field_of_view", 4.5}}}}));
   EXPECT_EQ(whole.at("commanded"), json({"a"}));
   EXPECT_EQ(whole.at("refused"), json({{{"time", 0.5}, {"what", "the map of the world"}}}));
 }

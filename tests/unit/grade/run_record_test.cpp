@@ -44,6 +44,8 @@ GradedRun full_run() {
   m.path_ratio = std::numeric_limits<double>::denorm_min();
   m.distance_m = std::numeric_limits<double>::max();
   m.first_collision = Contact{next(), "border", {next(), -next()}};
+  m.first_collision->sight =
+      Sight{Sight::State::kTooHigh, "eyes", next(), next(), next(), -next(), next()};
   m.verdict = false;
   m.verdict_reason = "caught";
   m.commanded = {"r1", "r2"};
@@ -90,6 +92,15 @@ void expect_equal_collisions(const std::optional<Contact>& a, const std::optiona
   EXPECT_EQ(a->partner, b->partner);
   EXPECT_EQ(bits(a->place.x()), bits(b->place.x()));
   EXPECT_EQ(bits(a->place.y()), bits(b->place.y()));
+  ASSERT_EQ(a->sight.has_value(), b->sight.has_value());
+  if (!a->sight) return;
+  EXPECT_EQ(a->sight->state, b->sight->state);
+  EXPECT_EQ(a->sight->sensor, b->sight->sensor);
+  EXPECT_EQ(bits(a->sight->shown_for_s), bits(b->sight->shown_for_s));
+  EXPECT_EQ(bits(a->sight->last_shown_s), bits(b->sight->last_shown_s));
+  EXPECT_EQ(bits(a->sight->distance_m), bits(b->sight->distance_m));
+  EXPECT_EQ(bits(a->sight->bearing_rad), bits(b->sight->bearing_rad));
+  EXPECT_EQ(bits(a->sight->field_of_view_rad), bits(b->sight->field_of_view_rad));
 }
 
 /// All members but `asked` are equal, numbers to the bit.
