@@ -237,7 +237,9 @@ std::string submission_page(const ClassResult& result, std::size_t index, const 
     body += "<li><b>" + std::to_string(submission.passed()) + "</b> of " +
             std::to_string(submission.runs()) + " runs passed</li>";
   }
-  body += "<li>" + state_mark(submission) + "</li></ul>\n";
+  // The sentence below says why there is no program.
+  if (submission.build.built) body += "<li>" + state_mark(submission) + "</li>";
+  body += "</ul>\n";
   if (!submission.note.empty()) body += "<p>" + html_escaped(submission.note) + "</p>\n";
   if (!submission.build.built) {
     body +=

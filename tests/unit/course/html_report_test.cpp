@@ -288,7 +288,11 @@ TEST_F(HtmlReport, NoProgram_SaysWhyAndShowsTheCompiler) {
               HasSubstr("There is no program: does not compile: &lt;script&gt;"));
   EXPECT_THAT(page_of(kHostile), HasSubstr("What the compiler printed"));
   EXPECT_THAT(page_of(kHostile), HasSubstr("last lines of <a href=\"build.log\">"));
-  EXPECT_THAT(page_of("zoe"), HasSubstr("nothing was handed in"));
+  EXPECT_THAT(page_of("zoe"), HasSubstr("There is no program: nothing was handed in"));
+  for (const std::string& words : {std::string("does not compile"), std::string("handed in")}) {
+    const std::string page = page_of(words == "handed in" ? "zoe" : kHostile);
+    EXPECT_EQ(page.find(words), page.rfind(words)) << words << " is there once";
+  }
   EXPECT_THAT(page_of("zoe"), Not(HasSubstr("What the compiler printed")));
 }
 

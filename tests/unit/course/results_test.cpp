@@ -112,6 +112,20 @@ TEST(ClassJunit, Suites_EscapedAndCounted) {
   EXPECT_THAT(xml, Not(HasSubstr("\x1b")));
 }
 
+TEST(ReasonsOfRun, FirstContact_ToldOnce) {
+  grade::GradedRun run = run_with(1, {"goal not reached"});
+  run.measures.first_collision = grade::Contact{31.42, "block_3", {1.2, 2.049}};
+  run.measures.first_collision->sight =
+      grade::Sight{grade::Sight::State::kShown, "laser", 1.2, {}, 0.31, 0.0, 4.7};
+  const std::string told =
+      "first hit block_3 at (1.20, 2.05) after 31.4 s; the laser had shown it for 1.2 s, at first "
+      "0.31 m ahead";
+  EXPECT_THAT(reasons_of(run), ElementsAre("goal not reached", told));
+  const std::string fault = "collisions 1, at most 0 allowed: " + told;
+  run.faults = {fault, "goal not reached"};
+  EXPECT_THAT(reasons_of(run), ElementsAre(fault, "goal not reached"));
+}
+
 TEST(Gradescope, Members_Documented) {
   const json result = json::parse(gradescope_text(small_class().submissions[1]));
   EXPECT_EQ(result.at("score"), 33.5);
