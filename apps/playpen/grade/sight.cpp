@@ -367,17 +367,23 @@ std::string direction_text(double bearing_rad) {
   return std::string(kWords.at(sector)) + (has_side ? (bearing_rad > 0.0 ? "left" : "right") : "");
 }
 
+/// "113 degrees to the left", "behind".
+std::string angle_text(double bearing_rad) {
+  const std::string direction = direction_text(bearing_rad);
+  if (direction == "ahead" || direction == "behind") return direction;
+  return degrees_text(bearing_rad) + (bearing_rad > 0.0 ? " to the left" : " to the right");
+}
+
 /// Why a sensor does not show a place.
 std::string reason_text(const Sight& sight) {
   switch (sight.state) {
     case Sight::State::kShown:
       return "";
     case Sight::State::kOutside:
-      return "it was " + degrees_text(sight.bearing_rad) +
-             (sight.bearing_rad > 0.0 ? " to the left, " : " to the right, ") +
+      return "it was " + angle_text(sight.bearing_rad) +
              (sight.field_of_view_rad > 0.0
-                  ? "outside of its " + degrees_text(sight.field_of_view_rad)
-                  : "where no transducer looks");
+                  ? ", outside of its " + degrees_text(sight.field_of_view_rad)
+                  : ", where no transducer looks");
     case Sight::State::kTooLow:
       return "it is too low";
     case Sight::State::kTooHigh:

@@ -256,6 +256,15 @@ TEST(SightText, Directions_InWords) {
   EXPECT_EQ(end_at(90.0), "to the left");
   EXPECT_EQ(end_at(157.0), "behind to the left");
   EXPECT_EQ(end_at(180.0), "behind");
+  contact.sight->state = State::kOutside;
+  EXPECT_EQ(sight_text(*contact.sight),
+            "the laser could not see that place: it was behind, outside of its 269 degrees");
+  contact.sight->field_of_view_rad = 0.0;
+  contact.sight->bearing_rad = -90.0 * kDegree;
+  EXPECT_EQ(sight_text(*contact.sight),
+            "the laser could not see that place: it was 90 degrees to the right, where no "
+            "transducer looks");
+  contact.sight->state = State::kShown;
   contact.sight->shown_for_s = kLongestSight_s;
   EXPECT_EQ(sight_text(*contact.sight), "the laser had shown it for a minute or longer");
 }
