@@ -152,26 +152,115 @@ std::vector<RangeSensor> sensors_of(const sim::RobotDescription& robot,
   return lasers.empty() ? sonars : lasers;
 }
 
-/// The world with a robot that has nothing but the eyes of a sensor, and that can be put anywhere,
-/// as one that mirrors a real robot can.
+/// Pose of a robot at a time; nullopt if its trajectory does not say it: it does not reach so far,
+/// or the robot was put elsewhere.
+/// @param max_speed_mps  of the robot.
+std::optional<Pose> pose_at(const Trajectory& path, double time_s, double max_speed_mps) {
+  constexpr double kRowPeriod_s = 0.1;
+  constexpr double kSlack_s = 0.01;
+  constexpr double kJump_m = 0.3;
+  const auto after = std::ranges::upper_bound(path.time_s, time_s);
+  if (after == path.time_s.begin()) return std::nullopt;
+  const auto i = static_cast<std::size_t>(after - path.time_s.begin());
+  if (after == path.time_s.end()) {
+    if (time_s > path.time_s.back() + kRowPeriod_s + kSlack_s) return std::nullopt;
+    return path.X_WB.back();
+  }
+  const Pose& a = path.X_WB[i - 1];
+  const Pose& b = path.X_WB[i];
+  const double period_s = path.time_s[i] - path.time_s[i - 1];
+  const Vec2 move = b.position() - a.position();
+  if (move.norm() > 2.0 * max_speed_mps * period_s + kJump_m) return std::nullopt;
+  const double share = (time_s - path.time_s[i - 1]) / period_s;
+  const double turn_rad = sim::normalize_angle(b.yaw_rad - a.yaw_rad);
+  return Pose{a.x_m + share * move.x(), a.y_m + share * move.y(),
+              sim::normalize_angle(a.yaw_rad + share * turn_rad)};
+}
+
+/// Whether a robot stands where its world puts it, until a time.
+bool stands_still(const sim::RobotDescription& robot, const Trajectory& path, double until_s) {
+  constexpr double kMove_m = 0.001;
+  constexpr double kTurn_rad = 0.01;
+  for (std::size_t i = 0; i < path.time_s.size(); ++i) {
+    if (i > 0 && path.time_s[i - 1] > until_s) return true;
+    if ((path.X_WB[i].position() - robot.pose.position()).norm() > kMove_m) return false;
+    const double turn_rad = sim::normalize_angle(path.X_WB[i].yaw_rad - robot.pose.yaw_rad);
+    if (std::abs(turn_rad) > kTurn_rad) return false;
+  }
+  return true;
+}
+
+const Trajectory* path_of(const std::vector<Trajectory>& paths, std::string_view robot) {
+  const auto path = std::ranges::find(paths, robot, &Trajectory::robot);
+  return path == paths.end() ? nullptr : &*path;
+}
+
+/// Where the robots of a world were in a run.
+class Replay {
+ public:
+  /// Robots that stood still until a time count as standing until the end.
+  Replay(const sim::WorldDescription& world, const std::vector<Trajectory>& paths, double until_s)
+      : world_(world) {
+    for (const sim::RobotDescription& robot : world.robots) {
+      const sim::RobotModel* model = sim::find_robot_model(world, robot.model);
+      Robot& one = robots_.emplace_back();
+      one.path = path_of(paths, robot.name);
+      is_complete_ &= one.path != nullptr && model != nullptr && !robot.real;
+      if (!is_complete_) return;
+      one.max_speed_mps = model->max_speed_mps;
+      one.moves = !stands_still(robot, *one.path, until_s);
+    }
+  }
+
+  /// Whether the trajectories of all robots are known, and none mirrors a real one.
+  [[nodiscard]] bool is_complete() const { return is_complete_; }
+  [[nodiscard]] bool moves(std::size_t robot) const { return robots_[robot].moves; }
+  /// The poses of all robots at a time; nullopt if one of them is not known.
+  [[nodiscard]] std::optional<std::vector<Pose>> poses(double time_s) const {
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      const Robot& one = robots_[i];
+      const std::optional<Pose> X_WB = pose_at(*one.path, time_s, one.max_speed_mps);
+      if (!X_WB) return std::nullopt;
+      poses.push_back(one.moves ? *X_WB : world_.robots[i].pose);
+    }
+    return poses;
+  }
+
+ private:
+  struct Robot {
+    const Trajectory* path = nullptr;
+    double max_speed_mps = 0.0;
+    bool moves = false;
+  };
+
+  const sim::WorldDescription& world_;
+  std::vector<Robot> robots_;
+  bool is_complete_ = true;
+};
+
+/// The world with robots that have no devices but the eyes of a sensor of one of them. This robot,
+/// and those that move, can be put anywhere, as robots that mirror real ones can.
 sim::WorldDescription with_eyes(sim::WorldDescription world, std::size_t robot,
-                                const RangeSensor& sensor) {
+                                const RangeSensor& sensor, const Replay& replay) {
   world.controller = {};
   world.canvas = {};
   world.simulation.realism = sim::Realism::kIdeal;
   world.robots_on_port = 0;
-  for (sim::RobotDescription& one : world.robots) {
+  for (std::size_t i = 0; i < world.robots.size(); ++i) {
+    sim::RobotDescription& one = world.robots[i];
     one.devices.clear();
     one.proxies.clear();
     one.interfaces.clear();
     one.drivers.clear();
     one.port = 0;
+    if (i != robot && !replay.moves(i)) continue;
+    one.real.emplace();
+    one.real->server = "player://none";
   }
-  sim::RobotDescription& own = world.robots[robot];
-  own.real.emplace();
-  own.real->server = "player://none";
   for (std::size_t i = 0; i < sensor.eyes.size(); ++i) {
-    own.devices.push_back({"eye" + std::to_string(1000 + i), "laser", sensor.eyes[i]});
+    world.robots[robot].devices.push_back(
+        {"eye" + std::to_string(1000 + i), "laser", sensor.eyes[i]});
   }
   return world;
 }
@@ -180,17 +269,22 @@ sim::WorldDescription with_eyes(sim::WorldDescription world, std::size_t robot,
 class PlaceView {
  public:
   PlaceView(const sim::WorldDescription& world, std::size_t robot, const RangeSensor& sensor,
-            const std::vector<SolidSide>& surface, const Vec2& p_WQ)
-      : simulation_(with_eyes(world, robot, sensor)),
+            const Replay& replay, const std::vector<SolidSide>& surface, const Vec2& p_WQ)
+      : simulation_(with_eyes(world, robot, sensor, replay)),
         robot_(static_cast<int>(robot)),
         sensor_(sensor),
         surface_(surface),
         p_WQ_(p_WQ) {}
 
   /// Whether the sensor shows the place; otherwise why not. Nullopt: it is out of range.
-  [[nodiscard]] std::optional<Sight::State> state(const Pose& X_WB) {
+  /// @param poses  X_WB of all robots.
+  [[nodiscard]] std::optional<Sight::State> state(const std::vector<Pose>& poses) {
     const SolidSide& side = nearest_side(surface_, p_WQ_);
-    static_cast<void>(simulation_.follow_real(robot_, X_WB));
+    for (int i = 0; i < simulation_.robot_count(); ++i) {
+      // Robots that stand still refuse it.
+      static_cast<void>(simulation_.follow_real(i, poses[static_cast<std::size_t>(i)]));
+    }
+    const Pose& X_WB = poses[static_cast<std::size_t>(robot_)];
     std::optional<Sight::State> state = Sight::State::kOutside;
     for (std::size_t i = 0; i < sensor_.eyes.size(); ++i) {
       const sim::LaserParams& eye = sensor_.eyes[i];
@@ -210,6 +304,11 @@ class PlaceView {
       }
     }
     return state;
+  }
+
+  /// Distance of the robot's outline from the place [m].
+  [[nodiscard]] double distance_m(const Pose& X_WB) const {
+    return outline_distance_m(simulation_.model(robot_), X_WB.inverse() * p_WQ_);
   }
 
   /// Direction of the place from the eye that looks towards it best, from the robot's heading.
@@ -257,100 +356,42 @@ class PlaceView {
   Vec2 p_WQ_;
 };
 
-/// Pose of a robot at a time; nullopt if its trajectory does not say it: it does not reach so far,
-/// or the robot was put elsewhere.
-/// @param max_speed_mps  of the robot.
-std::optional<Pose> pose_at(const Trajectory& path, double time_s, double max_speed_mps) {
-  constexpr double kRowPeriod_s = 0.1;
-  constexpr double kSlack_s = 0.01;
-  constexpr double kJump_m = 0.3;
-  const auto after = std::ranges::upper_bound(path.time_s, time_s);
-  if (after == path.time_s.begin()) return std::nullopt;
-  const auto i = static_cast<std::size_t>(after - path.time_s.begin());
-  if (after == path.time_s.end()) {
-    if (time_s > path.time_s.back() + kRowPeriod_s + kSlack_s) return std::nullopt;
-    return path.X_WB.back();
-  }
-  const Pose& a = path.X_WB[i - 1];
-  const Pose& b = path.X_WB[i];
-  const double period_s = path.time_s[i] - path.time_s[i - 1];
-  const Vec2 move = b.position() - a.position();
-  if (move.norm() > 2.0 * max_speed_mps * period_s + kJump_m) return std::nullopt;
-  const double share = (time_s - path.time_s[i - 1]) / period_s;
-  const double turn_rad = sim::normalize_angle(b.yaw_rad - a.yaw_rad);
-  return Pose{a.x_m + share * move.x(), a.y_m + share * move.y(),
-              sim::normalize_angle(a.yaw_rad + share * turn_rad)};
-}
-
-/// Whether a robot stands where its world puts it, until a time.
-bool stands_still(const sim::RobotDescription& robot, const Trajectory& path, double until_s) {
-  constexpr double kMove_m = 0.001;
-  constexpr double kTurn_rad = 0.01;
-  for (std::size_t i = 0; i < path.time_s.size(); ++i) {
-    if (i > 0 && path.time_s[i - 1] > until_s) return true;
-    if ((path.X_WB[i].position() - robot.pose.position()).norm() > kMove_m) return false;
-    const double turn_rad = sim::normalize_angle(path.X_WB[i].yaw_rad - robot.pose.yaw_rad);
-    if (std::abs(turn_rad) > kTurn_rad) return false;
-  }
-  return true;
-}
-
-const Trajectory* path_of(const std::vector<Trajectory>& paths, std::string_view robot) {
-  const auto path = std::ranges::find(paths, robot, &Trajectory::robot);
-  return path == paths.end() ? nullptr : &*path;
-}
-
-/// Whether all robots but one stand still until a time, and none mirrors a real one.
-bool others_stand_still(const sim::WorldDescription& world, std::string_view robot,
-                        const std::vector<Trajectory>& paths, double until_s) {
-  return std::ranges::all_of(world.robots, [&](const sim::RobotDescription& one) {
-    if (one.real) return false;
-    if (one.name == robot) return true;
-    const Trajectory* path = path_of(paths, one.name);
-    return path != nullptr && stands_still(one, *path, until_s);
-  });
-}
-
-/// The sight of one sensor, from the contact backwards.
-/// @param pose_of  pose of the robot at a time, or nullopt.
-template <typename PoseOf>
-std::optional<Sight> sight_by(const RangeSensor& sensor, PlaceView& view,
-                              const sim::RobotModel& model, const Contact& contact,
-                              const PoseOf& pose_of) {
+/// The sight of a robot's sensor, from the contact backwards.
+std::optional<Sight> sight_by(const RangeSensor& sensor, PlaceView& view, const Replay& replay,
+                              std::size_t robot, const Contact& contact) {
   constexpr double kRounding = 1e-6;
   const double period_s = std::max(1.0 / sensor.frequency_hz, kLeastPeriod_s);
   double number = std::ceil(contact.time_s / period_s - kRounding) - 1.0;
   if (number < 1.0) return std::nullopt;
-  std::optional<Pose> X_WB = pose_of(number * period_s);
-  if (!X_WB) return std::nullopt;
-  const std::optional<Sight::State> state = view.state(*X_WB);
+  std::optional<std::vector<Pose>> poses = replay.poses(number * period_s);
+  const std::optional<Sight::State> state = poses ? view.state(*poses) : std::nullopt;
   if (!state) return std::nullopt;
   Sight sight;
   sight.sensor = sensor.name;
   sight.state = *state;
   if (sensor.eyes.size() == 1) sight.field_of_view_rad = view_of(sensor.eyes.front());
-  Pose X_WB_told = *X_WB;
   const bool is_shown = sight.state == Sight::State::kShown;
   if (is_shown) sight.shown_for_s = contact.time_s - number * period_s;
+  Pose X_WB = (*poses)[robot];
   const bool may_have_been_shown =
       sight.state == Sight::State::kOutside || sight.state == Sight::State::kHidden;
-  for (; is_shown || may_have_been_shown;) {
+  while (is_shown || may_have_been_shown) {
     number -= 1.0;
     const double before_s = contact.time_s - number * period_s;
     if (number < 1.0 || before_s > kLongestSight_s + kRounding) break;
-    X_WB = pose_of(number * period_s);
-    if (!X_WB) break;
-    const bool was_shown = view.state(*X_WB) == Sight::State::kShown;
+    poses = replay.poses(number * period_s);
+    if (!poses) break;
+    const bool was_shown = view.state(*poses) == Sight::State::kShown;
     if (was_shown && is_shown) {
       sight.shown_for_s = before_s;
-      X_WB_told = *X_WB;
+      X_WB = (*poses)[robot];
     } else if (was_shown) {
       sight.last_shown_s = before_s;
     }
     if (was_shown != is_shown) break;
   }
-  sight.distance_m = outline_distance_m(model, X_WB_told.inverse() * contact.place);
-  sight.bearing_rad = view.bearing_rad(X_WB_told);
+  sight.distance_m = view.distance_m(X_WB);
+  sight.bearing_rad = view.bearing_rad(X_WB);
   return sight;
 }
 
@@ -440,19 +481,22 @@ std::optional<Sight> sight_of(const sim::WorldDescription& world, std::string_vi
                               const std::vector<Trajectory>& paths, const Contact& contact,
                               const std::optional<std::vector<std::string>>& devices) {
   const auto own = std::ranges::find(world.robots, robot, &sim::RobotDescription::name);
-  const Trajectory* path = path_of(paths, robot);
-  if (own == world.robots.end() || path == nullptr) return std::nullopt;
-  if (!others_stand_still(world, robot, paths, contact.time_s)) return std::nullopt;
-  const sim::RobotModel* model = sim::find_robot_model(world, own->model);
+  if (own == world.robots.end()) return std::nullopt;
+  const auto index = static_cast<std::size_t>(own - world.robots.begin());
+  const Replay replay(world, paths, contact.time_s);
+  if (!replay.is_complete()) return std::nullopt;
+  const auto hit = std::ranges::find(world.robots, contact.partner, &sim::RobotDescription::name);
+  const bool hit_robot = hit != world.robots.end();
+  if (hit_robot && replay.moves(static_cast<std::size_t>(hit - world.robots.begin()))) {
+    return std::nullopt;
+  }
   const std::vector<SolidSide> surface = surface_of(world, contact.partner);
-  if (model == nullptr || surface.empty() || !is_on(surface, contact.place)) return std::nullopt;
-  const auto pose_of = [&](double time_s) { return pose_at(*path, time_s, model->max_speed_mps); };
+  if (surface.empty() || !is_on(surface, contact.place)) return std::nullopt;
   const std::vector<RangeSensor> sensors = sensors_of(*own, devices);
   std::optional<Sight> best;
   for (const RangeSensor& sensor : sensors) {
-    PlaceView view(world, static_cast<std::size_t>(own - world.robots.begin()), sensor, surface,
-                   contact.place);
-    const std::optional<Sight> sight = sight_by(sensor, view, *model, contact, pose_of);
+    PlaceView view(world, index, sensor, replay, surface, contact.place);
+    const std::optional<Sight> sight = sight_by(sensor, view, replay, index, contact);
     if (!sight) return std::nullopt;
     if (!best || sight->shown_for_s > best->shown_for_s) best = sight;
   }

@@ -27,12 +27,12 @@ namespace playpen::grade {
 
 /// Finds out since when a range sensor of a robot showed the place of a contact.
 ///
-/// Rays are those of sim::Simulation, without noise: a copy of the world in which the robot is put
-/// where it was at the time of each measurement, at most ten times a simulated second, from the
-/// contact backwards. Poses between two rows of the trajectory are interpolated. The sensor shows
-/// the place if it is within its field of view and range, if what was hit is as high as the sensor,
-/// and if no ray beside the place ends more than 2 cm before it. A sonar's echo must also come from
-/// what was hit, anywhere on its surface.
+/// Rays are those of sim::Simulation, without noise: a copy of the world in which the robots are
+/// put where they were at the time of each measurement, at most ten times a simulated second, from
+/// the contact backwards. Poses between two rows of the trajectory are interpolated. The sensor
+/// shows the place if it is within its field of view and range, if what was hit is as high as the
+/// sensor, and if no ray beside the place ends more than 2 cm before it. A sonar's echo must also
+/// come from what was hit, anywhere on its surface.
 ///
 /// The robot's lasers count, otherwise its sonars with cones. Of several, the one that showed the
 /// place for the longest time counts. The latency of a sensor is not considered.
@@ -41,9 +41,10 @@ namespace playpen::grade {
 /// @param robot    the robot of the contact.
 /// @param paths    the trajectories of all robots.
 /// @param devices  names or types of the devices that the program may use; nullopt: all.
-/// @return nullopt if it is not known: the robot has no such sensor; another robot has moved before
-///     the contact, or mirrors a real one; the place is not on the surface of what was hit, as the
-///     world describes it; or the trajectory does not reach until the contact.
+/// @return nullopt if it is not known: the robot has no such sensor; it hit a robot that has moved
+///     before; a robot mirrors a real one; the place is not on the surface of what was hit, as the
+///     world describes it; what was hit is a robot with superstructures; or a trajectory is missing
+///     or does not reach until the contact.
 /// @pre not may_have_changed() until the contact.
 /// @note Some milliseconds: up to 600 scans per sensor.
 [[nodiscard]] std::optional<Sight> sight_of(

@@ -172,6 +172,20 @@ TEST(Sight, OtherRobot_MustStandStill) {
   EXPECT_FALSE(with_other(0.01));
 }
 
+TEST(Sight, MovingRobot_HidesPlace) {
+  // Robot b, 0.174 m x 0.162 m, crosses the line y = 1 at x = 2 with 0.2 m/s from y = 0.21. It
+  // is between the laser and the border until its outline, from y - 0.081 to y + 0.081, is beyond
+  // y = 1: after 4.355 s.
+  const auto world = world_with("", "", R"(, {"name": "b", "pose": {"x": 2, "y": 0.21}})");
+  const Contact contact{(3.5 - front_m()) / kSpeed_mps, "border", {4.0, 1.0}};
+  const auto cross = [](double time_s) { return Pose{2.0, 0.21 + kSpeed_mps * time_s, 0.0}; };
+  const auto sight =
+      sight_of(world, "a", {path_of("a", forward, 18.0), path_of("b", cross, 18.0)}, contact);
+  ASSERT_TRUE(sight);
+  EXPECT_NEAR(sight->shown_for_s, contact.time_s - 4.4, 1e-9);
+  EXPECT_FALSE(sight_of(world, "a", {path_of("a", forward, 18.0)}, contact)) << "where is b?";
+}
+
 TEST(Sight, UnknownCircumstances_None) {
   const auto world = world_with(R"({"name": "w", "center": [2, 1], "size": [0.2, 0.2]})");
   const Contact contact{(1.4 - front_m()) / kSpeed_mps, "w", {1.9, 1.0}};
