@@ -201,8 +201,9 @@ TEST_F(PlaypenGrade, CommonFaults_PrintedOnce) {
   ASSERT_FALSE(first.is_null()) << graded.out;
   EXPECT_EQ(first.at("with"), "border");
   EXPECT_THAT(graded.out, HasSubstr("\nroom seeds 1 to 3: collisions "));
-  EXPECT_THAT(graded.out, HasSubstr("at most 0 allowed: first hit "));
-  EXPECT_THAT(graded.out, HasSubstr(" s with border at ("));
+  EXPECT_THAT(graded.out, HasSubstr("at most 0 allowed: first hit border at ("));
+  EXPECT_EQ(first.at("sight").at("state"), "shown");
+  EXPECT_THAT(graded.out, HasSubstr(" s; the laser had shown it for "));
   EXPECT_THAT(graded.out, Not(HasSubstr("seed 2")));
   EXPECT_THAT(graded.out, HasSubstr("picture: " + out_ + "/room_seed1/scene.png\n"));
 }
