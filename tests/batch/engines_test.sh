@@ -10,7 +10,7 @@ Usage: tests/batch/engines_test.sh PLAYPEN PROGRAM DIR [RUNS]
 
 Runs a batch of RUNS runs [500] of a client program here, by Slurm and by GNU parallel, and compares the results:
 they must be equal but for wall times. On the way, Slurm's node is killed twice, once with its jobs, and processes of
-the batch are killed by SIGKILL; units are lost by none of it. DIR must be empty or not exist.
+the batch are killed by SIGKILL; units are lost by none of it. DIR is emptied first.
 Exits with 77 if Slurm, munge, GNU parallel or sshd is not installed.
 TEXT
 }
@@ -31,6 +31,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 playpen=$(readlink -f "$1")
 program=$(readlink -f "$2")
 runs=${4:-500}
+rm -rf "$3"
 mkdir -p "$3"
 folder=$(cd "$3" && pwd -P)
 cd "$folder"
