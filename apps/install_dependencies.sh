@@ -19,6 +19,7 @@ Groups (default: build):
           they can be had, MORSE's client library and Boost.Program_options
   lint    clang, its formatter and linter, shellcheck
   doc     Doxygen
+  cluster Slurm, GNU parallel and an ssh server, for the nightly test of playpen batch
   package what the target `package` needs to make and check Debian packages
 
   --list  print the names of the groups' packages, one a line, and install nothing
@@ -43,6 +44,7 @@ test_packages=(
 # If the system has no such package (Ubuntu 24.04 lacks the first), the tests that need it are
 # skipped.
 optional_test_packages=(python3-morse-simulator libboost-program-options-dev)
+cluster_packages=(slurm-wlm=slurmd munge=munged parallel=parallel openssh-server=sshd)
 lint_packages=(
   clang=clang clang-format=clang-format clang-tidy=clang-tidy shellcheck=shellcheck git=git)
 doc_packages=(doxygen=doxygen)
@@ -55,7 +57,7 @@ fail() {
 
 # is_installed ENTRY
 is_installed() {
-  local package=${1%%=*} command=
+  local package=${1%%=*} command="" PATH=$PATH:/usr/sbin
   [[ $1 == *=* ]] && command=${1#*=}
   if [[ -n $command ]] && command -v "$command" >/dev/null 2>&1; then return 0; fi
   [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true) == installed ]]
@@ -105,7 +107,7 @@ for argument in "$@"; do
       usage
       exit 0
       ;;
-    build | test | lint | doc | package) groups+=("$argument") ;;
+    build | test | cluster | lint | doc | package) groups+=("$argument") ;;
     *)
       usage >&2
       fail "unknown argument '$argument'"
@@ -128,6 +130,7 @@ for group in "${groups[@]}"; do
       wanted+=("${lint_packages[@]}")
       with_lint=true
       ;;
+    cluster) wanted+=("${cluster_packages[@]}") ;;
     doc) wanted+=("${doc_packages[@]}") ;;
     package) wanted+=("${package_packages[@]}") ;;
   esac

@@ -320,11 +320,4 @@ TEST(Wrapped, BreaksAtBlanksAndIndentsFollowingLines) {
   EXPECT_EQ(playpen::wrapped("a " + word + " b", 30, 2), "a\n  " + word + "\n  b");
 }
 
-TEST(ShellWord, QuotedOnlyIfNeeded) {
-  EXPECT_EQ(playpen::shell_word("/a/b-c_1.json"), "/a/b-c_1.json");
-  EXPECT_EQ(playpen::shell_word("my robot"), "'my robot'");
-  EXPECT_EQ(playpen::shell_word("it's"), "'it'\\''s'");
-  EXPECT_EQ(playpen::shell_word(""), "''");
-}
-
 }  // namespace

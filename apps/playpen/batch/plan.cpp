@@ -2,6 +2,7 @@
 #include "batch/plan.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -25,11 +26,16 @@ constexpr std::size_t kMostItems = 10'000;  ///< of a list
 constexpr NumberRange kTime{0.0, 1e9, true, "s"};
 constexpr NumberRange kValue{-1e12, 1e12, false, ""};
 
-/// A number without the error of adding decimal fractions: 0.3, not 0.30000000000000004.
+/// A number with at most 12 digits, without the error of adding decimal fractions: 0.3, not
+/// 0.30000000000000004.
 std::string decimal_text(double value) {
-  constexpr double kDigits = 1e12;
-  const double rounded = std::round(value * kDigits) / kDigits;
-  return sim::shortest_text(std::abs(value) < 1.0 ? rounded + 0.0 : value);
+  constexpr int kDigits = 12;
+  std::array<char, 32> text{};
+  const std::to_chars_result end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                                 std::chars_format::general, kDigits);
+  double rounded = 0.0;
+  std::from_chars(text.data(), end.ptr, rounded);
+  return sim::shortest_text(rounded + 0.0);
 }
 
 /// The values of {"from", "to", "step"} or {"from", "to", "count"}.

@@ -322,6 +322,20 @@ TEST(JsonText, InvalidUtf8Arguments_Accepted) {
   EXPECT_EQ(json::parse(json_text(grade)).at("program").at(1), "\xef\xbf\xbd");  // U+FFFD
 }
 
+TEST(ShellWord, QuotedOnlyIfNeeded) {
+  EXPECT_EQ(shell_word("/a/b-c_1.json"), "/a/b-c_1.json");
+  EXPECT_EQ(shell_word("my robot"), "'my robot'");
+  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_word(""), "''");
+}
+
+TEST(CsvValue, QuotedAndNoFormula) {
+  EXPECT_EQ(csv_value("plain"), "plain");
+  EXPECT_EQ(csv_value("a,\"b\""), "\"a,\"\"b\"\"\"");
+  EXPECT_EQ(csv_value("=1+1"), "'=1+1");
+  EXPECT_EQ(csv_value("a\nb"), "a?b");
+}
+
 TEST(NumberText, NearLimit_HasEnoughDigits) {
   EXPECT_EQ(telling_number(0.5, 0.98, 3), "0.500");
   EXPECT_EQ(telling_number(0.97996, 0.98, 3), "0.97996");

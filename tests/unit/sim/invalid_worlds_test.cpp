@@ -379,7 +379,7 @@ TEST(InvalidWorlds, EachFileIsInTable) {
 TEST(ErrorPage, ListsIdsOfSourceOnly) {
   const fs::path root(PLAYPEN_SOURCE_DIR);
   const std::regex in_source(
-      "\"((?:file|json|world|device|map|run|stage|task|class|server|access)/[a-z0-9-]+)\"");
+      "\"((?:file|json|world|device|map|run|stage|task|class|plan|server|access)/[a-z0-9-]+)\"");
   std::set<std::string> used;
   for (const char* folder : {"libsim/src", "libplayerlike/src", "apps"}) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
