@@ -283,5 +283,16 @@ TEST(SightText, Directions_InWords) {
   EXPECT_EQ(sight_text(*contact.sight), "the laser had shown it for a minute or longer");
 }
 
+TEST(Sight, ImpossibleTrajectory_IsNoError) {
+  const auto world = world_with("");
+  const Contact contact{2.0, "border", {4.0, 1.0}};
+  for (const double far_m : {1e6, 1e30, 1e300, -1e308}) {
+    const Pose X_WB{far_m, far_m, far_m};
+    const auto there = [&X_WB](double /*time_s*/) { return X_WB; };
+    const auto sight = sight_of(world, "a", {path_of("a", there, 3.0)}, contact);
+    EXPECT_TRUE(!sight || sight->state != State::kShown) << far_m;
+  }
+}
+
 }  // namespace
 }  // namespace playpen::grade
