@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "class_plots.h"
 #include "commands.h"
 #include "course/class_likeness.h"
 #include "course/class_runs.h"
@@ -38,6 +39,14 @@ class ClassProgressLine {
       std::cerr << '\n';
     }
     bar_.show(progress.ended, progress.all);
+  }
+  /// Shows how many plots are drawn, of `all`.
+  void show_plots(std::size_t ended, std::size_t all) {
+    if (ended == 0) {
+      bar_.begin("plots");
+      std::cerr << "plots: " << all << " runs\n";
+    }
+    bar_.show(ended, all);
   }
   void clear() const { bar_.clear(); }
 
@@ -100,6 +109,21 @@ std::vector<course::Submission> baselines_of(const ClassRequest& request,
   return baselines;
 }
 
+/// Draws the plots of the report, unless the grading was interrupted.
+/// @return whether all are drawn, as far as they can be.
+bool draw_plots(const course::ClassResult& result, const course::ClassSettings& settings,
+                ClassProgressLine& line) {
+  if (!result.complete) {
+    remove_stale_plots(result, settings.output_folder);
+    return false;
+  }
+  const bool drawn = draw_class_plots(
+      result, settings.output_folder, settings.jobs,
+      [&line](std::size_t ended, std::size_t all) { line.show_plots(ended, all); });
+  line.clear();
+  return drawn;
+}
+
 }  // namespace
 
 int grade_class(const ClassRequest& request) {
@@ -151,9 +175,10 @@ int grade_class(const ClassRequest& request) {
   if (result.complete && !request.individual)
     course::compare_submissions(result, request.output_folder);
   course::write_results(result, request.output_folder);
+  const bool drawn = draw_plots(result, settings, line);
   course::write_html_report(result, request.output_folder);
   std::cout << course::class_table(result, terminal_columns(STDOUT_FILENO));
-  if (!result.complete) {
+  if (!result.complete || !drawn) {
     std::cout << "interrupted: the same command goes on from here\n";
     return kProgramFailed;
   }

@@ -103,12 +103,27 @@ json graded_runs(const fs::path& file) {
   }
 }
 
+// If a run belongs to a class, adds what its record knows of it. In the folder of a submission the
+// record of TASK/RUN is records/TASK/RUN.json.
+void read_record(const fs::path& whole, RunData& run) {
+  const fs::path task = whole.parent_path();
+  fs::path file = task.parent_path() / "records" / task.filename() / whole.filename();
+  file += ".json";
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return;
+  try {
+    add_goal_of_task(json::parse(text_of(file)).at("value"), run);
+  } catch (const json::exception& e) {
+    throw std::runtime_error(file.string() + ": expected the record of a run: " + e.what());
+  }
+}
+
 // If a run belongs to a grade, adds what the grade knows of it.
 void read_grade(const fs::path& folder, RunData& run) {
   const fs::path whole = fs::absolute(folder / "").parent_path();
   const fs::path file = whole.parent_path() / kGrade;
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) return;
+  if (!fs::is_regular_file(file, error)) return read_record(whole, run);
   try {
     for (const json& graded : graded_runs(file)) {
       if (graded.at("folder").get<std::string>() == whole.filename().string()) {

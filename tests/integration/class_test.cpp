@@ -30,6 +30,7 @@ using test_support::TemporaryFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 using Words = std::vector<std::string>;
 
@@ -157,6 +158,53 @@ TEST_F(Class, Submissions_EachHasItsRow) {
   const ProcessResult third = grade("out", {"--roster", folder_ / "roster.csv"});
   EXPECT_THAT(third.err, AllOf(HasSubstr("compile: 1 submissions, 5 known from before\n"),
                                HasSubstr("drive: 2 runs, 6 known from before\n")));
+}
+
+TEST_F(Class, Plots_DrawnOnceAndAgainIfStale) {
+  hand_in("ada/Makefile", "robot: ; cp driver robot\n");
+  fs::copy_file(DRIVING_PROGRAM, folder_.path() / "handed_in/ada/driver");
+  hand_in("bob/Makefile", kMakefile);
+  const fs::path submission = folder_.path() / "out/submissions/ada";
+  const fs::path run = submission / "drive/room_seed1";
+  const auto drawn = [&run] { return fs::last_write_time(run / "plot.png"); };
+  const auto page = [&submission] { return read_bytes(submission / "index.html"); };
+  constexpr const char* kShown = "src=\"drive/room_seed1/plot.png\"";
+  constexpr const char* kDrawn = "plots: 1 runs\n";
+
+  // Both runs are equally good, so one is shown; the run without a trajectory has no plot.
+  const ProcessResult first = grade();
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_THAT(first.err, HasSubstr(kDrawn)) << read_bytes(run / "program.log");
+  EXPECT_THAT(read_bytes(run / "plot.png"), StartsWith("\x89PNG"));
+  EXPECT_THAT(page(), HasSubstr(kShown));
+  EXPECT_FALSE(fs::exists(folder_ / "out/submissions/bob/drive/room_seed1/plot.png"));
+  const auto before = drawn();
+  EXPECT_THAT(grade().err, Not(HasSubstr("plots:")));
+  EXPECT_EQ(drawn(), before);
+
+  // Older than the results of its run, as after a run that was run again; or a link.
+  fs::last_write_time(run / "plot.png", fs::last_write_time(run / "report.json"));
+  EXPECT_THAT(grade().err, HasSubstr(kDrawn));
+  EXPECT_GT(drawn(), fs::last_write_time(run / "report.json"));
+  const std::string secret = folder_.write("secret", "not to be overwritten");
+  fs::remove(run / "plot.png");
+  fs::create_symlink(secret, run / "plot.png");
+  EXPECT_THAT(grade().err, HasSubstr(kDrawn));
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(run / "plot.png")));
+  EXPECT_EQ(read_bytes(secret), "not to be overwritten");
+
+  // Results that no simulation has written do not stop the report.
+  const std::string row = ",r1,1e300,-1e300,1e300,1e300,-1e300,0\n";
+  for (const std::string& rows : {"0" + row + "1" + row, std::string("no rows")}) {
+    folder_.write("out/submissions/ada/drive/room_seed1/trajectory.csv",
+                  "time,robot,x,y,yaw,v,omega,stalled\n" + rows + "\n");
+    const ProcessResult result = grade();
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(kDrawn));
+    EXPECT_EQ(fs::exists(run / "plot.png"), page().find(kShown) != std::string::npos);
+    EXPECT_FALSE(fs::exists(run / "plot.part.png"));
+  }
+  EXPECT_FALSE(fs::exists(run / "plot.png"));
 }
 
 TEST_F(Class, Killed_GoesOnToTheSameResult) {

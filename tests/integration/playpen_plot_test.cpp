@@ -52,6 +52,21 @@ ProcessResult plot(const TemporaryFolder& folder, const std::vector<std::string>
   return playpen(call);
 }
 
+TEST(PlaypenPlot, RunOfAClass_HasTheGoalOfItsTask) {
+  const TemporaryFolder folder;
+  write_run(folder, "ada/task/small_seed1");
+  folder.write("ada/records/task/small_seed1.json",
+               R"({"key": "0", "value": {"folder": "small_seed1", "robot": "r1",
+                   "goal": {"x": 0.6, "y": 0.5, "tolerance": 0.01}}})");
+  const ProcessResult result = plot(folder, {"ada/task/small_seed1"}, "a.svg");
+  EXPECT_EQ(result.status, 0) << result.err;
+  // The other goal is that of the program.
+  EXPECT_THAT(read_bytes(folder / "a.svg"), HasSubstr("1 of 2 goals reached"));
+  folder.write("ada/records/task/small_seed1.json", "{}");
+  EXPECT_THAT(plot(folder, {"ada/task/small_seed1"}, "a.svg").err,
+              HasSubstr("small_seed1.json: expected the record of a run"));
+}
+
 TEST(PlaypenPlot, Run_DrawnAsPngAndSvg) {
   const TemporaryFolder folder;
   write_run(folder, "one");

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "course/class_result.h"
 
@@ -13,10 +14,18 @@ namespace playpen::course {
 /// suspicious pairs with their pictures. Links are relative to the output folder.
 [[nodiscard]] std::string overview_page(const ClassResult& result);
 
-/// The page of a submission: its runs, the pictures of its best and worst run, the reasons why runs
-/// failed, what the program printed then, how to repeat such a run, and what the compiler printed.
-/// Links are relative to the folder of the submission. Pictures and logs that are missing are left
-/// out. The page shows nothing of other submissions, so that it can be given to its student.
+/// The name of a run's charts in its folder. The report shows them, but does not draw them.
+inline constexpr const char* kPlotFile = "plot.png";
+
+/// The runs of a grade whose pictures and charts a page shows: the best one and, if it is another
+/// one, the worst one. Empty if there are no runs.
+[[nodiscard]] std::vector<const grade::GradedRun*> shown_runs(const grade::Grade& grade);
+
+/// The page of a submission: its runs, the pictures and charts of its best and worst run, the
+/// reasons why runs failed, what the program printed then, how to repeat such a run, and what the
+/// compiler printed. Links are relative to the folder of the submission. Pictures, charts and logs
+/// that are missing are left out. The page shows nothing of other submissions, so that it can be
+/// given to its student.
 /// @param index   of the submission.
 /// @param folder  the output folder, for pictures and logs.
 [[nodiscard]] std::string submission_page(const ClassResult& result, std::size_t index,

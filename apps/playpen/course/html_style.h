@@ -46,6 +46,8 @@ th[aria-sort=descending] button::after { content: " \2193"; color: var(--ink); }
 .pictures { display: grid; gap: 1.25rem;
   grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr)); }
 figure { margin: 0; max-width: 36rem; }
+.charts { max-width: 75rem; margin-bottom: 1.25rem; }
+.charts img { min-width: 60rem; }
 img { display: block; width: 100%; height: auto; border: 1px solid var(--line);
   background: #ffffff; }
 pre { margin: .25rem 0; padding: .75rem; overflow: auto; max-height: 30rem;
@@ -65,7 +67,8 @@ pre { margin: .25rem 0; padding: .75rem; overflow: auto; max-height: 30rem;
   .ranking td.person { grid-column: 2 / -1; grid-row: 2; color: var(--faint); }
   .ranking td.state, .ranking td.reason, .ranking td.alike { grid-column: 2 / -1; }
   .ranking td:empty, .ranking td.ok { display: none; } }
-@media print { body { max-width: none; } pre { max-height: none; } }
+@media print { body { max-width: none; } pre { max-height: none; }
+  .charts img { min-width: 0; } }
 )css";
 
 /// Sorts the ranking by a column whose button was pressed; once more: the other way round.

@@ -161,14 +161,61 @@ class RunFiles {
   std::string task_;
 };
 
+// A picture of a run that is a link to itself.
+std::string picture_link(const std::string& url, const std::string& words) {
+  return "<a href=\"" + url + "\"><img loading=\"lazy\" src=\"" + url + "\" alt=\"" + words +
+         "\"></a>";
+}
+
+// @param which  of the runs: "Best run".
+std::string caption_of(const GradedRun& run, const std::string& which) {
+  return "<figcaption>" + which + ": " + name_of_run(run) + ", " +
+         (run.passed() ? "passed" : "failed") + "</figcaption>";
+}
+
 std::string figure_of(const RunFiles& files, const GradedRun& run, const std::string& which) {
   constexpr const char* kPicture = "scene.png";
   if (!files.has(run, kPicture)) return "";
-  const std::string url = files.url(run, kPicture);
-  return "<figure><a href=\"" + url + "\"><img loading=\"lazy\" src=\"" + url +
-         "\" alt=\"Where the robot drove in " + name_of_run(run) + "\"></a><figcaption>" + which +
-         ": " + name_of_run(run) + ", " + (run.passed() ? "passed" : "failed") +
-         "</figcaption></figure>\n";
+  return "<figure>" +
+         picture_link(files.url(run, kPicture), "Where the robot drove in " + name_of_run(run)) +
+         caption_of(run, which) + "</figure>\n";
+}
+
+// The charts of a run. In narrow windows they can be scrolled, so that their texts stay legible.
+std::string charts_of(const RunFiles& files, const GradedRun& run, const std::string& which) {
+  if (!files.has(run, kPlotFile)) return "";
+  const std::string name = "Charts of " + name_of_run(run);
+  std::string words =
+      name + ": speed, turn rate, clearance and path length over time, and the trajectory";
+  const grade::Measures& m = run.measures;
+  if (m.path_length_m) words += "; path " + sim::fixed_text(*m.path_length_m, 1) + " m";
+  if (m.collisions) {
+    words +=
+        ", " + std::to_string(*m.collisions) + (*m.collisions == 1 ? " collision" : " collisions");
+  }
+  return "<figure class=\"charts\"><div class=\"wide\" role=\"region\" aria-label=\"" + name +
+         "\" tabindex=\"0\">" + picture_link(files.url(run, kPlotFile), words) + "</div>" +
+         caption_of(run, which) + "</figure>\n";
+}
+
+// The pictures of the best and the worst run, and their charts.
+std::string figures_of(const RunFiles& files, const grade::Grade& grade) {
+  std::string pictures;
+  std::string charts;
+  const std::vector<const GradedRun*> runs = shown_runs(grade);
+  for (const GradedRun* const run : runs) {
+    const std::string which = grade.runs.size() == 1 ? "The run"
+                              : run == runs.front()  ? "Best run"
+                                                     : "Worst run";
+    pictures += figure_of(files, *run, which);
+    charts += charts_of(files, *run, which);
+  }
+  std::string html;
+  if (!pictures.empty()) {
+    html += "<h3>Where the robot drove</h3>\n<div class=\"pictures\">\n" + pictures + "</div>\n";
+  }
+  if (!charts.empty()) html += "<h3>How the robot drove over time</h3>\n" + charts;
+  return html;
 }
 
 // @param url  of the whole log.
@@ -195,13 +242,8 @@ std::string grade_section(const ClassResult& result, const SubmissionResult& sub
   if (grade.runs.empty()) return html + "<p>There are no runs.</p>\n";
   html += runs_table(grade) + reasons_list(grade);
   const RunFiles files(folder / submission.folder, grade);
-  const auto best = std::min_element(grade.runs.begin(), grade.runs.end(), is_better);
-  const auto worst = std::max_element(grade.runs.begin(), grade.runs.end(), is_better);
-  std::string figures = figure_of(files, *best, grade.runs.size() > 1 ? "Best run" : "The run");
-  if (worst != best) figures += figure_of(files, *worst, "Worst run");
-  if (!figures.empty()) {
-    html += "<h3>Where the robot drove</h3>\n<div class=\"pictures\">\n" + figures + "</div>\n";
-  }
+  html += figures_of(files, grade);
+  const GradedRun* const worst = shown_runs(grade).back();
   if (worst->passed()) return html;
   const LogTail log = tail_of(files.path(*worst, "program.log"), kOutputLines);
   if (!log.text.empty()) {
@@ -223,6 +265,14 @@ std::string points_text(const SubmissionResult& submission) {
 }
 
 }  // namespace
+
+std::vector<const GradedRun*> shown_runs(const grade::Grade& grade) {
+  if (grade.runs.empty()) return {};
+  const auto best = std::min_element(grade.runs.begin(), grade.runs.end(), is_better);
+  const auto worst = std::max_element(grade.runs.begin(), grade.runs.end(), is_better);
+  if (worst == best) return {&*best};
+  return {&*best, &*worst};
+}
 
 std::string submission_page(const ClassResult& result, std::size_t index, const fs::path& folder) {
   const SubmissionResult& submission = result.submissions.at(index);

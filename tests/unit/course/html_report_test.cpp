@@ -198,6 +198,9 @@ class HtmlReport : public testing::Test {
     for (const char* seed : {"1", "2", "3"}) {
       folder_.write(std::string("submissions/ada/maze/maze_seed") + seed + "/scene.png", "png");
     }
+    for (const char* seed : {"1", "3"}) {
+      folder_.write(std::string("submissions/ada/maze/maze_seed") + seed + "/plot.png", "png");
+    }
     folder_.write("submissions/ada/maze/maze_seed2/program.log",
                   "start\n\x1b[31m</pre><script>alert(1)</script>\x1b[0m\nlast & least\n");
     folder_.write("submissions/ada/build.log", "");
@@ -275,6 +278,38 @@ TEST_F(HtmlReport, SubmissionThatFails_HasReasonsPicturesOutputAndCommand) {
   EXPECT_THAT(page, HasSubstr("playpen run maze --seed 2 --isolated=required -- ./robot "
                               "&#39;--goal=1 m&#39;</pre>"));
   EXPECT_THAT(page, HasSubstr("<b>33.5</b> of 100.0 points"));
+}
+
+TEST_F(HtmlReport, Charts_OfShownRunsThatHaveThem) {
+  const std::string page = page_of("ada");
+  EXPECT_THAT(
+      page, HasSubstr("<a href=\"maze/maze_seed1/plot.png\"><img loading=\"lazy\" "
+                      "src=\"maze/maze_seed1/plot.png\" alt=\"Charts of maze, seed 1: speed, turn "
+                      "rate, clearance and path length over time, and the trajectory; path 10.0 m, "
+                      "0 collisions\"></a></div><figcaption>Best run: maze, seed 1, passed</f"));
+  EXPECT_THAT(page, Not(HasSubstr("maze_seed2/plot.png"))) << "the worst run has no charts";
+  EXPECT_THAT(page, Not(HasSubstr("maze_seed3/plot.png"))) << "neither the best nor the worst";
+  const fs::path charts = folder_.path() / "submissions/ada/maze/maze_seed1/plot.png";
+  fs::remove(charts);
+  fs::create_symlink(folder_.path() / "pairs/0 1.png", charts);
+  write_html_report(result_, folder_.path());
+  EXPECT_THAT(page_of("ada"), Not(HasSubstr("over time")));
+}
+
+TEST_F(HtmlReport, ShownRuns_BestFirstAndEachOnce) {
+  grade::Grade grade = result_.submissions[1].grades.front();
+  const auto seeds = [&grade] {
+    std::vector<std::uint64_t> all;
+    for (const grade::GradedRun* run : shown_runs(grade)) all.push_back(run->seed);
+    return all;
+  };
+  EXPECT_THAT(seeds(), ElementsAre(1, 2));
+  grade.runs.resize(1);
+  EXPECT_THAT(seeds(), ElementsAre(1));
+  grade.runs.push_back(run_with(2, {}));
+  EXPECT_THAT(seeds(), ElementsAre(1)) << "equal runs";
+  grade.runs.clear();
+  EXPECT_THAT(seeds(), IsEmpty());
 }
 
 TEST_F(HtmlReport, PageOfAStudent_ShowsNothingOfOthers) {
