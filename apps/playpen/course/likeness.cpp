@@ -109,7 +109,7 @@ constexpr double kStraight_radps = 0.5;  // faster turns are curves
 constexpr double kTurns_radps = 0.1;     // slower turns are corrections
 constexpr double kOnTheSpot_mps = 0.01;
 constexpr double kSpeedStep_mps = 1e-4;  // resolution of speeds; trajectories have 1e-5
-constexpr double kTurnStep_radps = 1e-3;
+constexpr double kTurnStep_radps = 1e-4;
 constexpr double kLeastShare = 0.1;  // of the time, for a speed that is commanded often
 constexpr int kFewest = 20;          // samples of a speed that is commanded often
 
