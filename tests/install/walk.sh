@@ -129,7 +129,7 @@ cd "$HOME/walk/pioneer"
 printf '{"programs": ["./wander"], "worlds": ["cave"], "duration": 5, "seeds": 2,
   "parameters": {"/robots/0/pose/yaw_deg": [0, 90]}}' >plan.json
 says '4 runs, 4 ended, 4 passed' "$playpen" batch plan.json --out "$HOME/walk/batch"
-has ../batch/results.csv ../batch/statistics.csv ../batch/charts/path_length.png
+has ../batch/results.csv ../batch/statistics.csv ../batch/charts/least_clearance.png
 
 headline "playpen new, list and doctor"
 says 'cave' "$playpen" list
