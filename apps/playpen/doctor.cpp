@@ -23,6 +23,7 @@ constexpr Section kSections[] = {
     {"A run", check_run},
     {"Building programs", check_building},
     {"Isolated programs (--isolated)", check_isolation},
+    {"Grading a class (playpen class)", check_class},
     {"The live window (--view)", check_display},
     {"Films (--record)", check_films},
     {"Core dumps", check_core_dumps},

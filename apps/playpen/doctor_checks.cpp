@@ -125,6 +125,26 @@ struct Tool {
   const char* package;
 };
 
+/// The compiler that a variable names, or else the first of these that is installed.
+Tool compiler_tool(const char* what, const char* chosen_by, std::vector<std::string> names,
+                   const char* package) {
+  const std::string chosen = variable(chosen_by);
+  if (!chosen.empty()) names = {chosen.substr(0, chosen.find(' '))};
+  return {what, std::move(names), package};
+}
+
+/// What CMake needs to build a program in C++.
+std::vector<Tool> building_tools() {
+  return {compiler_tool("C++ compiler", "CXX", {"c++", "g++", "clang++"}, "g++"),
+          {"CMake", {"cmake"}, "cmake"},
+          {"make", {"make", "ninja"}, "make"}};
+}
+
+bool is_installed(const Tool& tool) {
+  return std::any_of(tool.names.begin(), tool.names.end(),
+                     [](const std::string& name) { return found_program(name).has_value(); });
+}
+
 /// @return whether the tool is installed.
 bool look_for(const Tool& tool, const fs::path& log, Findings& findings) {
   for (const std::string& name : tool.names) {
@@ -334,12 +354,10 @@ Findings check_building() {
   try {
     const ScratchFolder scratch;
     const fs::path log = scratch / "version.log";
-    const std::string chosen = variable("CXX");
-    std::vector<std::string> compilers = {"c++", "g++", "clang++"};
-    if (!chosen.empty()) compilers = {chosen.substr(0, chosen.find(' '))};
-    const bool compiler = look_for({"C++ compiler", compilers, "g++"}, log, findings);
-    const bool cmake = look_for({"CMake", {"cmake"}, "cmake"}, log, findings);
-    const bool make = look_for({"make", {"make", "ninja"}, "make"}, log, findings);
+    bool complete = true;
+    for (const Tool& tool : building_tools()) {
+      complete = look_for(tool, log, findings) && complete;
+    }
     const bool pkgconfig =
         look_for({"pkg-config, for makefiles", {"pkg-config"}, "pkg-config"}, log, findings);
     if (pkgconfig) check_pkgconfig(log, findings);
@@ -348,12 +366,33 @@ Findings check_building() {
       findings.push_back({Health::kWarning,
                           "the CMake package of Playpen is not beside this program",
                           kInstallAgain});
-    } else if (compiler && cmake && make) {
+    } else if (complete) {
       findings.push_back(trial_build(scratch));
     }
   } catch (const std::exception& error) {
     findings.push_back(
         {Health::kWarning, std::string("building cannot be tried: ") + error.what(), ""});
+  }
+  return findings;
+}
+
+Findings check_class() {
+  Findings findings;
+  try {
+    const ScratchFolder scratch;
+    const fs::path log = scratch / "version.log";
+    look_for({"bsdtar, for submissions that are archives", {"bsdtar"}, "libarchive-tools"}, log,
+             findings);
+    look_for(compiler_tool("C compiler", "CC", {"cc", "gcc", "clang"}, "gcc"), log, findings);
+    for (const Tool& tool : building_tools()) {
+      if (is_installed(tool)) continue;
+      findings.push_back({Health::kWarning,
+                          std::string("submissions do not compile: no ") + tool.what, "",
+                          std::string("sudo apt install ") + tool.package});
+    }
+  } catch (const std::exception& error) {
+    findings.push_back(
+        {Health::kWarning, std::string("the tools cannot be tried: ") + error.what(), ""});
   }
   return findings;
 }

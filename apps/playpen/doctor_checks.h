@@ -33,6 +33,8 @@ using Findings = std::vector<Finding>;
 [[nodiscard]] Findings check_building();
 /// Whether programs can be isolated from this machine.
 [[nodiscard]] Findings check_isolation();
+/// Checks the programs that `playpen class` needs to unpack and compile submissions.
+[[nodiscard]] Findings check_class();
 /// Whether --view can open a window.
 [[nodiscard]] Findings check_display();
 /// Whether films can be written, and how.

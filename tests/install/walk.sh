@@ -124,6 +124,13 @@ says '3 submissions, 3 compiled, 1 passed all runs' "$playpen" class par_intro -
   --submissions . --out "$HOME/walk/graded" --isolated best
 has ../graded/index.html ../graded/results.csv ../graded/submissions/cmake/par_intro/par_intro_seed1/scene.png
 
+headline "A batch: a program with other starts"
+cd "$HOME/walk/pioneer"
+printf '{"programs": ["./wander"], "worlds": ["cave"], "duration": 5, "seeds": 2,
+  "parameters": {"/robots/0/pose/yaw_deg": [0, 90]}}' >plan.json
+says '4 runs, 4 ended, 4 passed' "$playpen" batch plan.json --out "$HOME/walk/batch"
+has ../batch/results.csv ../batch/statistics.csv ../batch/charts/least_clearance.png
+
 headline "playpen new, list and doctor"
 says 'cave' "$playpen" list
 # playpen_new_test builds the others, too, against the build folder.

@@ -207,6 +207,16 @@ TEST_F(Class, Plots_DrawnOnceAndAgainIfStale) {
   EXPECT_FALSE(fs::exists(run / "plot.png"));
 }
 
+TEST_F(Class, SourcesInC_MayUseMathLibrary) {
+  // Neither the compiler nor the linker adds it to a program in C.
+  hand_in("ada/main.c",
+          "#include <math.h>\n#include <stdlib.h>\n"
+          "int main(void) { return (int)sin(atof(getenv(\"HOME\"))); }\n");
+  ASSERT_EQ(grade().status, 0);
+  EXPECT_EQ(row_of(result_of(folder_ / "out"), "ada").at("build").at("built"), true)
+      << read_bytes(folder_ / "out/submissions/ada/build.log");
+}
+
 TEST_F(Class, Killed_GoesOnToTheSameResult) {
   for (const char* id : {"a", "b", "c", "d"}) hand_in(std::string(id) + "/Makefile", kMakefile);
   ASSERT_EQ(grade("whole", {"--seeds", "3"}).status, 0);

@@ -212,6 +212,18 @@ TEST(PlaypenDoctor, VariablesAndInvalidDisplay_Reported) {
                                 HasSubstr("sudo apt install g++")));
 }
 
+TEST(PlaypenDoctor, WithoutToolsOfAClass_NamesTheirPackages) {
+  const TemporaryFolder empty;
+  const ProcessResult result = doctor_with({{"PATH", empty / "."}, {"CC", ""}});
+  EXPECT_EQ(result.status, 0) << result.out;
+  EXPECT_THAT(
+      result.out,
+      AllOf(ContainsRegex("WARN +bsdtar, for submissions that are archives: none"),
+            HasSubstr("sudo apt install libarchive-tools"), ContainsRegex("WARN +C compiler: none"),
+            ContainsRegex("WARN +submissions do not compile: no CMake"),
+            HasSubstr("sudo apt install cmake")));
+}
+
 TEST(PlaypenDoctor, BrokenSystem_Fails) {
   const TemporaryFolder prefix;
   const std::string command = prefix.write("bin/playpen", "");

@@ -58,7 +58,7 @@ project(submission LANGUAGES C CXX)
 find_package(playpen REQUIRED)
 file(GLOB sources ../*.cpp ../*.cc ../*.cxx ../*.c)
 add_executable(robot ${sources})
-target_link_libraries(robot PRIVATE playpen::player)
+target_link_libraries(robot PRIVATE playpen::player m)
 TEXT
   build playpen-project
 else

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -101,8 +102,120 @@ std::size_t parting(const Samples& a, const Samples& b, double apart_m) {
   return kNever;
 }
 
+// --- The speeds that a program commands --------------------------------------------------------
+
+constexpr double kDrives_mps = 0.05;     // slower robots stand, or turn on the spot
+constexpr double kStraight_radps = 0.5;  // faster turns are curves
+constexpr double kTurns_radps = 0.1;     // slower turns are corrections
+constexpr double kOnTheSpot_mps = 0.01;
+constexpr double kSpeedStep_mps = 1e-4;  // resolution of speeds; trajectories have 1e-5
+constexpr double kTurnStep_radps = 1e-4;
+constexpr double kLeastShare = 0.1;  // of the time, for a speed that is commanded often
+constexpr int kFewest = 20;          // samples of a speed that is commanded often
+
+// How often each speed occurs, in steps of a resolution.
+class SpeedCounts {
+ public:
+  explicit SpeedCounts(double step) : step_(step) {}
+
+  void add(double speed) { ++counts_[std::lround(speed / step_)]; }
+  // A sample that has no such speed, but belongs to the whole.
+  void add_to_whole() { ++whole_; }
+
+  // The speeds that occur often, the most frequent first.
+  [[nodiscard]] std::vector<double> frequent() const {
+    std::map<long, int> left = counts_;
+    std::vector<double> speeds;
+    for (;;) {
+      long best = 0;
+      int most = 0;
+      for (const auto& [value, count] : left) {
+        const int near = count + count_of(left, value - 1) + count_of(left, value + 1);
+        if (near > most) {
+          most = near;
+          best = value;
+        }
+      }
+      if (most < kFewest || most < kLeastShare * whole_) return speeds;
+      speeds.push_back(static_cast<double>(best) * step_);
+      for (long value = best - 2; value <= best + 2; ++value) left.erase(value);
+    }
+  }
+
+ private:
+  static int count_of(const std::map<long, int>& counts, long value) {
+    const auto found = counts.find(value);
+    return found == counts.end() ? 0 : found->second;
+  }
+
+  double step_;
+  std::map<long, int> counts_;
+  int whole_ = 0;
+};
+
+struct Speeds {
+  std::vector<double> straight_mps;
+  std::vector<double> on_the_spot_radps;
+};
+
+Speeds speeds_of(const ProgramDrives& drives) {
+  SpeedCounts straight(kSpeedStep_mps);
+  SpeedCounts on_the_spot(kTurnStep_radps);
+  for (const Drive& drive : drives) {
+    for (std::size_t k = 1; k < drive.time_s.size(); ++k) {
+      const double time_s = drive.time_s[k] - drive.time_s[k - 1];
+      if (time_s < 0.5 * kPeriod_s) continue;
+      const sim::Pose& from = drive.X_WB[k - 1];
+      const sim::Pose& to = drive.X_WB[k];
+      const double speed_mps = (to.position() - from.position()).norm() / time_s;
+      const double turn_radps = std::abs(sim::normalize_angle(to.yaw_rad - from.yaw_rad)) / time_s;
+      if (speed_mps > kDrives_mps) straight.add_to_whole();
+      if (speed_mps > kDrives_mps && turn_radps < kStraight_radps) straight.add(speed_mps);
+      if (turn_radps > kTurns_radps) on_the_spot.add_to_whole();
+      if (turn_radps > kTurns_radps && speed_mps < kOnTheSpot_mps) on_the_spot.add(turn_radps);
+    }
+  }
+  return {straight.frequent(), on_the_spot.frequent()};
+}
+
+enum class SpeedRelation { kUnknown, kEqual, kChanged, kOther };
+
+// How the most frequent speed of one program is found in another.
+SpeedRelation relation_of(double speed, const std::vector<double>& others, double step,
+                          double nearly_equal) {
+  SpeedRelation relation = SpeedRelation::kOther;
+  for (const double other : others) {
+    const double difference = std::abs(speed - other);
+    // Half a step of rounding each, and one of the neighbours that were counted together.
+    if (difference < 2.5 * step) return SpeedRelation::kEqual;
+    if (difference <= nearly_equal * std::max(speed, other)) relation = SpeedRelation::kChanged;
+  }
+  return relation;
+}
+
+SpeedRelation relation_of(const std::vector<double>& a, const std::vector<double>& b, double step,
+                          double nearly_equal) {
+  if (a.empty() || b.empty()) return SpeedRelation::kUnknown;
+  return std::max(relation_of(a.front(), b, step, nearly_equal),
+                  relation_of(b.front(), a, step, nearly_equal));
+}
+
+// The factor of the least likeness of a pair.
+double factor_of(const Speeds& a, const Speeds& b, const LikenessLimits& limits) {
+  const SpeedRelation straight =
+      relation_of(a.straight_mps, b.straight_mps, kSpeedStep_mps, limits.nearly_equal);
+  const SpeedRelation turns =
+      relation_of(a.on_the_spot_radps, b.on_the_spot_radps, kTurnStep_radps, limits.nearly_equal);
+  if (std::max(straight, turns) == SpeedRelation::kOther) return limits.other_factor;
+  const bool both = straight == SpeedRelation::kChanged && turns == SpeedRelation::kChanged;
+  return both ? limits.changed_factor : 1.0;
+}
+
+// --- Pairs --------------------------------------------------------------------------------------
+
 // A program, prepared for comparisons.
 struct Program {
+  Speeds speeds;
   std::vector<Samples> runs;
   // Per run: the sample at which the program has parted from all baselines; 0: there is none;
   // kNever: it drives like one of them.
@@ -113,6 +226,7 @@ struct Program {
 Program program_of(const std::vector<std::string>& worlds, const ProgramDrives& drives,
                    const std::vector<std::vector<Samples>>& baselines, double apart_m) {
   Program program;
+  program.speeds = speeds_of(drives);
   program.runs = samples_of(drives);
   for (std::size_t r = 0; r < drives.size(); ++r) {
     const Samples& own = program.runs[r];
@@ -185,7 +299,7 @@ std::optional<Likeness> likeness_of(const std::vector<std::string>& worlds, cons
   pair.runs = compared.size();
   pair.worlds = compared_worlds.size();
   pair.likeness /= static_cast<double>(pair.runs);
-  pair.threshold = limits.least_in(pair.worlds);
+  pair.threshold = factor_of(a.speeds, b.speeds, limits) * limits.least_in(pair.worlds);
   if (pair.likeness < pair.threshold) return std::nullopt;
   const Shared* most = &compared.front();
   for (const Shared& shared : compared) {

@@ -29,6 +29,10 @@ struct LikenessLimits {
   double least_likeness = 4.5;  ///< of a pair in `enough_worlds` worlds or more [sqrt(m rad)]
   std::size_t enough_worlds = 5;   ///< in fewer worlds, least_in() is larger
   double one_world_likeness = 12;  ///< of a pair in one world [sqrt(m rad)]
+  double nearly_equal = 0.033;  ///< relative difference of constants that differ in the third digit
+  double changed_factor =
+      0.45;                   ///< of the least likeness, if both speeds differ in the third digit
+  double other_factor = 2.0;  ///< of the least likeness, if a speed differs by more
 
   /// Least likeness of a pair that was compared in a number of different worlds, > 0: it is
   /// inversely proportional to their number up to `enough_worlds`, and at most that in one world.
@@ -62,6 +66,14 @@ struct Likeness {
 /// they are `apart_m` from each other for the first time. It is 0 for a straight line, which
 /// many honest programs begin with, and for turning on the spot. Trembling does not count: s is a
 /// sum of straight moves of 0.25 m, a a sum of turns of 0.2 rad.
+///
+/// The least likeness depends on the speeds that the programs command most often, when they drive
+/// straight and when they turn on the spot. If both differ, but by less than `nearly_equal`, the
+/// programs differ as copies with changed constants do, and `changed_factor` applies: people choose
+/// constants with one or two digits, which are either equal or farther apart. If one of them
+/// differs by more, the constants are other ones, and `other_factor` applies. A program without
+/// such speeds, for example one that always drives on curves, is compared with the least likeness
+/// itself.
 ///
 /// What a baseline does too does not count: s and a begin when both robots have parted from all
 /// baselines. A run is left out if one of the programs has no drive of it, if after the baselines

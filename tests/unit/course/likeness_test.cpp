@@ -78,6 +78,68 @@ TEST(Likeness, SpeedChangedInTheThirdDigit_IsAlikeUntilTheRobotsPart) {
   EXPECT_LT(found[0].distance_m, 0.15);
 }
 
+// A robot that drives straight for a while and then turns on the spot by an angle of its own.
+struct Bouncer {
+  double speed_mps = 0.3;
+  double turn_radps = 1.5;
+  int legs = 6;  // until it turns to the other side than the original would
+};
+
+Drive bounces(const Bouncer& b) {
+  constexpr int kStraight = 20;  // samples of 0.1 s
+  constexpr int kTurn = 10;
+  Drive result;
+  sim::Pose X_WB{0.0, 0.0, 0.0};
+  for (int k = 0; k <= 600; ++k) {
+    result.time_s.push_back(0.1 * k);
+    result.X_WB.push_back(X_WB);
+    const int leg = k / (kStraight + kTurn);
+    if (k % (kStraight + kTurn) < kStraight) {
+      X_WB.x_m += 0.1 * b.speed_mps * std::cos(X_WB.yaw_rad);
+      X_WB.y_m += 0.1 * b.speed_mps * std::sin(X_WB.yaw_rad);
+    } else {
+      X_WB.yaw_rad += (leg < b.legs ? 0.1 : -0.1) * b.turn_radps;
+    }
+  }
+  return result;
+}
+
+ProgramDrives bounces_everywhere(const Bouncer& bouncer) {
+  return ProgramDrives(5, bounces(bouncer));
+}
+
+// Both robots drive 2 legs together, 1.2 m with a turn of 1.5 rad between, and part in the third or
+// when it is over: the likeness is at least sqrt(1 m * 1.4 rad) = 1.2, and at most
+// sqrt(1.8 m * 3.1 rad) = 2.4.
+LikenessLimits limits_for_two_legs() { return {.least_driven_m = 1.0, .least_likeness = 2.5}; }
+
+bool are_alike(const Bouncer& one, const Bouncer& other) {
+  return !find_alike(worlds(), {bounces_everywhere(one), bounces_everywhere(other)}, {},
+                     limits_for_two_legs())
+              .empty();
+}
+
+TEST(Likeness, BothSpeedsChangedInTheThirdDigit_LessIsEnough) {
+  const Bouncer original{.legs = 9};
+  EXPECT_TRUE(are_alike(original, {.speed_mps = 0.303, .turn_radps = 1.51, .legs = 1}));
+  // One equal speed may be a common choice, and so may two.
+  EXPECT_FALSE(are_alike(original, {.speed_mps = 0.303, .legs = 1}));
+  EXPECT_FALSE(are_alike(original, {.turn_radps = 1.51, .legs = 1}));
+  EXPECT_FALSE(are_alike(original, {.legs = 1}));
+}
+
+TEST(Likeness, OtherTurnRate_MoreIsNeeded) {
+  const ProgramDrives original = bounces_everywhere({.legs = 99});
+  const ProgramDrives other = bounces_everywhere({.turn_radps = 1.6, .legs = 99});
+  const auto equal = find_alike(worlds(), {original, original}, {});
+  ASSERT_EQ(equal.size(), 1U);
+  EXPECT_EQ(equal[0].threshold, 4.5);
+  // The headings differ by 0.1 rad after each turn: the robots part in the third or fourth leg.
+  const auto changed = find_alike(worlds(), {original, other}, {}, {.least_likeness = 0.5});
+  ASSERT_EQ(changed.size(), 1U);
+  EXPECT_EQ(changed[0].threshold, 1.0);
+}
+
 TEST(Likeness, OtherSpeed_IsNotAlike) {
   EXPECT_TRUE(find_alike(worlds(), {everywhere({}), everywhere({.speed_mps = 0.35})}, {}).empty());
 }
