@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "sim/core/error.h"
@@ -15,6 +17,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 Plan read(const std::string& members) {
   return read_plan_text(R"({"programs": ["robot"], "worlds": ["cave"], )" + members + "}",
@@ -116,6 +119,17 @@ TEST(Plan, BadParameters_SayWhereAndWhat) {
   EXPECT_THAT(error(R"("/a": {"from": 0, "to": 1, "count": 1001}, "/b": {"from": 0, "to": 1,
                     "count": 1001})"),
               HasSubstr("at most 1000000 runs, found 1002001"));
+}
+
+TEST(PlanSchema, HasTheKeysOfTheReader) {
+  std::ifstream stream(std::string(PLAYPEN_SOURCE_DIR) + "/worlds/schema/plan.schema.json");
+  const nlohmann::json root = nlohmann::json::parse(stream);
+  for (const auto& [key, property] : root.at("properties").items()) {
+    EXPECT_THAT(error_of("{\"" + key + "\": null}"), Not(HasSubstr("unknown-key"))) << key;
+    EXPECT_TRUE(property.contains("description")) << key;
+  }
+  EXPECT_EQ(root.at("properties").size(), 10U);
+  EXPECT_THAT(error_of(R"({"sead": 1})"), HasSubstr("unknown-key"));
 }
 
 }  // namespace

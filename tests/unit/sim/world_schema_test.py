@@ -121,6 +121,27 @@ def main(source):
             print(f"the task schema accepts {bad}")
             failures += 1
 
+    plan_schema = load(worlds / "schema" / "plan.schema.json")
+    jsonschema.Draft202012Validator.check_schema(plan_schema)
+    plan_validator = jsonschema.Draft202012Validator(plan_schema)
+    page = (source / "docs" / "batch.md").read_text(encoding="utf-8")
+    plans = re.findall(r"^ *```\n( *\{.*?)```", page, re.DOTALL | re.MULTILINE)
+    for example in plans:
+        for error in plan_validator.iter_errors(parse(example)):
+            print(f"docs/batch.md: {error.json_path}: {error.message}")
+            failures += 1
+    if not plans:
+        print("docs/batch.md has no plan")
+        failures += 1
+    plan = {"programs": ["robot"], "worlds": ["cave"]}
+    for bad in [{}, {"programs": ["robot"]}, {**plan, "programs": []}, {**plan, "sedes": 3},
+                {**plan, "seeds": [1, 1]}, {**plan, "parameters": {"a": [1]}},
+                {**plan, "parameters": {"/a~2": [1]}}, {**plan, "parameters": {"/a": []}},
+                {**plan, "parameters": {"/a": {"from": 1, "to": 2}}}]:
+        if plan_validator.is_valid(bad):
+            print(f"the plan schema accepts {bad}")
+            failures += 1
+
     for name in FORMAL_FAULTS:
         path = source / "tests" / "invalid_worlds" / f"{name}.json"
         if validator.is_valid(load(path)):
