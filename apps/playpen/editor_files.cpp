@@ -51,7 +51,7 @@ ordered_json task(const char* label, const std::string& command,
   return result;
 }
 
-ordered_json tasks(const ProjectTemplate& kind) {
+ordered_json tasks_file(const ProjectTemplate& kind) {
   const std::string program = std::string("build/") + kind.program;
   ordered_json build = task("build", "cmake", {"--build", "build"}, "configure");
   build["problemMatcher"] = {"$gcc"};
@@ -107,7 +107,7 @@ playerlike::EnvironmentChanges debug_environment(const ProjectTemplate& kind) {
   return environment;
 }
 
-ordered_json launch(const ProjectTemplate& kind) {
+ordered_json launch_file(const ProjectTemplate& kind) {
   ordered_json environment = ordered_json::array();
   for (const auto& [name, value] : debug_environment(kind)) {
     if (value) environment.push_back({{"name", name}, {"value", *value}});
@@ -145,7 +145,7 @@ std::string file_address(const fs::path& file) {
   return address;
 }
 
-ordered_json settings() {
+ordered_json settings_file() {
   ordered_json schemas = ordered_json::array();
   ordered_json with_comments = ordered_json::object();
   std::error_code error;
@@ -181,9 +181,9 @@ void write_editor_files(const ProjectTemplate& kind, const fs::path& folder) {
     throw std::runtime_error("the folder '" + place.string() +
                              "' cannot be made: " + error.message());
   }
-  write_json(place / "tasks.json", tasks(kind));
-  write_json(place / "launch.json", launch(kind));
-  write_json(place / "settings.json", settings());
+  write_json(place / "tasks.json", tasks_file(kind));
+  write_json(place / "launch.json", launch_file(kind));
+  write_json(place / "settings.json", settings_file());
   write_json(
       place / "extensions.json",
       {{"recommendations", ordered_json::array({"ms-vscode.cpptools", "ms-vscode.cmake-tools"})}});
