@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "editor_files.h"
 #include "project.h"
 #include "sim/core/error.h"
 #include "terminal.h"
@@ -51,6 +52,7 @@ void make_project(const ProjectTemplate& kind, const std::string& target,
     throw std::runtime_error("the folder '" + target + "' cannot be made: " + error.message());
   }
   copy_template(kind, folder);
+  write_editor_files(kind, folder);
   print_next_steps(kind, target, invocation);
   if (!package_prefix()) {
     std::cout << "The CMake package of Playpen is not beside this program. Add to the first "

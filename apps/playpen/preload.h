@@ -31,6 +31,10 @@ class PreloadedLibrary {
   /// Path of the library.
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
 
+  /// Whether the library is preloaded by its own path. If not, by a name that ends with this
+  /// object.
+  [[nodiscard]] bool has_own_name() const noexcept { return link_folder_.empty(); }
+
   /// Makes a program load the library, after its other preloaded libraries.
   void add_to(playerlike::EnvironmentChanges& environment) const;
 

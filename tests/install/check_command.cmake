@@ -34,6 +34,11 @@ foreach(kind IN LISTS kinds)
   if(place LESS 0)
     message(FATAL_ERROR "the new ${kind} found another package than that of ${prefix}: ${found}")
   endif()
+  file(READ "${projects}/${kind}/.vscode/tasks.json" tasks)
+  string(FIND "${tasks}" "\"${command}\"" place)
+  if(place LESS 0 OR NOT EXISTS "${projects}/${kind}/build/compile_commands.json")
+    message(FATAL_ERROR "an editor cannot run the new ${kind} or has no commands of its compiler:\n${tasks}")
+  endif()
 endforeach()
 
 # Builds and runs one of them with CMake and with its makefile.
