@@ -54,7 +54,7 @@ ordered_json task(const char* label, const std::string& command,
 ordered_json tasks_file(const ProjectTemplate& kind) {
   const std::string program = std::string("build/") + kind.program;
   ordered_json build = task("build", "cmake", {"--build", "build"}, "configure");
-  build["problemMatcher"] = {"$gcc"};
+  build["problemMatcher"] = ordered_json::array({"$gcc"});
   build["group"] = {{"kind", "build"}, {"isDefault", true}};
   std::vector<std::string> run = {"run", world_of(kind)};
   if (!has_task(kind)) run.insert(run.end(), {"--duration", "60"});
@@ -70,7 +70,7 @@ ordered_json tasks_file(const ProjectTemplate& kind) {
                       {"-S", ".", "-B", "build/debug", "-DCMAKE_BUILD_TYPE=Debug"}, ""));
   ordered_json debug =
       task(kDebugBuild, "cmake", {"--build", "build/debug"}, "configure for debugging");
-  debug["problemMatcher"] = {"$gcc"};
+  debug["problemMatcher"] = ordered_json::array({"$gcc"});
   debug["group"] = "build";
   list.push_back(std::move(debug));
   return {{"version", "2.0.0"}, {"tasks", std::move(list)}};
