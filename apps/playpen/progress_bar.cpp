@@ -28,10 +28,10 @@ void ProgressBar::begin(const std::string& name) {
 
 void ProgressBar::show(std::size_t ended, std::size_t all) const {
   if (!is_terminal_ || all == 0) return;
-  constexpr std::size_t kWidth = 20;
-  const std::size_t filled = kWidth * ended / all;
+  constexpr std::size_t kBarWidth = 20;
+  const std::size_t filled = kBarWidth * ended / all;
   std::string line = "\r\033[K" + name_ + " [" + std::string(filled, '#') +
-                     std::string(kWidth - filled, ' ') + "] " + std::to_string(ended) + " of " +
+                     std::string(kBarWidth - filled, ' ') + "] " + std::to_string(ended) + " of " +
                      std::to_string(all);
   if (ended > 0) {
     const std::chrono::duration<double> spent = Clock::now() - start_;

@@ -207,7 +207,7 @@ struct Column {
   }
 };
 
-constexpr std::size_t kGap = 2;
+constexpr std::size_t kColumnGap = 2;
 
 /// The mean of a figure; "-" if it has no values.
 std::string mean_text(const GroupSummary& group, const char* name, int decimals) {
@@ -316,8 +316,8 @@ std::string batch_table(const BatchResult& result, const std::vector<GroupSummar
   std::vector<Column> table = columns_of(result.batch, groups);
   const auto width = [&table] {
     std::size_t sum = 0;
-    for (const Column& column : table) sum += column.width() + kGap;
-    return sum - kGap;
+    for (const Column& column : table) sum += column.width() + kColumnGap;
+    return sum - kColumnGap;
   };
   constexpr std::size_t kFewest = 2;
   while (table.size() > kFewest && width() > columns) table.pop_back();
@@ -327,7 +327,7 @@ std::string batch_table(const BatchResult& result, const std::vector<GroupSummar
     for (const Column& column : table) {
       const std::string& cell = column.cells[row];
       const std::string blanks(column.width() - cell.size(), ' ');
-      line += (line.empty() ? "" : std::string(kGap, ' ')) +
+      line += (line.empty() ? "" : std::string(kColumnGap, ' ')) +
               (column.is_words ? cell + blanks : blanks + cell);
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';

@@ -410,7 +410,7 @@ std::string direction_text(double bearing_rad) {
 
 /// "113 degrees to the left", "behind".
 std::string angle_text(double bearing_rad) {
-  const std::string direction = direction_text(bearing_rad);
+  std::string direction = direction_text(bearing_rad);
   if (direction == "ahead" || direction == "behind") return direction;
   return degrees_text(bearing_rad) + (bearing_rad > 0.0 ? " to the left" : " to the right");
 }
