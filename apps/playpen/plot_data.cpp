@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "playerlike/host/report.h"
 #include "sim/core/file.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/outline.h"
@@ -145,10 +144,10 @@ void read_report(const fs::path& file, RunData& run) {
   const std::string text = text_of(file);
   std::string world_file;
   try {
-    const playerlike::Report report = playerlike::report_from(text);
-    run.world_name = report.run.world;
-    world_file = report.run.world_file.value_or("");
-    read_marks(report, run);
+    run.report = playerlike::report_from(text);
+    run.world_name = run.report.run.world;
+    world_file = run.report.run.world_file.value_or("");
+    read_marks(run.report, run);
   } catch (const std::exception& error) {
     throw std::runtime_error(
         file.string() + ": expected the report of a run, found something else: " + error.what());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grade/trajectory.h"
+#include "playerlike/host/report.h"
 #include "sim/simulation/scene_snapshot.h"
 #include "sim/world/description.h"
 
@@ -30,6 +31,7 @@ struct Moment {
 struct RunData {
   std::string folder;
   std::string world_name;
+  playerlike::Report report;                   ///< its report.json
   std::optional<sim::WorldDescription> world;  ///< none: `world_problem` gives the reason
   std::string world_problem;                   ///< why the world is unknown
   std::vector<Track> tracks;                   ///< in the order of trajectory.csv
