@@ -29,6 +29,7 @@ using sim::Vec2;
 
 constexpr double kDotRadius = 4.2;  // [pixels]
 constexpr sim::Colour kPaper{0xff, 0xff, 0xff, 0xff};
+constexpr sim::Colour kCurve{0x4b, 0x3f, 0x8c, 0xff};  // of the only robot
 constexpr sim::Colour kLimit{0xb9, 0x6b, 0x1a, 0xff};  // of the limits at which runs part
 
 // A filled circle.
@@ -61,11 +62,10 @@ struct LogAxes {
   std::string title;
   double top = 0.0;
   double bottom = 0.0;
-  double least = 1e-5;  // value of the least decade, a power of ten
-  double most = 1.0;    // value of the upper end, a power of ten
+  double least = 0.01;  // value of the lower end, a power of ten
+  double most = 1.0;    // value of the upper end
   double end_s = 1.0;
   std::vector<double> limits;
-  std::string (*text_of)(double value) = nullptr;
 
   static constexpr double kZeroStrip = 26.0;  // height [pixels]
 
@@ -81,7 +81,7 @@ struct LogAxes {
 
 // The next power of ten that is not less than the greatest value, at least `least_end`.
 double upper_end(const std::vector<LogCurve>& curves, double least_end) {
-  constexpr double kMostEnd = 1e6;  // of what can be a distance
+  constexpr double kMostEnd = 1e9;  // more than any distance in an arena
   double greatest = 0.0;
   for (const LogCurve& curve : curves) {
     for (const double value : *curve.values) greatest = std::max(greatest, value);
@@ -89,6 +89,14 @@ double upper_end(const std::vector<LogCurve>& curves, double least_end) {
   double end = least_end;
   while (end < greatest && end < kMostEnd) end *= 10.0;
   return end;
+}
+
+// A line across a chart with a number beside it.
+void draw_level(Page& page, double height, const std::string& text, sim::Colour line,
+                sim::Colour ink, bool dashed) {
+  page.add_line({{page::kLeft, height}, {page::kRight, height}}, line, 1.0, dashed);
+  page.add_text(text, {page::kLeft - 7.0, height + 0.5 * page::kSmallText}, page::kSmallText, ink,
+                Page::Align::kRight);
 }
 
 void draw_axes(Page& page, const LogAxes& axes, bool with_times) {
@@ -99,24 +107,15 @@ void draw_axes(Page& page, const LogAxes& axes, bool with_times) {
     page.add_text(tick.text, {axes.x(tick.value), axes.bottom + 18.0}, page::kSmallText, kFaintInk,
                   Page::Align::kMiddle);
   }
-  const auto add_level = [&](double height, const std::string& text, sim::Colour colour,
-                             sim::Colour ink, bool dashed) {
-    page.add_line({{page::kLeft, height}, {page::kRight, height}}, colour, 1.0, dashed);
-    page.add_text(text, {page::kLeft - 7.0, height + 0.5 * page::kSmallText}, page::kSmallText, ink,
-                  Page::Align::kRight);
-  };
-  const int decades = static_cast<int>(std::lround(std::log10(axes.most / axes.least)));
-  for (int i = 0; i <= decades; ++i) {
-    // Exact powers of ten, as the limits are.
-    const double value =
-        std::stod("1e" + std::to_string(static_cast<int>(std::lround(std::log10(axes.least))) + i));
-    const bool is_limit = std::any_of(axes.limits.begin(), axes.limits.end(), [&](double limit) {
-      return std::abs(limit - value) < 1e-3 * value;
-    });
-    add_level(axes.y(value), axes.text_of(value), is_limit ? kLimit : kGrid,
-              is_limit ? kLimit : kFaintInk, is_limit);
+  constexpr double kRounding = 1.0001;  // of the repeated products
+  for (double value = axes.least; value <= kRounding * axes.most; value *= 10.0) {
+    const bool is_limit = std::any_of(
+        axes.limits.begin(), axes.limits.end(),
+        [value](double limit) { return std::abs(limit - value) < (kRounding - 1.0) * value; });
+    draw_level(page, axes.y(value), sim::rounded_text(value, 3), is_limit ? kLimit : kGrid,
+               is_limit ? kLimit : kFaintInk, is_limit);
   }
-  add_level(axes.y(0.0), "0", kGrid, kFaintInk, false);
+  draw_level(page, axes.y(0.0), "0", kGrid, kFaintInk, false);
   page.add_line({{page::kLeft, axes.top}, {page::kLeft, axes.bottom}, {page::kRight, axes.bottom}},
                 kFrame, 1.2);
 }
@@ -146,21 +145,12 @@ void draw_dots(Page& page, const LogAxes& axes, const LogCurve& curve) {
   }
 }
 
-void draw_log_chart(Page& page, LogAxes axes, const std::vector<LogCurve>& curves,
+void draw_log_chart(Page& page, const LogAxes& axes, const std::vector<LogCurve>& curves,
                     bool with_times) {
-  axes.most = upper_end(curves, axes.most);
   draw_axes(page, axes, with_times);
   for (const LogCurve& curve : curves) draw_curve(page, axes, curve);
   for (const LogCurve& curve : curves) draw_dots(page, axes, curve);
 }
-
-// "0.01 mm", "10 mm", "1 m"
-std::string length_tick(double value_m) {
-  return value_m < 0.999 ? sim::rounded_text(value_m * 1000.0, 3) + " mm"
-                         : sim::rounded_text(value_m, 3) + " m";
-}
-
-std::string angle_tick(double value_deg) { return sim::rounded_text(value_deg, 3) + "°"; }
 
 // The curve of a robot in the first or the second run.
 const Series* series_in(const std::vector<Series>& all, std::size_t run, std::size_t robot) {
@@ -170,37 +160,41 @@ const Series* series_in(const std::vector<Series>& all, std::size_t run, std::si
   return nullptr;
 }
 
+// The charts share their axis of time.
 void draw_charts(Page& page, const std::vector<Series>& all,
                  const diff::RunDifference& difference) {
   constexpr double kShareOfDistances = 0.62;
+  std::vector<std::vector<double>> distances_mm(difference.robots.size());
   std::vector<LogCurve> distances;
   std::vector<LogCurve> headings;
   double end_s = 0.0;
-  for (const RobotDifference& robot : difference.robots) {
+  for (std::size_t i = 0; i < difference.robots.size(); ++i) {
+    const RobotDifference& robot = difference.robots[i];
     const Series* const series = series_in(all, 0, robot.in_first);
     if (series == nullptr || robot.time_s.empty()) continue;
-    distances.push_back({&robot.time_s, &robot.distance_m, &robot.distances, series->colour});
-    headings.push_back({&robot.time_s, &robot.heading_deg, &robot.headings, series->colour});
+    for (const double distance_m : robot.distance_m) distances_mm[i].push_back(1e3 * distance_m);
+    // A single curve is that of neither run.
+    const sim::Colour colour = difference.robots.size() == 1 ? kCurve : series->colour;
+    distances.push_back({&robot.time_s, &distances_mm[i], &robot.distances, colour});
+    headings.push_back({&robot.time_s, &robot.heading_deg, &robot.headings, colour});
     end_s = std::max(end_s, robot.time_s.back());
   }
-  if (!(end_s > 0.0)) end_s = 1.0;
   const double middle =
       page::kTop + kShareOfDistances * (page::kBottom - page::kTop - page::kTitleGap);
   LogAxes axes;
-  axes.title = "distance between the runs";
+  axes.title = "distance between the runs [mm]";
+  if (distances.size() > 1) axes.title += ", in the robots' colours of the first run";
   axes.top = page::kTop;
   axes.bottom = middle;
-  axes.end_s = end_s;
-  axes.limits.assign(diff::kDistances_m.begin(), diff::kDistances_m.end());
-  axes.text_of = length_tick;
+  axes.end_s = end_s > 0.0 ? end_s : 1.0;
+  for (const double limit_m : diff::kDistances_m) axes.limits.push_back(1e3 * limit_m);
+  axes.most = upper_end(distances, 1000.0);
   draw_log_chart(page, axes, distances, false);
-  axes.title = "difference of the headings";
+  axes.title = "difference of the headings [degrees]";
   axes.top = middle + page::kTitleGap;
   axes.bottom = page::kBottom;
-  axes.least = 0.01;
-  axes.most = 1000.0;
+  axes.most = 180.0;
   axes.limits.assign(diff::kHeadings_deg.begin(), diff::kHeadings_deg.end());
-  axes.text_of = angle_tick;
   draw_log_chart(page, axes, headings, true);
   page.add_text("time [s]", {page::kRight, page::kBottom + 36.0}, page::kText, kInk,
                 Page::Align::kRight);
@@ -330,6 +324,11 @@ void draw_partings(Page& page, const sim::SceneSnapshot& scene, const PlacedScen
     }
   }
   labels.draw(page, kInk);
+  if (labelled == 0) return;
+  constexpr double kKeyBelow = 46.0;  // under the key of the scene
+  const Vec2 key = placed.corner + Vec2(11.0, placed.size.y() + kKeyBelow);
+  add_dot(page, key - Vec2(0.0, 4.5), kInk);
+  page.add_text("first more than 1, 10 and 100 mm apart", key + Vec2(14.0, 0.0), page::kText, kInk);
 }
 
 }  // namespace
@@ -343,12 +342,14 @@ sim::render::Drawing diff_page(const std::vector<RunData>& runs,
     title += " and " + grade::plain_text(runs.back().world_name);
   }
   drawing.add_text(title, {page::kLeft, 30.0}, 13.0, kInk);
-  draw_legend(drawing, all);
+  // Curves of the second run are dashed in charts; here, only the scene shows them.
+  std::vector<Series> entries = all;
+  for (Series& entry : entries) entry.run = 0;
+  draw_legend(drawing, entries);
   draw_charts(drawing, all, difference);
   const sim::SceneSnapshot scene = scene_of(runs, {0, 1}, all);
-  const PlacedScene placed = draw_scene(
-      drawing, scene, "trajectories, and where they are first more than 1, 10, 100 mm apart", false,
-      {page::kSceneLeft, page::kTop}, page::kScenesWidth);
+  const PlacedScene placed = draw_scene(drawing, scene, "trajectories", false,
+                                        {page::kSceneLeft, page::kTop}, page::kScenesWidth);
   draw_partings(drawing, scene, placed, all, difference);
   return drawing;
 }

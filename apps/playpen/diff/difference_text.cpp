@@ -207,7 +207,8 @@ std::string text_of(const RunDifference& difference, const ComparedRun& first,
   }
   text += parting_text(difference);
   text += figures_text(difference);
-  if (!difference.report_member.empty()) {
+  // It is only worth a line if nothing above differs.
+  if (!difference.report_member.empty() && difference.only_report_differs()) {
     text += "\nfirst member of report.json that differs: " +
             grade::plain_text(difference.report_member) + '\n';
   }

@@ -34,10 +34,7 @@ void add_setting(RunDifference& result, const std::string& name, std::string fir
 // The conditions that only graded runs record.
 void compare_grading(const playerlike::Report& first, const playerlike::Report& second,
                      RunDifference& result) {
-  if (!first.graded || !second.graded) {
-    const auto text = [](const playerlike::Report& report) { return report.graded ? "yes" : "no"; };
-    return add_setting(result, "graded", text(first), text(second));
-  }
+  if (!first.graded || !second.graded) return;
   const auto duration = [](const playerlike::Report& report) {
     const std::optional<double>& duration_s = report.graded->duration_s;
     return duration_s ? sim::shortest_text(*duration_s) + " s" : std::string("unlimited");
@@ -192,10 +189,7 @@ nlohmann::json compared_members(const playerlike::Report& report) {
   for (const char* const name : {"wall_time", "real_time_factor", "world_file"}) {
     members["run"].erase(name);
   }
-  if (const auto graded = members.find("graded"); graded != members.end() && graded->is_object()) {
-    graded->erase("nonce");
-    graded->erase("signature");
-  }
+  members.erase("graded");  // its conditions are compared as such
   return members;
 }
 
@@ -214,12 +208,16 @@ bool RunDifference::trajectories_differ() const noexcept {
 }
 
 bool RunDifference::any() const noexcept {
+  return !report_member.empty() || !only_report_differs();
+}
+
+bool RunDifference::only_report_differs() const noexcept {
   const auto differs = [](const FigureGroup& group) {
     return std::any_of(group.figures.begin(), group.figures.end(),
                        [](const Figure& figure) { return figure.differs; });
   };
-  return !settings.empty() || trajectories_differ() || !report_member.empty() ||
-         std::any_of(figures.begin(), figures.end(), differs);
+  return settings.empty() && !trajectories_differ() &&
+         std::none_of(figures.begin(), figures.end(), differs);
 }
 
 RunDifference difference_of(const ComparedRun& first, const ComparedRun& second) {

@@ -108,6 +108,8 @@ struct RunDifference {
 
   /// Whether the trajectories differ, also in length.
   [[nodiscard]] bool trajectories_differ() const noexcept;
+  /// Whether nothing but `report_member` differs.
+  [[nodiscard]] bool only_report_differs() const noexcept;
   /// Whether anything differs.
   [[nodiscard]] bool any() const noexcept;
 };
