@@ -67,13 +67,13 @@ struct LogAxes {
   double end_s = 1.0;
   std::vector<double> limits;
 
-  static constexpr double kZeroStrip = 26.0;  // height [pixels]
+  static constexpr double kZeroStrip = 34.0;  // height [pixels]
 
   [[nodiscard]] double x(double time_s) const {
     return page::kLeft + (page::kRight - page::kLeft) * time_s / end_s;
   }
   [[nodiscard]] double y(double value) const {
-    if (!(value > 0.0)) return bottom - 0.45 * kZeroStrip;
+    if (!(value > 0.0)) return bottom - 0.4 * kZeroStrip;
     const double share = std::log10(value / least) / std::log10(most / least);
     return bottom - kZeroStrip - (bottom - kZeroStrip - top) * std::clamp(share, 0.0, 1.0);
   }
@@ -112,7 +112,7 @@ void draw_axes(Page& page, const LogAxes& axes, bool with_times) {
     const bool is_limit = std::any_of(
         axes.limits.begin(), axes.limits.end(),
         [value](double limit) { return std::abs(limit - value) < (kRounding - 1.0) * value; });
-    draw_level(page, axes.y(value), sim::rounded_text(value, 3), is_limit ? kLimit : kGrid,
+    draw_level(page, axes.y(value), sim::rounded_text(value, 8), is_limit ? kLimit : kGrid,
                is_limit ? kLimit : kFaintInk, is_limit);
   }
   draw_level(page, axes.y(0.0), "0", kGrid, kFaintInk, false);
@@ -325,8 +325,8 @@ void draw_partings(Page& page, const sim::SceneSnapshot& scene, const PlacedScen
   }
   labels.draw(page, kInk);
   if (labelled == 0) return;
-  constexpr double kKeyBelow = 46.0;  // under the key of the scene
-  const Vec2 key = placed.corner + Vec2(11.0, placed.size.y() + kKeyBelow);
+  const bool has_key = !scene.collisions.empty() || !scene.goals.empty();
+  const Vec2 key = placed.corner + Vec2(11.0, placed.size.y() + (has_key ? 46.0 : 24.0));
   add_dot(page, key - Vec2(0.0, 4.5), kInk);
   page.add_text("first more than 1, 10 and 100 mm apart", key + Vec2(14.0, 0.0), page::kText, kInk);
 }
