@@ -79,6 +79,8 @@ diff::ComparedRun compared(const RunData& run) {
   result.report = run.report;
   for (const Track& track : run.tracks) result.trajectories.push_back(&track);
   result.goals = run.goals;
+  result.passed = run.passed;
+  result.faults = run.faults;
   if (run.world) result.world_hash = sim::world_hash(*run.world);
   return result;
 }

@@ -115,13 +115,15 @@ TEST(PlaypenDiff, RunsOfGrades_MatchedByName) {
   }
   write_run(folder, "b/s_seed2", moved);
   write_run(folder, "b/s_seed3", moved);
-  folder.write("a/grade.json", R"({"runs": [{"folder": "s_seed1"}, {"folder": "s_seed2"}]})");
-  folder.write("b/grade.json", R"({"runs": [{"folder": "s_seed1"}, {"folder": "s_seed2"},
-                                           {"folder": "s_seed3"}]})");
+  folder.write("a/grade.json", R"({"runs": [{"folder": "s_seed1"},
+    {"folder": "s_seed2", "passed": false, "faults": ["too short a path"]}]})");
+  folder.write("b/grade.json", R"({"runs": [{"folder": "s_seed1"},
+    {"folder": "s_seed2", "passed": true, "faults": []}, {"folder": "s_seed3"}]})");
   const ProcessResult result = diff(folder, "a", "b", {"--out", folder / "d.svg"});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.out, AllOf(HasSubstr("The runs are equal: all 2 rows"),
                                 HasSubstr("first difference: at 0.100 s, r1, x"),
+                                HasSubstr("run 1 failed: too short a path\n"),
                                 HasSubstr("1 of 2 pairs of runs differ")));
   EXPECT_THAT(result.err, AllOf(HasSubstr("left out"), HasSubstr("b/s_seed3")));
   // The picture shows the runs that differ. Their folders have the same name.

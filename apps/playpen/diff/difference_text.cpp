@@ -185,6 +185,15 @@ std::string figures_text(const RunDifference& difference) {
   return "\nfigures:\n" + lines_of(rows, 1);
 }
 
+// Why a run has not passed.
+std::string faults_text(const std::string& run, const ComparedRun& graded) {
+  std::string text;
+  for (const std::string& fault : graded.faults) {
+    text += "run " + run + " failed: " + grade::plain_text(fault) + '\n';
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string number_text(double value, int decimals) {
@@ -196,7 +205,7 @@ std::string number_text(double value, int decimals) {
 std::string distance_text(double limit_m) { return sim::rounded_text(limit_m * 1000.0, 6) + " mm"; }
 
 std::string text_of(const RunDifference& difference, const ComparedRun& first,
-                    const ComparedRun& /*second*/) {
+                    const ComparedRun& second) {
   std::string text = settings_text(difference, first.report);
   text += first_text(difference);
   if (!difference.any()) {
@@ -206,7 +215,7 @@ std::string text_of(const RunDifference& difference, const ComparedRun& first,
            " rows of trajectories, and all figures.\n";
   }
   text += parting_text(difference);
-  text += figures_text(difference);
+  text += figures_text(difference) + faults_text("1", first) + faults_text("2", second);
   // It is only worth a line if nothing above differs.
   if (!difference.report_member.empty() && difference.only_report_differs()) {
     text += "\nfirst member of report.json that differs: " +

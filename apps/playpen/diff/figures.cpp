@@ -61,8 +61,22 @@ std::string verdict_text(const Report& report) {
          (report.verdict->reason.empty() ? "" : ": " + report.verdict->reason);
 }
 
-FigureGroup figures_of_runs(const Report& first, const Report& second) {
+std::string judgement_text(const std::optional<bool>& passed) {
+  if (!passed) return "not graded";
+  return *passed ? "passed" : "failed";
+}
+
+FigureGroup figures_of_runs(const ComparedRun& first_run, const ComparedRun& second_run) {
+  const Report& first = first_run.report;
+  const Report& second = second_run.report;
   FigureGroup group;
+  if (first_run.passed || second_run.passed) {
+    Figure figure =
+        text_figure("grade", judgement_text(first_run.passed), judgement_text(second_run.passed));
+    // Whether somebody has graded a run does not change it.
+    figure.differs = figure.differs && first_run.passed && second_run.passed;
+    group.figures.push_back(std::move(figure));
+  }
   group.figures.push_back(
       number_figure("simulated time [s]", first.run.sim_time_s, second.run.sim_time_s, 1));
   group.figures.push_back(text_figure("end", end_text(first), end_text(second)));
@@ -159,7 +173,7 @@ FigureGroup figures_of_robot(const ComparedRun& first, const ComparedRun& second
 }  // namespace
 
 std::vector<FigureGroup> figures_of(const ComparedRun& first, const ComparedRun& second) {
-  std::vector<FigureGroup> groups = {figures_of_runs(first.report, second.report)};
+  std::vector<FigureGroup> groups = {figures_of_runs(first, second)};
   for (const Report::Robot& robot : first.report.robots) {
     if (robot_of(second.report, robot.name) == nullptr) continue;
     groups.push_back(figures_of_robot(first, second, robot.name));

@@ -27,6 +27,8 @@ struct ComparedRun {
   /// one per robot, in the order of trajectory.csv; never null
   std::vector<const grade::Trajectory*> trajectories;
   std::vector<sim::GoalMark> goals;  ///< robots are indices into `trajectories`
+  std::optional<bool> passed;        ///< verdict of the grading; none: not graded
+  std::vector<std::string> faults;   ///< why it has not passed
   /// sim::world_hash() of the world's file as it is now; none: there is no file to read
   std::optional<std::uint64_t> world_hash;
 };

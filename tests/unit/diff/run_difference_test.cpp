@@ -296,6 +296,18 @@ TEST(Figures, CollisionOfOneRun_TimePlaceAndPartner) {
   EXPECT_EQ(figure_named(groups, "r1", "first collision with").values.second, "border");
 }
 
+TEST(Figures, Verdicts_DifferOnlyIfBothAreGraded) {
+  const Trajectory track = straight(2);
+  ComparedRun first = run_of({&track});
+  ComparedRun second = first;
+  first.passed = false;
+  first.faults = {"2 collisions, at most 0 expected"};
+  EXPECT_FALSE(difference_of(first, second).any());
+  second.passed = true;
+  EXPECT_TRUE(figure_named(figures_of(first, second), "", "grade").differs);
+  EXPECT_THAT(text_of_pair(first, second), HasSubstr("run 1 failed: 2 collisions, at most 0"));
+}
+
 TEST(Figures, GoalsAndEnds_InWords) {
   const Trajectory track = straight(2);
   ComparedRun first = run_of({&track});
