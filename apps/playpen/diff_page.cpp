@@ -152,12 +152,15 @@ void draw_log_chart(Page& page, const LogAxes& axes, const std::vector<LogCurve>
   for (const LogCurve& curve : curves) draw_dots(page, axes, curve);
 }
 
-// The curve of a robot in the first or the second run.
-const Series* series_in(const std::vector<Series>& all, std::size_t run, std::size_t robot) {
-  for (const Series& series : all) {
-    if (series.run == run && static_cast<std::size_t>(series.robot) == robot) return &series;
-  }
-  return nullptr;
+// The colour of what differs between the runs of a robot: that of the robot in the first run. If
+// there is one robot, it is a colour of neither run.
+sim::Colour colour_of(const RobotDifference& robot, const std::vector<Series>& all,
+                      const diff::RunDifference& difference) {
+  if (difference.robots.size() == 1) return kCurve;
+  const auto series = std::find_if(all.begin(), all.end(), [&robot](const Series& candidate) {
+    return candidate.run == 0 && static_cast<std::size_t>(candidate.robot) == robot.in_first;
+  });
+  return series == all.end() ? kCurve : series->colour;
 }
 
 // The charts share their axis of time.
@@ -170,11 +173,9 @@ void draw_charts(Page& page, const std::vector<Series>& all,
   double end_s = 0.0;
   for (std::size_t i = 0; i < difference.robots.size(); ++i) {
     const RobotDifference& robot = difference.robots[i];
-    const Series* const series = series_in(all, 0, robot.in_first);
-    if (series == nullptr || robot.time_s.empty()) continue;
+    if (robot.time_s.empty()) continue;
     for (const double distance_m : robot.distance_m) distances_mm[i].push_back(1e3 * distance_m);
-    // A single curve is that of neither run.
-    const sim::Colour colour = difference.robots.size() == 1 ? kCurve : series->colour;
+    const sim::Colour colour = colour_of(robot, all, difference);
     distances.push_back({&robot.time_s, &distances_mm[i], &robot.distances, colour});
     headings.push_back({&robot.time_s, &robot.heading_deg, &robot.headings, colour});
     end_s = std::max(end_s, robot.time_s.back());
@@ -208,6 +209,7 @@ struct Label {
   Vec2 low;    // top left corner
   Vec2 size;
   std::string text;
+  sim::Colour colour;
 };
 
 // Finds places for labels around what they name: free of other labels and, if possible, of
@@ -216,10 +218,13 @@ class Labels {
  public:
   Labels(const Vec2& low, const Vec2& high) : low_(low), high_(high) {}
 
-  // A label must not hide this.
-  void avoid(const Vec2& point) { hidden_.push_back(point); }
+  // A label must not hide this. Neighbouring points count as one.
+  void avoid(const Vec2& point) {
+    constexpr double kLeastGap = 3.0;
+    if (hidden_.empty() || (point - hidden_.back()).norm() > kLeastGap) hidden_.push_back(point);
+  }
 
-  void add(const Vec2& place, const std::string& text) {
+  void add(const Vec2& place, const std::string& text, sim::Colour colour) {
     const Vec2 size(Page::text_width_px(text, page::kSmallText) + 10.0, page::kSmallText + 9.0);
     std::optional<Label> best;
     double least = std::numeric_limits<double>::infinity();
@@ -228,7 +233,7 @@ class Labels {
         const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kDirections;
         const Vec2 away(std::cos(angle), std::sin(angle));
         const Vec2 center = place + away.cwiseProduct(Vec2::Constant(distance) + 0.4 * size);
-        const Label label{place, center - 0.5 * size, size, text};
+        const Label label{place, center - 0.5 * size, size, text, colour};
         const double cost = cost_of(label) + 0.4 * distance;
         if (cost >= least) continue;
         least = cost;
@@ -238,19 +243,19 @@ class Labels {
     if (best) labels_.push_back(*best);
   }
 
-  void draw(Page& page, sim::Colour ink) const {
+  void draw(Page& page) const {
     for (const Label& label : labels_) {
       page.add_line({label.place, label.low + 0.5 * label.size}, kPaper, 3.6);
-      page.add_line({label.place, label.low + 0.5 * label.size}, ink, 1.4);
+      page.add_line({label.place, label.low + 0.5 * label.size}, label.colour, 1.4);
     }
-    for (const Label& label : labels_) add_dot(page, label.place, ink);
+    for (const Label& label : labels_) add_dot(page, label.place, label.colour);
     for (const Label& label : labels_) {
-      add_box(page, label.low - Vec2(1.2, 1.2), label.size + Vec2(2.4, 2.4), ink);
+      add_box(page, label.low - Vec2(1.2, 1.2), label.size + Vec2(2.4, 2.4), label.colour);
       add_box(page, label.low, label.size, kPaper);
       page.add_text(
           label.text,
           label.low + Vec2(0.5 * label.size.x(), 0.5 * (label.size.y() + page::kSmallText)),
-          page::kSmallText, ink, Page::Align::kMiddle);
+          page::kSmallText, kInk, Page::Align::kMiddle);
     }
   }
 
@@ -307,7 +312,7 @@ void draw_partings(Page& page, const sim::SceneSnapshot& scene, const PlacedScen
   for (const RobotDifference& robot : difference.robots) {
     if (robot.distances.empty()) continue;
     const bool with_labels = labelled++ < kMostLabelledRobots;
-    const Series* const series = series_in(all, 0, robot.in_first);
+    const sim::Colour colour = colour_of(robot, all, difference);
     for (const Parting& parting : robot.distances) {
       const Vec2 place = place_of(0.5 * parting.first.position() + 0.5 * parting.second.position());
       const Vec2 from_corner = place - placed.corner;
@@ -317,17 +322,17 @@ void draw_partings(Page& page, const sim::SceneSnapshot& scene, const PlacedScen
         continue;
       }
       if (with_labels) {
-        labels.add(place, diff::distance_text(parting.limit));
-      } else if (series != nullptr) {
-        add_dot(page, place, series->colour);
+        labels.add(place, diff::distance_text(parting.limit), colour);
+      } else {
+        add_dot(page, place, colour);
       }
     }
   }
-  labels.draw(page, kInk);
+  labels.draw(page);
   if (labelled == 0) return;
   const bool has_key = !scene.collisions.empty() || !scene.goals.empty();
   const Vec2 key = placed.corner + Vec2(11.0, placed.size.y() + (has_key ? 46.0 : 24.0));
-  add_dot(page, key - Vec2(0.0, 4.5), kInk);
+  add_dot(page, key - Vec2(0.0, 4.5), difference.robots.size() == 1 ? kCurve : kInk);
   page.add_text("first more than 1, 10 and 100 mm apart", key + Vec2(14.0, 0.0), page::kText, kInk);
 }
 

@@ -83,6 +83,7 @@ FigureGroup figures_of_runs(const ComparedRun& first_run, const ComparedRun& sec
   if (first.verdict || second.verdict) {
     group.figures.push_back(text_figure("verdict", verdict_text(first), verdict_text(second)));
   }
+  if (!first.run.state_hash && !second.run.state_hash) return group;
   group.figures.push_back(text_figure("hash of the final state", first.run.state_hash.value_or("-"),
                                       second.run.state_hash.value_or("-")));
   return group;
