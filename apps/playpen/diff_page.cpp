@@ -340,7 +340,7 @@ void draw_partings(Page& page, const sim::SceneSnapshot& scene, const PlacedScen
 
 sim::render::Drawing diff_page(const std::vector<RunData>& runs,
                                const diff::RunDifference& difference) {
-  Page drawing(page::kWidth, page::kHeight);
+  Page drawing(page::kPageWidth, page::kPageHeight);
   const std::vector<Series> all = series_of(runs);
   std::string title = grade::plain_text(runs.front().world_name);
   if (runs.back().world_name != runs.front().world_name) {

@@ -25,9 +25,10 @@ using sim::render::page_palette::kInk;
 using Align = Drawing::Align;
 
 using page::kBottom;
-using page::kHeight;
 using page::kLeft;
 using page::kMostEntries;
+using page::kPageHeight;
+using page::kPageWidth;
 using page::kRight;
 using page::kSceneLeft;
 using page::kScenesWidth;
@@ -35,7 +36,6 @@ using page::kSmallText;
 using page::kText;
 using page::kTitleGap;
 using page::kTop;
-using page::kWidth;
 
 constexpr double kSceneGap = 14.0;   // between scenes side by side
 constexpr double kSceneFoot = 64.0;  // below a scene, for its key and the next scene's title
@@ -210,7 +210,7 @@ class SceneGrid {
   /// Height of a page on which all scenes fit [pixels].
   [[nodiscard]] int page_height() const {
     const double end = corner(scenes_ - 1).y() + side_ + kSceneFoot - 18.0;
-    return std::max(kHeight, static_cast<int>(end));
+    return std::max(kPageHeight, static_cast<int>(end));
   }
 
  private:
@@ -237,7 +237,7 @@ Drawing plot_page(const std::vector<RunData>& runs) {
   std::vector<Group> groups = groups_of(runs);
   if (groups.size() > kMostScenes) groups.resize(kMostScenes);
   const SceneGrid grid(groups.size());
-  Drawing page(kWidth, grid.page_height());
+  Drawing page(kPageWidth, grid.page_height());
   const std::vector<Series> all = series_of(runs);
   double end_s = 0.0;
   for (const Series& series : all) end_s = std::max(end_s, series.track->time_s.back());

@@ -16,8 +16,8 @@ namespace {
 
 using page::kLeft;
 using page::kMostEntries;
+using page::kPageWidth;
 using page::kText;
-using page::kWidth;
 using sim::Colour;
 using sim::Vec2;
 using sim::render::Drawing;
@@ -166,7 +166,7 @@ sim::SceneSnapshot scene_of(const std::vector<RunData>& runs, const std::vector<
 void draw_legend(Drawing& page, const std::vector<Series>& all) {
   constexpr double kFirstY = 52.0;
   constexpr double kLineHeight = 18.0;
-  constexpr double kEnd = kWidth - 110.0;  // there must be room for how many more there are
+  constexpr double kEnd = kPageWidth - 110.0;  // there must be room for how many more there are
   double x = kLeft;
   double y = kFirstY;
   std::size_t named = 0;

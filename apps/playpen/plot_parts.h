@@ -15,8 +15,8 @@ namespace playpen {
 /// Layout of the pages of `playpen plot` and `playpen diff`: charts over time on the left, scenes
 /// on the right. All sizes are pixels.
 namespace page {
-inline constexpr int kWidth = 1200;
-inline constexpr int kHeight = 780;
+inline constexpr int kPageWidth = 1200;
+inline constexpr int kPageHeight = 780;
 inline constexpr double kLeft = 62.0;    ///< left edge of the charts
 inline constexpr double kRight = 640.0;  ///< right edge of the charts
 inline constexpr double kTop = 104.0;
