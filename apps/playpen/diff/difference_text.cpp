@@ -105,6 +105,7 @@ std::string first_text(const RunDifference& difference) {
 std::string length_text(const RobotDifference& robot) {
   std::string text;
   const std::string name = grade::plain_text(robot.robot);
+  if (robot.time_s.empty()) return name + ": not compared, the runs have no time in common\n";
   if (robot.first_end_s != robot.second_end_s) {
     const bool first_ends = robot.first_end_s < robot.second_end_s;
     text += name + ": compared up to " +
@@ -118,7 +119,6 @@ std::string length_text(const RobotDifference& robot) {
             (robot.unmatched == 1 ? " row has a time" : " rows have times") +
             " that the other run has no row of\n";
   }
-  if (robot.time_s.empty()) text += name + ": not compared, the runs have no time in common\n";
   return text;
 }
 
