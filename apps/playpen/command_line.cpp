@@ -62,6 +62,7 @@ CommandLine::CommandLine(std::string name)
   add_check(*this);
   add_render(*this);
   add_plot(*this);
+  add_diff(*this);
   add_token(*this);
   add_doc(*this);
   add_doctor(*this);

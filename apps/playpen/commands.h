@@ -188,4 +188,18 @@ struct PlotRequest {
 ///         cannot be written.
 [[nodiscard]] int plot(const PlotRequest& request);
 
+/// Arguments of `playpen diff`.
+struct DiffRequest {
+  std::string first;   ///< folder of results of a run or of a grade
+  std::string second;  ///< the folder that is compared with it
+  std::string file;    ///< .png or .svg; "": no picture
+};
+
+/// Compares two runs, or the runs of two grades that have the same names, and prints how they
+/// differ. The picture shows the first runs that differ.
+/// @return kOk if all runs are equal, else 1 (kProgramFailed).
+/// @throws std::runtime_error naming the folder that does not contain a run, the file that cannot
+///         be read or written, or the grades that have no runs of the same names.
+[[nodiscard]] int compare_runs(const DiffRequest& request);
+
 }  // namespace playpen

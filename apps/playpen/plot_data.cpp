@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "playerlike/host/report.h"
 #include "sim/core/file.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/outline.h"
@@ -26,6 +25,7 @@ using sim::Vec2;
 constexpr const char* kPlottedFile = "trajectory.csv";
 constexpr const char* kReport = "report.json";
 constexpr const char* kGrade = "grade.json";
+constexpr const char* kUnitRecord = "unit.json";
 constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
 
 std::string text_of(const fs::path& file) {
@@ -75,6 +75,16 @@ void read_marks(const playerlike::Report& report, RunData& run) {
   }
 }
 
+// Adds the verdict of a graded run.
+void add_judgement(const json& graded, RunData& run) {
+  const json passed = graded.value("passed", json());
+  if (!passed.is_boolean()) return;
+  run.passed = passed.get<bool>();
+  for (const json& fault : graded.value("faults", json::array())) {
+    if (fault.is_string()) run.faults.push_back(fault.get<std::string>());
+  }
+}
+
 // Adds the goal of a graded run's task. It is reached when the robot is first within the tolerance.
 void add_goal_of_task(const json& graded, RunData& run) {
   const json goal = graded.value("goal", json());
@@ -103,19 +113,30 @@ json graded_runs(const fs::path& file) {
   }
 }
 
-// If a run belongs to a class, adds what its record knows of it. In the folder of a submission the
-// record of TASK/RUN is records/TASK/RUN.json.
-void read_record(const fs::path& whole, RunData& run) {
-  const fs::path task = whole.parent_path();
-  fs::path file = task.parent_path() / "records" / task.filename() / whole.filename();
-  file += ".json";
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return;
+// Adds what a file with the record of a run knows of it.
+// @param name  the member that contains the record; "": the file itself is the record.
+void add_record(const fs::path& file, const char* name, RunData& run) {
   try {
-    add_goal_of_task(json::parse(text_of(file)).at("value"), run);
+    const json content = json::parse(text_of(file));
+    const json& graded = *name == '\0' ? content : content.at(name);
+    add_judgement(graded, run);
+    add_goal_of_task(graded, run);
   } catch (const json::exception& e) {
     throw std::runtime_error(file.string() + ": expected the record of a run: " + e.what());
   }
+}
+
+// If a run belongs to a batch or a class, adds what its record knows of it. The record of a unit of
+// a batch is in its folder. In the folder of a submission the record of TASK/RUN is
+// records/TASK/RUN.json.
+void read_record(const fs::path& whole, RunData& run) {
+  std::error_code error;
+  if (fs::is_regular_file(whole / kUnitRecord, error))
+    return add_record(whole / kUnitRecord, "", run);
+  const fs::path task = whole.parent_path();
+  fs::path file = task.parent_path() / "records" / task.filename() / whole.filename();
+  file += ".json";
+  if (fs::is_regular_file(file, error)) add_record(file, "value", run);
 }
 
 // If a run belongs to a grade, adds what the grade knows of it.
@@ -127,6 +148,7 @@ void read_grade(const fs::path& folder, RunData& run) {
   try {
     for (const json& graded : graded_runs(file)) {
       if (graded.at("folder").get<std::string>() == whole.filename().string()) {
+        add_judgement(graded, run);
         add_goal_of_task(graded, run);
       }
     }
@@ -145,10 +167,10 @@ void read_report(const fs::path& file, RunData& run) {
   const std::string text = text_of(file);
   std::string world_file;
   try {
-    const playerlike::Report report = playerlike::report_from(text);
-    run.world_name = report.run.world;
-    world_file = report.run.world_file.value_or("");
-    read_marks(report, run);
+    run.report = playerlike::report_from(text);
+    run.world_name = run.report.run.world;
+    world_file = run.report.run.world_file.value_or("");
+    read_marks(run.report, run);
   } catch (const std::exception& error) {
     throw std::runtime_error(
         file.string() + ": expected the report of a run, found something else: " + error.what());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grade/trajectory.h"
+#include "playerlike/host/report.h"
 #include "sim/simulation/scene_snapshot.h"
 #include "sim/world/description.h"
 
@@ -30,12 +31,15 @@ struct Moment {
 struct RunData {
   std::string folder;
   std::string world_name;
+  playerlike::Report report;                   ///< its report.json
   std::optional<sim::WorldDescription> world;  ///< none: `world_problem` gives the reason
   std::string world_problem;                   ///< why the world is unknown
   std::vector<Track> tracks;                   ///< in the order of trajectory.csv
   std::vector<sim::CollisionMark> collisions;  ///< robots are indices into `tracks`
   std::vector<sim::GoalMark> goals;            ///< robots are indices into `tracks`
   std::vector<Moment> reached;                 ///< when goals were reached
+  std::optional<bool> passed;                  ///< verdict of the grading; none: not graded
+  std::vector<std::string> faults;             ///< why it has not passed
 };
 
 /// The folders of runs that a folder of the user means: the folder itself, or the runs of a folder
@@ -46,7 +50,8 @@ struct RunData {
                                                    std::vector<std::string>& skipped);
 
 /// Reads trajectory.csv and report.json from a result folder, and the world that the report names.
-/// In a folder of `playpen grade`, the goal of the task is a goal of the graded robot.
+/// A run of `playpen grade`, `playpen class` or `playpen batch` also gets the verdict and, as a
+/// goal of the graded robot, the goal of the task.
 /// @throws std::runtime_error naming the file or folder, the expected content and the actual
 ///         content.
 [[nodiscard]] RunData read_run(const std::string& folder);

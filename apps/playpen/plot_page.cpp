@@ -5,20 +5,15 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <set>
-#include <utility>
 
-#include "sim/core/number_text.h"
-#include "sim/simulation/simulation.h"
-#include "sim/world/robot_model.h"
+#include "plot_parts.h"
 
 namespace playpen {
 namespace {
 
-using sim::Colour;
 using sim::Vec2;
 using sim::render::Drawing;
 using sim::render::Tick;
@@ -29,32 +24,21 @@ using sim::render::page_palette::kGrid;
 using sim::render::page_palette::kInk;
 using Align = Drawing::Align;
 
-constexpr int kWidth = 1200;
-constexpr int kHeight = 780;
-constexpr double kLeft = 62.0;    // left edge of the panels [pixels]
-constexpr double kRight = 640.0;  // right edge of the panels [pixels]
-constexpr double kTop = 104.0;
-constexpr double kBottom = 734.0;
-constexpr double kTitleGap = 30.0;  // space for the title above each panel
-constexpr double kSceneLeft = 662.0;
-constexpr double kScenesWidth = 530.0;  // for all scenes
-constexpr double kSceneGap = 14.0;      // between scenes side by side
-constexpr double kSceneFoot = 64.0;     // below a scene, for its key and the next scene's title
-constexpr double kText = 10.0;          // height of a capital letter [pixels]
-constexpr double kSmallText = 8.6;
-constexpr Colour kRed{0xe0, 0x1e, 0x37, 0xff};
-constexpr Colour kGreen{0x1c, 0x8a, 0x3c, 0xff};
-constexpr std::size_t kMostEntries = 8;  // maximum number of entries in the legend
+using page::kBottom;
+using page::kLeft;
+using page::kMostEntries;
+using page::kPageHeight;
+using page::kPageWidth;
+using page::kRight;
+using page::kSceneLeft;
+using page::kScenesWidth;
+using page::kSmallText;
+using page::kText;
+using page::kTitleGap;
+using page::kTop;
 
-// A curve in the charts: one robot of one run.
-struct Series {
-  const Track* track;
-  const RunData* data;
-  std::size_t run;
-  int robot;  // index into the run's tracks
-  Colour colour;
-  std::string name;
-};
+constexpr double kSceneGap = 14.0;   // between scenes side by side
+constexpr double kSceneFoot = 64.0;  // below a scene, for its key and the next scene's title
 
 using Values = std::vector<double> Track::*;
 struct Panel {
@@ -66,64 +50,6 @@ constexpr std::array<Panel, 4> kPanels = {{{"speed [m/s]", &Track::v_mps, true},
                                            {"turn rate [rad/s]", &Track::omega_radps, true},
                                            {"clearance [m]", &Track::clearance_m, true},
                                            {"path [m]", &Track::path_m, true}}};
-
-double difference(Colour a, Colour b) {
-  const auto square = [](int x) { return static_cast<double>(x * x); };
-  return std::sqrt(square(a.r - b.r) + square(a.g - b.g) + square(a.b - b.b));
-}
-
-// Robots keep the colours of their world if these colours are distinguishable.
-std::vector<Series> series_of(const std::vector<RunData>& runs) {
-  constexpr double kFarEnough = 70.0;
-  std::vector<Series> all;
-  std::size_t next = 0;
-  const auto is_free = [&all](Colour colour) {
-    return std::none_of(all.begin(), all.end(), [&](const Series& series) {
-      return difference(series.colour, colour) < kFarEnough;
-    });
-  };
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    for (const Track& track : runs[r].tracks) {
-      std::optional<Colour> colour;
-      if (runs[r].world) {
-        for (const sim::RobotDescription& robot : runs[r].world->robots) {
-          if (robot.name == track.robot) colour = robot.colour;
-        }
-      }
-      constexpr std::size_t kColours = 20;
-      if (!colour || !is_free(*colour)) {
-        colour = sim::render::distinct_colour(next);
-        while (next < kColours && !is_free(*colour)) {
-          colour = sim::render::distinct_colour(++next);
-        }
-        ++next;
-      }
-      std::string name = track.robot;
-      if (runs.size() > 1) {
-        const std::filesystem::path folder(runs[r].folder);
-        const std::filesystem::path last =
-            folder.has_filename() ? folder.filename() : folder.parent_path().filename();
-        name = last.string() + ": " + name;
-      }
-      const auto robot = static_cast<int>(&track - runs[r].tracks.data());
-      all.push_back({&track, &runs[r], r, robot, *colour, std::move(name)});
-    }
-  }
-  return all;
-}
-
-// The mark of a collision, as in pictures of scenes.
-void add_cross(Drawing& page, const Vec2& place) {
-  for (const double side : {-1.0, 1.0}) {
-    page.add_line({place + Vec2(-4.5, -4.5 * side), place + Vec2(4.5, 4.5 * side)}, kRed, 2.2);
-  }
-}
-
-// The mark of a reached goal.
-void add_diamond(Drawing& page, const Vec2& place) {
-  page.add_area({place + Vec2(-6, 0), place + Vec2(0, -6), place + Vec2(6, 0), place + Vec2(0, 6)},
-                kGreen);
-}
 
 // A chart of one quantity over time.
 class Chart {
@@ -264,120 +190,6 @@ std::vector<Group> groups_of(const std::vector<RunData>& runs) {
   return groups;
 }
 
-const sim::RobotModel& model_of(const RunData& run, const std::string& robot) {
-  if (run.world) {
-    for (const sim::RobotDescription& described : run.world->robots) {
-      if (described.name != robot) continue;
-      if (const auto* own = sim::find_robot_model(*run.world, described.model)) return *own;
-    }
-  }
-  return sim::default_robot_model();
-}
-
-// The scene of a world with the trajectories of all its runs.
-sim::SceneSnapshot scene_of(const std::vector<RunData>& runs, const Group& group,
-                            const std::vector<Series>& all) {
-  sim::SceneSnapshot scene;
-  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
-  Vec2 high = -low;
-  for (const std::size_t r : group) {
-    const RunData& run = runs[r];
-    const auto first = static_cast<int>(scene.robots.size());
-    for (const Series& series : all) {
-      if (series.run != r) continue;
-      sim::RobotSnapshot robot;
-      robot.name = series.name;
-      robot.colour = series.colour;
-      robot.X_WB = series.track->X_WB.back();
-      const sim::RobotModel& model = model_of(run, series.track->robot);
-      robot.footprint = model.footprint;
-      robot.parts = model.parts;
-      for (const sim::Superstructure& part : model.superstructures) {
-        robot.superstructures.push_back(part.outline);
-      }
-      for (const sim::Pose& X_WB : series.track->X_WB) {
-        robot.trail.push_back(X_WB.position());
-        low = low.cwiseMin(X_WB.position());
-        high = high.cwiseMax(X_WB.position());
-      }
-      scene.robots.push_back(std::move(robot));
-    }
-    for (sim::CollisionMark mark : run.collisions) {
-      mark.robot += first;
-      scene.collisions.push_back(mark);
-    }
-    for (sim::GoalMark mark : run.goals) {
-      mark.robot += first;
-      scene.goals.push_back(mark);
-    }
-  }
-  if (const auto& world = runs[group.front()].world) {
-    scene.arena = world->arena;
-  } else {
-    const double room_m = 0.1 * std::max((high - low).maxCoeff(), 1.0);
-    scene.arena.origin = low - Vec2::Constant(room_m);
-    scene.arena.size = high - low + Vec2::Constant(2.0 * room_m);
-    scene.arena.border = false;
-  }
-  return scene;
-}
-
-// Names the curves in at most two lines.
-void draw_legend(Drawing& page, const std::vector<Series>& all) {
-  constexpr double kFirstY = 52.0;
-  constexpr double kLineHeight = 18.0;
-  constexpr double kEnd = kWidth - 110.0;  // there must be room for how many more there are
-  double x = kLeft;
-  double y = kFirstY;
-  std::size_t named = 0;
-  for (; named < std::min(all.size(), kMostEntries); ++named) {
-    const Series& series = all[named];
-    const double width = 38.0 + Drawing::text_width_px(series.name, kText);
-    if (x + width > kEnd && x > kLeft) {
-      if (y > kFirstY) break;
-      x = kLeft;
-      y += kLineHeight;
-    }
-    page.add_line({{x, y - 4.0}, {x + 30.0, y - 4.0}}, series.colour, 3.0, series.run > 0);
-    page.add_text(series.name, {x + 38.0, y}, kText, kInk);
-    x += width + 26.0;
-  }
-  if (all.size() > named) {
-    page.add_text("and " + std::to_string(all.size() - named) + " more", {x, y}, kText, kFaintInk);
-  }
-}
-
-// Draws a scene with its title and key.
-// @param side  longer side of its picture [pixels].
-void draw_scene(Drawing& page, const sim::SceneSnapshot& scene, const std::string& title,
-                bool with_names, const Vec2& corner, double side) {
-  sim::render::RenderOptions options;
-  options.size_px = static_cast<int>(side);
-  options.legend = false;
-  options.names = with_names;
-  sim::render::Image image = sim::render::draw_scene(scene, options);
-  const double left = corner.x() + 0.5 * (side - image.width);
-  const double key = corner.y() + image.height + 24.0;
-  page.add_text(title, {left + 4.0, corner.y() - 9.0}, kText, kInk);
-  page.add_picture(std::move(image), {left, corner.y()});
-  double x = left + 11.0;
-  if (!scene.collisions.empty()) {
-    add_cross(page, {x, key - 4.5});
-    const std::string text = std::to_string(scene.collisions.size()) +
-                             (scene.collisions.size() == 1 ? " collision" : " collisions");
-    page.add_text(text, {x + 14.0, key}, kText, kInk);
-    x += 14.0 + Drawing::text_width_px(text, kText) + 26.0;
-  }
-  if (!scene.goals.empty()) {
-    const auto reached = std::count_if(scene.goals.begin(), scene.goals.end(),
-                                       [](const sim::GoalMark& goal) { return goal.reached; });
-    if (reached > 0) add_diamond(page, {x, key - 4.5});
-    page.add_text(std::to_string(reached) + " of " + std::to_string(scene.goals.size()) +
-                      (scene.goals.size() == 1 ? " goal reached" : " goals reached"),
-                  {x + (reached > 0 ? 14.0 : 0.0), key}, kText, kInk);
-  }
-}
-
 // The places of scenes: one large one, two above each other, or rows of two.
 class SceneGrid {
  public:
@@ -398,7 +210,7 @@ class SceneGrid {
   /// Height of a page on which all scenes fit [pixels].
   [[nodiscard]] int page_height() const {
     const double end = corner(scenes_ - 1).y() + side_ + kSceneFoot - 18.0;
-    return std::max(kHeight, static_cast<int>(end));
+    return std::max(kPageHeight, static_cast<int>(end));
   }
 
  private:
@@ -425,7 +237,7 @@ Drawing plot_page(const std::vector<RunData>& runs) {
   std::vector<Group> groups = groups_of(runs);
   if (groups.size() > kMostScenes) groups.resize(kMostScenes);
   const SceneGrid grid(groups.size());
-  Drawing page(kWidth, grid.page_height());
+  Drawing page(kPageWidth, grid.page_height());
   const std::vector<Series> all = series_of(runs);
   double end_s = 0.0;
   for (const Series& series : all) end_s = std::max(end_s, series.track->time_s.back());

@@ -129,6 +129,8 @@ for solution in wall avoid; do
 done
 "$bin/playpen" plot "$out/wall" "$out/avoid" --out "$out/plot.png"
 take plot.png plot
+"$bin/playpen" diff "$out/avoid" "$out/wall" --out "$out/diff.png" > "$out/diff.txt" || [ $? = 1 ]
+take diff.png diff
 
 for device in speech blinkenlight; do
   run "worlds/devices/$device.json" "$device" --snapshot-every 0.2 --duration 0.4 -- \

@@ -67,6 +67,19 @@ TEST(PlaypenPlot, RunOfAClass_HasTheGoalOfItsTask) {
               HasSubstr("small_seed1.json: expected the record of a run"));
 }
 
+TEST(PlaypenPlot, UnitOfABatch_HasTheGoalOfItsTask) {
+  const TemporaryFolder folder;
+  write_run(folder, "units/0123");
+  folder.write("units/0123/unit.json", R"({"folder": "small_seed1", "robot": "r1", "passed": true,
+    "goal": {"x": 0.6, "y": 0.5, "tolerance": 0.01}})");
+  const ProcessResult result = plot(folder, {"units/0123"}, "a.svg");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(read_bytes(folder / "a.svg"), HasSubstr("1 of 2 goals reached"));
+  folder.write("units/0123/unit.json", "[]");
+  EXPECT_THAT(plot(folder, {"units/0123"}, "a.svg").err,
+              HasSubstr("unit.json: expected the record of a run"));
+}
+
 TEST(PlaypenPlot, Run_DrawnAsPngAndSvg) {
   const TemporaryFolder folder;
   write_run(folder, "one");

@@ -490,4 +490,10 @@ Image draw_scene(const SceneSnapshot& scene, const RenderOptions& options) {
   return draw_view(scene, ViewMode::kGround, options);
 }
 
+Vec2 place_in_picture(const SceneSnapshot& scene, const RenderOptions& options, const Vec2& p_W) {
+  check(options);
+  const Layout layout(scene.arena, options, shown_part(scene, options, ViewMode::kGround));
+  return layout(p_W);
+}
+
 }  // namespace sim::render

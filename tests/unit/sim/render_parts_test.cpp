@@ -58,6 +58,23 @@ RenderOptions plain() {
   return options;
 }
 
+TEST(SceneRenderer, PlaceInPicture_IsWhereTheSceneIsDrawn) {
+  const SceneSnapshot scene = scene_of(1);
+  EXPECT_NEAR((place_in_picture(scene, plain(), {0.0, 0.0}) - Vec2(38.0, 962.0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((place_in_picture(scene, plain(), {4.0, 4.0}) - Vec2(962.0, 38.0)).norm(), 0.0, 1e-9);
+  RenderOptions options = plain();
+  options.follow = "r1";  // whose place is the middle of the picture
+  options.follow_width_m = 1.0;
+  const Image image = draw_scene(scene, options);
+  const Vec2 robot = place_in_picture(scene, options, scene.robots[0].X_WB.position());
+  EXPECT_NEAR((robot - 0.5 * Vec2(image.width, image.height)).norm(), 0.0, 1.0);
+  // Half a body's width beside it is the robot, not the floor.
+  const Vec2 body = place_in_picture(scene, options, Vec2(0.5, 0.5) + Vec2(0.0, 0.07));
+  EXPECT_TRUE(is_blue(pixel(image, body.x(), body.y())));
+  options.size_px = 1;
+  EXPECT_THROW((void)place_in_picture(scene, options, {0.0, 0.0}), std::invalid_argument);
+}
+
 // A large shape is drawn some rows at a time.
 TEST(Painter, LargeShape_CoversSameWidthInEachRow) {
   Painter painter(400, 700, Colour{255, 255, 255});

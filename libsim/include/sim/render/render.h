@@ -133,6 +133,13 @@ class SceneRenderer {
 /// @throws std::invalid_argument like SceneRenderer.
 [[nodiscard]] Image draw_scene(const SceneSnapshot& scene, const RenderOptions& options = {});
 
+/// Returns where draw_scene() draws a point: pixels from the top left corner of the picture, x
+/// right, y down. The point may be outside the picture.
+/// @param p_W  in W [m].
+/// @throws std::invalid_argument if a size in the options is out of range.
+[[nodiscard]] Vec2 place_in_picture(const SceneSnapshot& scene, const RenderOptions& options,
+                                    const Vec2& p_W);
+
 /// Draws the canvas alone, with `scale` x `scale` pixels per cell and transparent cells in white.
 /// @throws std::invalid_argument if scale < 1, if a side of the picture would exceed 32768 pixels,
 ///     or if `rgba` does not have 4 bytes per cell.
