@@ -197,7 +197,7 @@ PlacedScene draw_scene(Drawing& page, const sim::SceneSnapshot& scene, const std
   const double left = corner.x() + 0.5 * (side - image.width);
   const double key = corner.y() + image.height + 24.0;
   page.add_text(title, {left + 4.0, corner.y() - 9.0}, kText, kInk);
-  const PlacedScene placed{{left, corner.y()}, Vec2(image.width, image.height), options};
+  PlacedScene placed{{left, corner.y()}, Vec2(image.width, image.height), options};
   page.add_picture(std::move(image), placed.corner);
   double x = left + 11.0;
   if (!scene.collisions.empty()) {

@@ -294,6 +294,8 @@ class SandboxAttacks : public Isolation {
     fs::create_directories(folder_ / "submissions/mallory");
     fs::copy_file(SANDBOX_ATTACKS, folder_ / "submissions/mallory/robot");
     program_ = folder_ / "submissions/mallory/robot";
+    scratch_ = folder_ / "scratch";
+    fs::create_directories(scratch_);
   }
 
   /// A task with a world for each attack, called after it, and an honest program at both ends.
@@ -320,6 +322,7 @@ class SandboxAttacks : public Isolation {
     ProcessOptions options;
     options.environment["ATTACK_SECRET"] = kSecret;
     options.environment["HOME"] = folder_.path();
+    options.environment["TMPDIR"] = scratch_;  // other tests have files of theirs in the common one
     options.folder = folder_.path();
     ProcessResult result = playpen({"grade", task_, "--isolated", level, "--jobs", "2", "--out",
                                     folder_ / "results", "--", program_},
@@ -336,7 +339,6 @@ class SandboxAttacks : public Isolation {
   /// Checks the whole table: the honest program passes, the attacks fail and reach nothing.
   void expect_held(const std::vector<Attack>& attacks, double timeout_s) {
     write_task(attacks, timeout_s);
-    const std::set<fs::path> before = entries(fs::temp_directory_path());
     const ProcessResult result = grade("required");
     EXPECT_EQ(result.status, 1) << result.err;
     EXPECT_THAT(result.out + result.err, Not(HasSubstr("\033")));
@@ -353,10 +355,10 @@ class SandboxAttacks : public Isolation {
       EXPECT_THAT(runs_[i].at("faults").dump(), HasSubstr(fault.empty() ? "distance" : fault))
           << log;
     }
-    expect_nothing_left(before);
+    expect_nothing_left();
   }
 
-  void expect_nothing_left(const std::set<fs::path>& before) const {
+  void expect_nothing_left() const {
     EXPECT_EQ(read_bytes(secret_), kSecret);
     EXPECT_EQ(read_bytes(other_), kSecret);
     EXPECT_EQ(entries(folder_ / "teacher").size(), 1U);
@@ -364,10 +366,7 @@ class SandboxAttacks : public Isolation {
     for (const fs::path& path : entries(folder_ / "results")) {
       EXPECT_THAT(path.filename().string(), Not(testing::StartsWith(".running")));
     }
-    for (const fs::path& path : entries(fs::temp_directory_path())) {
-      const bool is_ours = path.filename().string().starts_with("playpen-");
-      EXPECT_TRUE(!is_ours || before.contains(path) || !fs::exists(path)) << path;
-    }
+    EXPECT_EQ(entries(scratch_), std::set<fs::path>{});
     for (const fs::path& path : entries("/proc")) {
       std::ifstream stream(path / "comm");
       std::string name;
@@ -384,6 +383,7 @@ class SandboxAttacks : public Isolation {
   std::string secret_;
   std::string other_;
   std::string program_;
+  std::string scratch_;  ///< folder for temporary files
   std::string task_;
   std::vector<std::string> names_;
   json runs_;

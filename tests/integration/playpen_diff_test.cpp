@@ -94,11 +94,10 @@ TEST(PlaypenDiff, OtherStartPose_DiffersFromTheFirstRowOn) {
 
 // --- Results that no run has made
 
-std::string report(double path_m = 1.0) {
+std::string report(const std::string& path_m = "1.0") {
   return R"({"run": {"world": "small", "world_file": "none.json", "sim_time": 0.2},
     "robots": [{"name": "r1", "path_length": )" +
-         std::to_string(path_m) +
-         R"(, "collisions": 0, "least_clearance": null, "stalled_time": 0}]})";
+         path_m + R"(, "collisions": 0, "least_clearance": null, "stalled_time": 0}]})";
 }
 
 void write_run(const TemporaryFolder& folder, const std::string& name, const std::string& rows) {
