@@ -7,6 +7,7 @@
 
 #include "sim/core/fields.h"
 #include "sim/devices/coordinates.h"
+#include "sim/io/field_reader.h"
 #include "sim/io/reader.h"
 
 /// MORSE's noise modifiers in world files (docs/realism.md): each is another spelling of a device's

@@ -8,6 +8,7 @@
 #include "sim/core/assert.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/fiducial.h"
+#include "simulation/blocks.h"
 #include "simulation/controller.h"
 #include "simulation/obstacle_motions.h"
 
