@@ -9,7 +9,6 @@
 #include <numeric>
 #include <stdexcept>
 #include <system_error>
-#include <thread>
 
 #include "batch/batch_results.h"
 #include "batch/engines.h"
@@ -104,9 +103,7 @@ bool run_here(const batch::Batch& batch, const std::vector<std::size_t>& units,
   const PreloadedLibrary virtual_time;
   batch::UnitRunSettings settings;
   settings.out = out;
-  settings.jobs = request.jobs > 0
-                      ? request.jobs
-                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  settings.jobs = request.jobs;
   if (!isolated.isolated()) virtual_time.add_to(settings.environment);
   add_libraries_folder(settings.environment);
   settings.launcher = [&](const batch::Condition& condition) {

@@ -6,7 +6,6 @@
 #include <iostream>
 #include <set>
 #include <stdexcept>
-#include <thread>
 
 #include "class_plots.h"
 #include "commands.h"
@@ -140,9 +139,7 @@ int grade_class(const ClassRequest& request) {
                                                                   request.output_folder)};
   settings.output_folder = request.output_folder;
   settings.version = PLAYPEN_VERSION;
-  settings.jobs = request.jobs > 0
-                      ? request.jobs
-                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  settings.jobs = request.jobs;
   settings.realism = request.realism;
   settings.individual = request.individual;
   settings.isolated = isolated.isolated();

@@ -39,7 +39,7 @@ struct GradeRequest {
   std::string task;                     ///< as the user wrote it, see load_task()
   std::vector<std::string> worlds;      ///< see find_world(); empty: those of the task
   std::vector<std::uint64_t> seeds;     ///< empty: those of the task
-  int jobs = 0;                         ///< 0: the number of processors
+  int jobs = 1;                         ///< programs that run side by side, >= 1
   std::optional<double> timeout_s;      ///< empty: that of the task
   std::optional<sim::Realism> realism;  ///< empty: that of each world
   std::string output_folder;            ///< "": out/grade/TASK
@@ -68,7 +68,7 @@ struct ClassRequest {
   std::string output_folder;
   std::string program;               ///< name of the programs' file; "": any
   std::vector<std::uint64_t> seeds;  ///< empty: those of the tasks
-  int jobs = 0;                      ///< 0: the number of processors
+  int jobs = 1;                      ///< programs that run side by side, >= 1
   std::optional<double> timeout_s;   ///< of a run; empty: that of the task
   std::optional<double> build_timeout_s;
   std::optional<sim::Realism> realism;  ///< empty: that of each world
@@ -99,7 +99,7 @@ struct BatchPart {
 struct BatchRequest {
   std::string plan;  ///< file; "": the batch that the output folder contains
   std::string output_folder;
-  int jobs = 0;  ///< 0: the number of processors
+  int jobs = 1;  ///< programs that run side by side, >= 1
   Engine engine = Engine::kLocal;
   std::size_t parts = 0;                    ///< for an engine; 0: chosen by the number of runs
   std::vector<std::string> engine_options;  ///< words for the engine's command

@@ -1,6 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -15,8 +14,6 @@
 #include "diff_page.h"
 #include "plot_data.h"
 #include "plot_parts.h"
-#include "sim/core/replace_file.h"
-#include "sim/render/render.h"
 #include "sim/simulation/world_hash.h"
 
 namespace playpen {
@@ -85,20 +82,12 @@ diff::ComparedRun compared(const RunData& run) {
   return result;
 }
 
-void write_page(const sim::render::Drawing& page, const std::string& file) {
-  if (!file.ends_with(".svg")) {
-    sim::render::write_png(page.image(), file);
-  } else if (const int error = sim::replace_file(file, page.svg())) {
-    throw std::runtime_error(file + ": cannot write the picture: " + std::strerror(error));
-  }
-}
-
 void draw_difference(const std::vector<RunData>& runs, const diff::RunDifference& difference,
                      const std::string& file) {
   if (!runs.front().world) {
     std::cerr << "playpen: no arena in the picture: " << runs.front().world_problem << '\n';
   }
-  write_page(diff_page(runs, difference), file);
+  write_page(diff_page(runs, difference), file, "picture");
   std::cout << "picture: " << file << '\n';
 }
 

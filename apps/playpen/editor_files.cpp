@@ -3,15 +3,15 @@
 // docs/languages/json of https://code.visualstudio.com.
 #include "editor_files.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "course/html_text.h"
+#include "grade/text.h"
 #include "own_folders.h"
 #include "playerlike/host/program.h"
 #include "preload.h"
@@ -128,23 +128,6 @@ ordered_json launch_file(const ProjectTemplate& kind) {
   return {{"version", "0.2.0"}, {"configurations", ordered_json::array({std::move(debug)})}};
 }
 
-/// The address of a file, with the characters escaped that are special in it (RFC 3986).
-std::string file_address(const fs::path& file) {
-  constexpr const char* kDigits = "0123456789ABCDEF";
-  constexpr const char* kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/-._~+";
-  std::string address = "file://";
-  for (const char c : file.string()) {
-    if (std::string_view(kPlain).find(c) != std::string_view::npos) {
-      address += c;
-    } else {
-      const auto byte = static_cast<unsigned char>(c);
-      address += {'%', kDigits[byte / 16], kDigits[byte % 16]};
-    }
-  }
-  return address;
-}
-
 ordered_json settings_file() {
   ordered_json schemas = ordered_json::array();
   ordered_json with_comments = ordered_json::object();
@@ -155,8 +138,8 @@ ordered_json settings_file() {
     const fs::path schema =
         worlds_folder().value_or(fs::path()) / "schema" / (kind + ".schema.json");
     if (!fs::is_regular_file(schema, error)) continue;
-    schemas.push_back(
-        {{"fileMatch", ordered_json::array({pattern})}, {"url", file_address(schema)}});
+    schemas.push_back({{"fileMatch", ordered_json::array({pattern})},
+                       {"url", "file://" + course::url_of(schema)}});
   }
   return {{"cmake.buildDirectory", "${workspaceFolder}/build"},
           {"C_Cpp.default.compileCommands", "${workspaceFolder}/build/compile_commands.json"},
@@ -165,22 +148,13 @@ ordered_json settings_file() {
 }
 
 void write_json(const fs::path& file, const ordered_json& content) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << content.dump(2) << '\n';
-  stream.close();
-  if (!stream) throw std::runtime_error("the file '" + file.string() + "' cannot be written");
+  grade::write_text_file(file, content.dump(2) + '\n');
 }
 
 }  // namespace
 
 void write_editor_files(const ProjectTemplate& kind, const fs::path& folder) {
   const fs::path place = folder / ".vscode";
-  std::error_code error;
-  fs::create_directories(place, error);
-  if (error) {
-    throw std::runtime_error("the folder '" + place.string() +
-                             "' cannot be made: " + error.message());
-  }
   write_json(place / "tasks.json", tasks_file(kind));
   write_json(place / "launch.json", launch_file(kind));
   write_json(place / "settings.json", settings_file());

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <iostream>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "commands.h"
@@ -127,9 +126,7 @@ int grade_program(GradeRequest request) {
   settings.realism = request.realism;
   settings.program = request.command;
   settings.program.front() = playerlike::find_program(request.command.front());
-  settings.jobs = request.jobs > 0
-                      ? request.jobs
-                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  settings.jobs = request.jobs;
   const PreloadedLibrary virtual_time;
   if (!isolated.isolated()) virtual_time.add_to(settings.environment);
   add_libraries_folder(settings.environment);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "parsed_option.h"
 
@@ -46,6 +47,7 @@ void add_time_limit(CLI::App& command, const char* name, const char* description
 }
 
 void add_jobs(CLI::App& command, int& jobs) {
+  jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   add_parsed(command, "--jobs", "Programs that run side by side [the number of processors]", "N",
              "a whole number from 1 to 1000", [&jobs](const std::string& text) {
                return parse_number(text, jobs) && jobs >= 1 && jobs <= 1000;

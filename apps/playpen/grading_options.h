@@ -12,8 +12,8 @@ namespace playpen {
 void add_time_limit(CLI::App& command, const char* name, const char* description,
                     std::optional<double>& limit_s);
 
-/// Adds --jobs.
-/// @param jobs  receives the number, 1..1000; must outlive the command.
+/// Adds --jobs, with the number of processors as the default.
+/// @param jobs  receives the number, >= 1; must outlive the command.
 void add_jobs(CLI::App& command, int& jobs);
 
 /// Adds the options of `playpen grade` and `playpen class`: --seeds, --jobs and --timeout. The

@@ -1,9 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <cstring>
 #include <iostream>
 #include <memory>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +10,7 @@
 #include "parsed_option.h"
 #include "plot_data.h"
 #include "plot_page.h"
-#include "sim/core/replace_file.h"
+#include "plot_parts.h"
 
 namespace playpen {
 
@@ -35,12 +33,7 @@ int plot(const PlotRequest& request) {
                 << "': " << run.world_problem << '\n';
     }
   }
-  const sim::render::Drawing page = plot_page(runs);
-  if (!request.file.ends_with(".svg")) {
-    sim::render::write_png(page.image(), request.file);
-  } else if (const int error = sim::replace_file(request.file, page.svg())) {
-    throw std::runtime_error(request.file + ": cannot write the plot: " + std::strerror(error));
-  }
+  write_page(plot_page(runs), request.file, "plot");
   std::cout << "plot: " << request.file << ", of " << runs.size()
             << (runs.size() == 1 ? " run" : " runs") << '\n';
   return kOk;

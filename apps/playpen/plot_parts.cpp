@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
+#include "sim/core/replace_file.h"
 #include "sim/world/robot_model.h"
 
 namespace playpen {
@@ -216,6 +219,14 @@ PlacedScene draw_scene(Drawing& page, const sim::SceneSnapshot& scene, const std
                   {x + (reached > 0 ? 14.0 : 0.0), key}, kText, kInk);
   }
   return placed;
+}
+
+void write_page(const Drawing& page, const std::string& file, const char* what) {
+  if (!file.ends_with(".svg")) {
+    sim::render::write_png(page.image(), file);
+  } else if (const int error = sim::replace_file(file, page.svg())) {
+    throw std::runtime_error(file + ": cannot write the " + what + ": " + std::strerror(error));
+  }
 }
 
 }  // namespace playpen

@@ -75,4 +75,9 @@ PlacedScene draw_scene(sim::render::Drawing& page, const sim::SceneSnapshot& sce
                        const std::string& title, bool with_names, const sim::Vec2& corner,
                        double side);
 
+/// Writes a page as SVG if the file's name ends in .svg, otherwise as PNG.
+/// @param what  the page, for the message: "plot".
+/// @throws std::runtime_error that names the file.
+void write_page(const sim::render::Drawing& page, const std::string& file, const char* what);
+
 }  // namespace playpen

@@ -202,7 +202,7 @@ struct Column {
 
   [[nodiscard]] std::size_t width() const {
     std::size_t most = 0;
-    for (const std::string& cell : cells) most = std::max(most, cell.size());
+    for (const std::string& cell : cells) most = std::max(most, grade::character_count(cell));
     return most;
   }
 };
@@ -326,7 +326,7 @@ std::string batch_table(const BatchResult& result, const std::vector<GroupSummar
     std::string line;
     for (const Column& column : table) {
       const std::string& cell = column.cells[row];
-      const std::string blanks(column.width() - cell.size(), ' ');
+      const std::string blanks(column.width() - grade::character_count(cell), ' ');
       line += (line.empty() ? "" : std::string(kColumnGap, ' ')) +
               (column.is_words ? cell + blanks : blanks + cell);
     }

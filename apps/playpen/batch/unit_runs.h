@@ -44,9 +44,9 @@ void forget_unit(const std::filesystem::path& out, const Unit& unit);
 /// Runs units that have no results yet.
 ///
 /// Any number of processes on any number of machines may do so at once, in a folder that they
-/// share, also with the same units: each works in a folder of its own, OUT/work/HOST-PROCESS, and
-/// the first that ends a unit gives it its results. A process that is killed leaves nothing but its
-/// folder, which the next one on that machine removes.
+/// share, also with the same units: each has a folder of its own, HOST-PROCESS in the folder
+/// "work", and the first that ends a unit gives it its results. A process that is killed leaves
+/// nothing but its folder, which the next one on that machine removes.
 ///
 /// @param units  indices into Batch::units.
 /// @param on_progress  called at the start, and whenever a run ends.

@@ -20,6 +20,8 @@ namespace playpen::course {
 namespace {
 
 namespace fs = std::filesystem;
+using grade::begins_character;
+using grade::character_count;
 using grade::csv_value;
 using nlohmann::ordered_json;
 
@@ -136,22 +138,15 @@ std::string dumped(const ordered_json& document) {
   return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 
-bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
-
-/// The number of characters of a UTF-8 text.
-std::size_t length_of(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
-}
-
 /// A text of a column, whose width is counted in characters.
 std::string padded(const std::string& text, std::size_t width, bool is_number) {
-  const std::size_t length = length_of(text);
+  const std::size_t length = character_count(text);
   const std::string blanks(length < width ? width - length : 0, ' ');
   return is_number ? blanks + text : text + blanks;
 }
 
 std::string cut(const std::string& text, std::size_t width) {
-  if (length_of(text) <= width) return text;
+  if (character_count(text) <= width) return text;
   constexpr std::size_t kLeast = 4;
   std::string result;
   std::size_t characters = 0;
@@ -239,7 +234,7 @@ std::string class_table(const ClassResult& result, std::size_t columns) {
   std::vector<std::size_t> widths(kReason, 0);
   for (const auto& row : rows) {
     for (std::size_t i = 0; i < kReason; ++i) {
-      widths[i] = std::max(widths[i], length_of(row[i]));
+      widths[i] = std::max(widths[i], character_count(row[i]));
     }
   }
   const bool names = std::any_of(rows.begin() + 1, rows.end(),
@@ -250,7 +245,7 @@ std::string class_table(const ClassResult& result, std::size_t columns) {
     for (std::size_t i = 0; i < kReason; ++i) {
       if (i != kName || names) line += padded(row[i], widths[i], i == kPoints) + "  ";
     }
-    const std::size_t used = length_of(line);
+    const std::size_t used = character_count(line);
     line += cut(row[kReason], columns > used ? columns - used : 0);
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }

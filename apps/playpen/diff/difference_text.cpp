@@ -14,26 +14,19 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-// Number of characters of a text in UTF-8.
-std::size_t characters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-  }));
-}
-
 // Rows as lines. The first `left` columns are aligned to the left, the others to the right.
 std::string lines_of(const std::vector<Cells>& rows, std::size_t left) {
   std::vector<std::size_t> widths;
   for (const Cells& row : rows) {
     widths.resize(std::max(widths.size(), row.size()), 0);
     for (std::size_t i = 0; i < row.size(); ++i)
-      widths[i] = std::max(widths[i], characters(row[i]));
+      widths[i] = std::max(widths[i], grade::character_count(row[i]));
   }
   std::string text;
   for (const Cells& row : rows) {
     std::string line = " ";
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string blanks(widths[i] - characters(row[i]), ' ');
+      const std::string blanks(widths[i] - grade::character_count(row[i]), ' ');
       line += (i == 0 ? " " : "  ") + (i < left ? row[i] + blanks : blanks + row[i]);
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';

@@ -132,8 +132,7 @@ void remove_those_of_others(const fs::path& out) {
 
 PreparedTask::PreparedTask(Task task) : task_(std::move(task)) {
   for (const TaskWorld& world : task_.worlds) {
-    descriptions_.push_back(sim::load_world(world.file));
-    references_.push_back(make_reference(task_, world, descriptions_.back()));
+    references_.push_back(make_reference(task_, world, sim::load_world(world.file)));
   }
 }
 

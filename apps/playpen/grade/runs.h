@@ -29,7 +29,7 @@ class PreparedTask {
   [[nodiscard]] const Task& task() const noexcept { return task_; }
   /// @param world  index of a world of the task.
   [[nodiscard]] const sim::WorldDescription& description(std::size_t world) const {
-    return descriptions_.at(world);
+    return references_.at(world).description;
   }
   [[nodiscard]] const Reference& reference(std::size_t world) const {
     return references_.at(world);
@@ -37,7 +37,6 @@ class PreparedTask {
 
  private:
   Task task_;
-  std::vector<sim::WorldDescription> descriptions_;
   std::vector<Reference> references_;
 };
 

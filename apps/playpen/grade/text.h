@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -14,6 +15,14 @@ namespace playpen::grade {
 /// A text without control characters and invalid UTF-8, for names and reasons that come from
 /// programs and their authors.
 [[nodiscard]] std::string plain_text(const std::string& text);
+
+/// Whether a byte of a UTF-8 text is the first one of a character.
+[[nodiscard]] constexpr bool begins_character(char c) noexcept {
+  return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+}
+
+/// The number of characters of a UTF-8 text.
+[[nodiscard]] std::size_t character_count(const std::string& text);
 
 /// A value of a CSV file (RFC 4180), as plain_text(). An apostrophe precedes a text that
 /// spreadsheets would take for a formula.
