@@ -163,6 +163,7 @@ void Simulation::Impl::Blocks::archive(StateArchive& archive) {
 
 std::optional<std::string> Simulation::set_obstacle_state(const std::string& name,
                                                           ObstacleState state) {
+  ++interventions_;
   int index = 0;
   if (auto reason = impl_->blocks->find_free(name, index)) return reason;
   return impl_->blocks->set(index, state == ObstacleState::kExtended);

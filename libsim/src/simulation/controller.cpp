@@ -469,6 +469,7 @@ void Simulation::Impl::Controller::archive(StateArchive& archive) {
 // --- Simulation
 
 std::optional<std::string> Simulation::set_configuration(const std::string& name) {
+  ++interventions_;
   if (!impl_->controller) {
     return "there is no configuration named \"" + name + "\"; this world has none";
   }
@@ -476,6 +477,7 @@ std::optional<std::string> Simulation::set_configuration(const std::string& name
 }
 
 std::optional<std::string> Simulation::set_timer_enabled(const std::string& name, bool enabled) {
+  ++interventions_;
   if (!impl_->controller) {
     return "there is no timer named \"" + name + "\"; this world has none";
   }
@@ -483,6 +485,7 @@ std::optional<std::string> Simulation::set_timer_enabled(const std::string& name
 }
 
 std::optional<std::string> Simulation::set_trap_enabled(const std::string& name, bool enabled) {
+  ++interventions_;
   if (!impl_->controller) return "there is no trap named \"" + name + "\"; this world has none";
   return impl_->controller->set_trap_enabled(name, enabled);
 }

@@ -92,6 +92,7 @@ std::optional<std::string> Simulation::refusal_of_mirrored() const {
 }
 
 std::optional<std::string> Simulation::follow_real(int robot, const Pose& X_WB) {
+  ++interventions_;
   const auto i = static_cast<std::size_t>(robot);
   const RobotDescription& description = impl_->world.robots.at(i);
   if (!description.real) return "robot " + description.name + " mirrors no real robot";
@@ -108,6 +109,7 @@ std::optional<std::string> Simulation::follow_real(int robot, const Pose& X_WB) 
 }
 
 std::optional<std::string> Simulation::set_object_dynamics(const std::string& name, bool on) {
+  ++interventions_;
   if (const auto robot = find_robot(name)) return set_robot_dynamics(*robot, on);
   const std::optional<int> obstacle = impl_->find_obstacle(name);
   if (obstacle && is_movable(impl_->obstacle(*obstacle))) {
@@ -177,6 +179,7 @@ std::string Simulation::no_such_object(const std::string& name) const {
 }
 
 std::optional<std::string> Simulation::place_object(const std::string& name, const Pose& pose) {
+  ++interventions_;
   const std::optional<SceneObject> object = find_object(name);
   if (!object) return no_such_object(name);
   if (object->kind == "robot") {
@@ -203,6 +206,7 @@ std::optional<std::string> Simulation::Impl::place_block(const std::string& name
 
 std::optional<std::string> Simulation::set_block_size(const std::string& name, const Vec2& size_m,
                                                       double height_m) {
+  ++interventions_;
   const std::optional<SceneObject> object = find_object(name);
   if (!object) return no_such_object(name);
   if (object->kind != "block") return object->kind + " \"" + name + "\" keeps its size";
@@ -241,11 +245,13 @@ std::optional<std::string> Simulation::Impl::change_appearance(const Simulation&
 }
 
 std::optional<std::string> Simulation::set_object_colour(const std::string& name, Colour colour) {
+  ++interventions_;
   return impl_->change_appearance(*this, name, "keeps its colour",
                                   [&](auto& object) { object.colour = colour; });
 }
 
 std::optional<std::string> Simulation::set_object_fiducial(const std::string& name, int fiducial) {
+  ++interventions_;
   if (fiducial < 0) return "the number of a fiducial is at least 0";
   return impl_->change_appearance(*this, name, "bears no fiducial",
                                   [&](auto& object) { object.fiducial = fiducial; });

@@ -462,6 +462,7 @@ std::optional<LaserReading> Simulation::ideal_scan(DeviceId laser) const {
 }
 
 std::optional<std::string> Simulation::apply(DeviceId id, const Command& command) {
+  if (watch_) watch_(id, command);
   Device& device = impl_->device(id);
   if (!device.active()) {
     return "device " + impl_->world.robots[static_cast<std::size_t>(id.robot)].name + "." +
@@ -472,12 +473,14 @@ std::optional<std::string> Simulation::apply(DeviceId id, const Command& command
 }
 
 std::optional<std::string> Simulation::reset() {
+  ++interventions_;
   if (auto refusal = refusal_of_mirrored()) return refusal;
   impl_->reset();
   return std::nullopt;
 }
 
 void Simulation::set_active(DeviceId id, bool active) {
+  ++interventions_;
   Impl::Control control(*impl_, static_cast<std::size_t>(id.robot));
   impl_->device(id).set_active(active, control);
 }
@@ -485,6 +488,7 @@ void Simulation::set_active(DeviceId id, bool active) {
 bool Simulation::active(DeviceId id) const { return impl_->device(id).active(); }
 
 std::optional<std::string> Simulation::set_dynamics(bool on) {
+  ++interventions_;
   if (auto refusal = refusal_of_mirrored()) return refusal;
   for (int i = 0; i < robot_count(); ++i) impl_->physics->set_suspended(i, !on);
   for (int i = 0; i < static_cast<int>(world().arena.obstacles.size()); ++i) {
@@ -495,6 +499,7 @@ std::optional<std::string> Simulation::set_dynamics(bool on) {
 }
 
 std::optional<std::string> Simulation::set_robot_dynamics(int robot, bool on) {
+  ++interventions_;
   if (robot < 0 || robot >= robot_count()) {
     return "there is no robot number " + std::to_string(robot) + "; this world has " +
            std::to_string(robot_count());
@@ -518,6 +523,7 @@ ViewMode Simulation::view_mode() const noexcept { return impl_->view_mode; }
 
 std::optional<std::string> Simulation::set_view_mode(ViewMode mode) {
   if (mode == impl_->view_mode) return std::nullopt;
+  ++interventions_;
   if (impl_->world.canvas.view_mode_locked) {
     return "the view mode cannot be changed to \"" + std::string(to_string(mode)) +
            "\": the world locks it at \"" + std::string(to_string(impl_->view_mode)) + "\"";

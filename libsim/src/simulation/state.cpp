@@ -210,6 +210,14 @@ std::uint64_t StateParts::hash(LayerStack& layers) {
   return hash_of(archive.written());
 }
 
+std::uint64_t StateParts::hash_without_canvas() {
+  StateArchive archive;
+  archive.reserve(bodies_.size() + rules_.size());
+  archive.raw(bodies_.data(), bodies_.size());
+  archive.raw(rules_.data(), rules_.size());
+  return hash_of(archive.written());
+}
+
 Snapshot StateParts::snapshot(LayerStack& layers) {
   return written_snapshot(
       world_, seed_,
@@ -291,6 +299,7 @@ void Simulation::restore(std::span<const std::uint8_t> snapshot, RestoreScope sc
 }
 
 Simulation Simulation::replace_by(Simulation restored, RestoreScope scope) {
+  ++interventions_;
   if (scope == RestoreScope::kAll) {
     restored.impl_->layers.take_over_from(impl_->layers);
   } else {

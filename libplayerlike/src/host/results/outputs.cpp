@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "host/results/picture_sizes.h"
+#include "host/results/recording_format.h"
 #include "playerlike/host/results.h"
 #include "playerlike/messages/messages.h"
 #include "sim/canvas/layers.h"
@@ -166,9 +167,9 @@ void remove_snapshots(const std::string& folder) {
 }
 
 void remove_results(const std::string& folder) {
-  constexpr std::array<std::string_view, 7> kFiles = {
-      "report.json", "report.part.json", "scene.png",     "scene.part.png",
-      "canvas.png",  "canvas.part.png",  "trajectory.csv"};
+  constexpr std::array<std::string_view, 8> kFiles = {
+      "report.json", "report.part.json", "scene.png",      "scene.part.png",
+      "canvas.png",  "canvas.part.png",  "trajectory.csv", kRecordingFile};
   for (const std::string_view name : kFiles) {
     std::error_code error;
     const fs::path file = fs::path(folder) / name;

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "host/results/results.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -33,6 +34,10 @@ Results::Results(const RunSettings& settings, sim::Simulation& simulation,
       report_room_(settings.output_folder) {
   if (!settings.output_folder.empty()) std::filesystem::create_directories(settings.output_folder);
   recorder_ = std::make_unique<Recorder>(settings, simulation, mirror, &commands);
+  // What a real robot does cannot be made again.
+  if (!settings.output_folder.empty() && mirror == nullptr) {
+    recording_ = std::make_unique<RecordingWriter>(settings, simulation);
+  }
   kept_ = KeptWriter::open(settings.kept_run);
   if (kept_ && mirror != nullptr) kept_->keep_motors(mirror->motors());
   if (kept_ && !settings.output_folder.empty()) {
@@ -45,6 +50,9 @@ Results::Results(const RunSettings& settings, sim::Simulation& simulation,
 
 void Results::observe() {
   recorder_->observe(simulation_);
+  if (recording_) {
+    if (const auto problem = recording_->observe()) warn_(*problem);
+  }
   for (auto& [port, log] : logs) {
     if (const auto problem = log.observe(simulation_, mirror_)) warn_(*problem);
   }
@@ -62,6 +70,14 @@ void Results::keep(WallClock::time_point now) {
     }
   }
   keep_report(now);
+}
+
+void Results::note_read(int client,
+                        const std::vector<std::pair<DeviceId, sim::SharedReading>>& taken) {
+  if (!recording_ || taken.empty()) return;
+  sim::SimTime oldest_ns = taken.front().second->time_ns;
+  for (const auto& [device, reading] : taken) oldest_ns = std::min(oldest_ns, reading->time_ns);
+  recording_->note_read(client, oldest_ns);
 }
 
 void Results::note_refusal(const std::string& what) {
@@ -112,6 +128,9 @@ void attempt(const Warn& warn, const char* problem, const Action& action) {
 std::function<void()> Results::prepare(std::optional<sim::LayerStack> layers) {
   const FileLimitErrors limit_errors;
   attempt(warn_, kMissingResults, [&] { recorder_->close_trajectory(); });
+  if (recording_) {
+    if (const auto problem = recording_->close()) warn_(*problem);
+  }
   for (auto& [port, log] : logs) {
     if (const auto problem = log.close()) warn_(*problem);
   }

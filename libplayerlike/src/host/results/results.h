@@ -8,11 +8,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "host/results/disk_room.h"
 #include "host/results/kept_writer.h"
 #include "host/results/outputs.h"
 #include "host/results/recorder.h"
+#include "host/results/recording_writer.h"
 #include "host/results/run_log.h"
 #include "host/stepping/client.h"
 #include "playerlike/host/report.h"
@@ -67,6 +70,9 @@ class Results {
     end_request_.compare_exchange_strong(none, signal);
   }
 
+  /// A client has taken readings, for the recording.
+  void note_read(int client, const std::vector<std::pair<DeviceId, sim::SharedReading>>& taken);
+
   std::map<int, RunLog> logs;  ///< by port; the logs that clients have asked for
 
   // Why the run ends, for the report.
@@ -92,6 +98,7 @@ class Results {
   const Mirror* const mirror_;
   DiskRoom report_room_;  ///< for the last report: trajectory, film and logs may fill the disk
   std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<RecordingWriter> recording_;      ///< null: the run is not recorded
   std::unique_ptr<KeptWriter> kept_;                ///< null unless the settings name a file
   WallClock::time_point last_looks_{};              ///< when keep_looks() was last called
   std::uint64_t kept_events_ = 0;                   ///< number of arena events at that time

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/canvas/canvas.h"
@@ -78,6 +80,8 @@ class StateParts {
   [[nodiscard]] std::uint64_t hash(LayerStack& layers);
   /// See Simulation::save().
   [[nodiscard]] Snapshot snapshot(LayerStack& layers);
+  /// Hash of what state_hash() covers, but without the canvas.
+  [[nodiscard]] std::uint64_t hash_without_canvas();
 
  private:
   friend class Simulation;
@@ -155,6 +159,16 @@ class Simulation {
   /// Executes a command now, between two steps.
   /// @return nothing on success, otherwise the reason, e.g. that the device is not active.
   std::optional<std::string> apply(DeviceId id, const Command& command);
+
+  /// Called by apply() before it executes a command.
+  using CommandWatch = std::function<void(DeviceId, const Command&)>;
+  /// @param watch  replaces the earlier one; empty: nobody watches. It must not change this
+  ///     simulation. Forks and snapshots do not have it.
+  void watch_commands(CommandWatch watch) { watch_ = std::move(watch); }
+  /// Counts the calls that may have changed the state otherwise than by step() and apply(), also
+  /// those that were refused. While it stays the same, the commands determine all that happens.
+  /// Drawings on the layers do not count.
+  [[nodiscard]] std::uint64_t interventions() const noexcept { return interventions_; }
 
   /// Resets the world to its start: robots, obstacles, devices with their noise, and the base
   /// canvas, which becomes blank but keeps its current size. All devices are active again and all
@@ -339,6 +353,8 @@ class Simulation {
   struct Impl;
   explicit Simulation(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
+  CommandWatch watch_;
+  std::uint64_t interventions_ = 0;
 };
 
 /// Reads a world file that may use all built-in devices. "" is the default world: the SyRoTek arena
