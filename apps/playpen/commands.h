@@ -202,4 +202,17 @@ struct DiffRequest {
 ///         be read or written, or the grades that have no runs of the same names.
 [[nodiscard]] int compare_runs(const DiffRequest& request);
 
+/// Arguments of `playpen why`.
+struct WhyRequest {
+  std::string folder;  ///< folder of results of a run or of a grade
+  std::string robot;   ///< name; "": chosen by the run
+  std::string file;    ///< .png; "": why.png in the folder of the run
+};
+
+/// Prints why a run failed, or each failed run of a grade, and draws the decisive moment.
+/// @return kOk.
+/// @throws std::runtime_error naming the folder that does not contain a run with a recording, the
+///         robot that there is not, or the file that cannot be written.
+[[nodiscard]] int explain(const WhyRequest& request);
+
 }  // namespace playpen

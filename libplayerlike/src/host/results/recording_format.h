@@ -33,7 +33,7 @@ inline constexpr sim::SimTime kRecordingPeriod_ns = sim::kNanosecondsPerSecond /
 /// Period of the times at which it notes the layers, if they are small.
 inline constexpr sim::SimTime kLayersPeriod_ns = sim::kNanosecondsPerSecond / 2;
 /// Layers with more cells, all together, are not recorded.
-inline constexpr std::size_t kMostRecordedCells = std::size_t{1} << 24U;
+inline constexpr std::size_t kMostRecordedCells = std::size_t{1} << 20U;
 
 /// The items of a recording. Each begins with its kind in one byte.
 enum class RecordedItem : std::uint8_t {

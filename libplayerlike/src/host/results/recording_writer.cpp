@@ -121,11 +121,19 @@ void RecordingWriter::note_read(int client, sim::SimTime oldest_ns) {
   if (!out_.is_open()) return;
   constexpr sim::SimTime kMillisecond_ns = 1'000'000;
   constexpr sim::SimTime kMost_ms = std::numeric_limits<std::uint32_t>::max();
-  begin_item(RecordedItem::kRead);
-  auto number = static_cast<std::uint16_t>(client);
-  auto age_ms = static_cast<std::uint32_t>(
-      std::clamp<sim::SimTime>((simulation_.now_ns() - oldest_ns) / kMillisecond_ns, 0, kMost_ms));
-  items_(number, age_ms);
+  const sim::SimTime age_ms = (simulation_.now_ns() - oldest_ns) / kMillisecond_ns;
+  reads_.emplace_back(static_cast<std::uint16_t>(client),
+                      static_cast<std::uint32_t>(std::clamp<sim::SimTime>(age_ms, 0, kMost_ms)));
+}
+
+// Between two steps, clients read in any order.
+void RecordingWriter::note_reads() {
+  std::sort(reads_.begin(), reads_.end());
+  for (auto& [client, age_ms] : reads_) {
+    begin_item(RecordedItem::kRead);
+    items_(client, age_ms);
+  }
+  reads_.clear();
 }
 
 void RecordingWriter::note_state() {
@@ -183,6 +191,7 @@ void RecordingWriter::note_layers() {
 
 std::optional<std::string> RecordingWriter::observe() {
   if (!out_.is_open()) return std::nullopt;
+  note_reads();
   ++new_steps_;
   if (interventions_ != simulation_.interventions()) note_state();
   const sim::SimTime now_ns = simulation_.now_ns();

@@ -44,6 +44,7 @@ class RecordingWriter {
   void note_command(sim::Simulation::DeviceId device, const sim::Command& command);
   void begin_item(RecordedItem item);
   void note_steps();
+  void note_reads();
   void note_state();
   void note_printed();
   void note_layers();
@@ -60,6 +61,7 @@ class RecordingWriter {
   std::uint64_t interventions_;  ///< of the simulation when they were last looked at
   /// The last command of each device, as in the file.
   std::map<std::pair<int, int>, std::vector<std::uint8_t>> commands_;
+  std::vector<std::pair<std::uint16_t, std::uint32_t>> reads_;  ///< since the last step
   RecordedLayers layers_;
   std::uint64_t layers_version_ = 0;
   std::optional<std::uint64_t> layers_revision_;
