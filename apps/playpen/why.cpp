@@ -59,6 +59,7 @@ why::RunFacts facts_of(const RunData& run, std::size_t robot) {
     facts.ended_by_program = ended->by == playerlike::RunEnd::By::kProgram;
     if (ended->by == playerlike::RunEnd::By::kSignal) facts.signal = ended->signal;
   }
+  facts.passed = run.passed.value_or(false);
   facts.faults = run.faults;
   if (const auto& seen = run.report.robots[robot].seen) facts.seen_area_m2 = seen->area_m2;
   if (run.report.refused) {
@@ -86,10 +87,10 @@ std::string draw_moment(const std::string& folder, const WhyRequest& request,
   return file;
 }
 
-void print_reasons(const std::vector<why::Reason>& reasons) {
-  constexpr std::size_t kMost = 6;
+// @param most  how many of them.
+void print_reasons(const std::vector<why::Reason>& reasons, std::size_t most) {
   const std::size_t width = terminal_columns(STDOUT_FILENO);
-  for (std::size_t i = 0; i < std::min(reasons.size(), kMost); ++i) {
+  for (std::size_t i = 0; i < std::min(reasons.size(), most); ++i) {
     std::string words;
     for (const std::string& sentence : reasons[i].text) {
       words += (words.empty() ? "" : " ") + sentence;
@@ -98,8 +99,9 @@ void print_reasons(const std::vector<why::Reason>& reasons) {
   }
 }
 
-// Explains one run. @return whether there was something to explain.
-void explain_run(const std::string& folder, const WhyRequest& request) {
+// Explains one run.
+// @param most  prints so many reasons.
+void explain_run(const std::string& folder, const WhyRequest& request, std::size_t most) {
   const RunData run = read_run(folder);
   playerlike::Rerun rerun(folder);
   const std::size_t robot = robot_of(run, request.robot);
@@ -127,7 +129,7 @@ void explain_run(const std::string& folder, const WhyRequest& request) {
     std::cout << "Nothing went wrong: no contact, no stall, no turning on the spot.\n";
     return;
   }
-  print_reasons(reasons);
+  print_reasons(reasons, most);
   const double moment_s = reasons.front().time_s;
   const std::string time = sim::fixed_text(moment_s, 1);
   std::cout << "picture after " << time << " s: " << draw_moment(folder, request, name, moment_s)
@@ -157,7 +159,9 @@ int explain(const WhyRequest& request) {
   }
   for (const std::string& folder : folders) {
     if (&folder != folders.data()) std::cout << '\n';
-    explain_run(folder, request);
+    // Runs of one program mostly fail alike.
+    constexpr std::size_t kMost = 6;
+    explain_run(folder, request, &folder == folders.data() ? kMost : 1);
   }
   return kOk;
 }

@@ -597,7 +597,7 @@ def self_test():
         includes(f"libplayerlike/src/{folder}/x.cpp", include)
     includes("libplayerlike/src/new/x.cpp", "vector", "no known folder")
     includes("libplayerlike/include/robot_types.h", "vector")
-    includes("libplayerlike/src/host/x.cpp", "protocol/codec.h", "log and report of a run")
+    includes("libplayerlike/src/host/x.cpp", "protocol/codec.h", "report and recording of a run")
     includes("libplayerlike/src/host/x.cpp", "asio/ip/tcp.hpp", "sockets belong")
     includes("libplayerlike/include/playerlike/server/x.h", "asio.hpp", "sockets belong")
     includes("libplayerlike/include/playerlike/host/x.h", "nlohmann/json.hpp", "public headers")

@@ -40,16 +40,17 @@ void add_end_of_program(const Story& story, const RunFacts& facts, std::vector<R
   }
 }
 
-void add_lack_of_commands(const Story& story, std::vector<Reason>& reasons) {
+/// @return whether the program never moved the robot.
+bool add_lack_of_commands(const Story& story, std::vector<Reason>& reasons) {
   const bool commanded = std::any_of(story.samples.begin(), story.samples.end(),
                                      [](const Sample& sample) { return moves(sample.commanded); });
-  if (commanded) return;
+  if (commanded) return false;
   if (story.motors_switched_off) {
     reasons.push_back({kind::kMotorsOff,
                        0.0,
                        {"The motors were switched off (SetMotorEnable(false)), so " +
                         std::to_string(story.told.size()) + " commands had no effect."}});
-    return;
+    return true;
   }
   const std::string what = story.told.empty()
                                ? "The program sent robot " + story.robot + " no command to move."
@@ -58,6 +59,7 @@ void add_lack_of_commands(const Story& story, std::vector<Reason>& reasons) {
   Reason reason{kind::kNoCommand, 0.0, {what}};
   if (story.reads.empty()) reason.text.emplace_back("It has read no data either.");
   reasons.push_back(std::move(reason));
+  return true;
 }
 
 void add_traps(const Story& story, std::vector<Reason>& reasons) {
@@ -195,7 +197,7 @@ std::vector<Reason> reasons_of(const Story& story, const RunFacts& facts) {
   std::vector<Reason> reasons;
   add_end_of_program(story, facts, reasons);
   if (auto units = unit_reason(story)) reasons.push_back(*std::move(units));
-  add_lack_of_commands(story, reasons);
+  if (add_lack_of_commands(story, reasons)) return reasons;  // all else follows from that
   const bool contacts_count = concerns(facts, {"collision", "hit", "contact", "clearance"});
   std::vector<Reason> contacts;
   if (!story.collisions.empty())
@@ -206,7 +208,7 @@ std::vector<Reason> reasons_of(const Story& story, const RunFacts& facts) {
   add_movement_reasons(story, reasons);
   if (!contacts_count) std::move(contacts.begin(), contacts.end(), std::back_inserter(reasons));
   const double end_s = story.samples.back().time_s;
-  if (facts.ended_by_program && !facts.signal) {
+  if (facts.ended_by_program && !facts.signal && !facts.passed) {
     reasons.push_back({kind::kEnded,
                        end_s,
                        {"The program ended by itself after " + seconds_text(end_s) +

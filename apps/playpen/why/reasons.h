@@ -55,6 +55,7 @@ struct RunFacts {
   std::optional<double> duration_s;    ///< simulated limit [s]
   std::optional<std::string> signal;   ///< that ended the program
   bool ended_by_program = false;       ///< before the simulated time was over
+  bool passed = false;                 ///< a graded run that passed
   std::vector<std::string> faults;     ///< of a graded run that failed
   std::optional<double> seen_area_m2;  ///< floor that its sensors have seen
   /// What the task has refused, with the time of the first request [s].

@@ -279,7 +279,7 @@ int Host::Core::take(Client& client, ReadingSink& sink) {
     const Lock lock(mutex_);
     client.require_open();
     taken = clients_.take(client);
-    results_.note_read(client.number, taken);
+    results_.note_read(client, taken);
   }
   for (const auto& [device, reading] : taken) sink.on_reading(device, reading);
   return static_cast<int>(taken.size());

@@ -205,7 +205,7 @@ TEST_F(RerunTest, Reads_GivenWithNextStep) {
   EXPECT_TRUE(again.reads().empty());
   ASSERT_TRUE(again.step());
   ASSERT_EQ(again.reads().size(), 2U);
-  EXPECT_EQ(again.reads()[0].client, 2);
+  EXPECT_EQ(again.reads()[0].port, 2);
   EXPECT_EQ(again.reads()[0].age_ns, sim::from_seconds(0.05));
   EXPECT_EQ(again.reads()[1].age_ns, 0);
   ASSERT_TRUE(again.step());

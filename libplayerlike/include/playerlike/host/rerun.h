@@ -26,9 +26,10 @@ struct RecordedCommand {
   sim::Command command;
 };
 
-/// A client's read: it took readings between two steps.
+/// A read of a client, other than onlookers and drivers of this process: it took readings between
+/// two steps.
 struct RecordedRead {
-  int client = 0;           ///< number, in order of connection
+  int port = 0;             ///< of the client
   sim::SimTime age_ns = 0;  ///< of the oldest reading that it took, to the millisecond
 };
 

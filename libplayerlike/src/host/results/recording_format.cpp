@@ -8,6 +8,8 @@
 #include "protocol/codec.h"
 #include "protocol/field_codec.h"
 #include "protocol/message_table.h"
+#include "sim/core/number_text.h"
+#include "sim/simulation/world_hash.h"
 
 namespace sim {
 
@@ -186,6 +188,11 @@ void CellChanges::apply(sim::LayerStack& stack, sim::LayerId to) const {
                      static_cast<int>(length), 1},
                     same);
   }
+}
+
+std::string hash_of_world(sim::WorldDescription world) {
+  world.simulation.start_gate_clients = 1;
+  return sim::hexadecimal_text(sim::world_hash(world), 16);
 }
 
 std::string text_of_head(const RecordingHead& head) {

@@ -44,7 +44,7 @@ enum class RecordedItem : std::uint8_t {
   kPrinted,      ///< std::uint64_t: size of what the program has printed so far [bytes]
   kLayers,       ///< width and height of the canvas; all layers, see RecordedLayers
   kCells,        ///< changed cells of a layer, see CellChanges
-  kRead,  ///< std::uint16_t, std::uint32_t: a client's number; age of the oldest reading that
+  kRead,  ///< std::uint16_t, std::uint32_t: the port of a client; age of the oldest reading that
           ///< it took [ms]
   kHash,  ///< std::uint64_t: StateParts::hash_without_canvas()
   kFull,  ///< the recording has reached kMostRecording and ends here
@@ -62,7 +62,7 @@ struct RecordingHead {
   std::string world;                      ///< name
   std::string world_file;                 ///< absolute path; "": the default world
   std::optional<std::string> world_text;  ///< content of that file, if it is JSON
-  std::string world_hash;                 ///< sim::world_hash(), 16 digits
+  std::string world_hash;                 ///< hash_of_world()
   std::uint64_t seed = 0;
   std::string realism;
   std::string view_mode;
@@ -112,6 +112,10 @@ struct CellChanges {
   /// @throws sim::SnapshotError if they do not fit into it.
   void apply(sim::LayerStack& stack, sim::LayerId to) const;
 };
+
+/// sim::world_hash() in 16 digits, as if the run waited for one client: how many clients it waits
+/// for is a setting of the run.
+[[nodiscard]] std::string hash_of_world(sim::WorldDescription world);
 
 /// The text of a head, without line end, and back.
 [[nodiscard]] std::string text_of_head(const RecordingHead& head);

@@ -11,11 +11,11 @@
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
+#include <variant>
 
 #include "sim/core/file.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/builtin.h"
-#include "sim/simulation/world_hash.h"
 #include "sim/world/realism.h"
 
 namespace playerlike {
@@ -36,6 +36,13 @@ bool prints_into(const std::string& folder) {
          output.st_dev == file.st_dev && output.st_ino == file.st_ino;
 }
 
+/// Whether a command may change more than the robot that gets it.
+bool concerns_other_robots(const sim::Command& command) {
+  return std::holds_alternative<sim::PlaceCommand>(command) ||
+         std::holds_alternative<sim::GripCommand>(command) ||
+         std::holds_alternative<sim::SayCommand>(command);
+}
+
 RecordingHead head_of(const RunSettings& settings, const sim::Simulation& simulation,
                       bool has_program_log) {
   const sim::WorldDescription& world = simulation.world();
@@ -53,7 +60,7 @@ RecordingHead head_of(const RunSettings& settings, const sim::Simulation& simula
       head.world_text = std::move(text);
     }
   }
-  head.world_hash = sim::hexadecimal_text(sim::world_hash(world), 16);
+  head.world_hash = hash_of_world(world);
   head.seed = world.simulation.seed;
   head.realism = sim::to_string(world.simulation.realism);
   head.view_mode = sim::to_string(world.canvas.view_mode);
@@ -107,31 +114,45 @@ void RecordingWriter::note_command(sim::Simulation::DeviceId device, const sim::
   archive(kind);
   archive.table(sim::command_kinds()[command.index()].fields(),
                 const_cast<void*>(sim::object_in(command)));
-  std::vector<std::uint8_t>& last = commands_[{device.robot, device.device}];
-  const auto now = archive.written();
-  const bool same = std::equal(last.begin(), last.end(), now.begin(), now.end());
-  begin_item(same ? RecordedItem::kSameCommand : RecordedItem::kCommand);
-  archive_device(items_, device);
-  if (same) return;
-  last.assign(now.begin(), now.end());
-  items_.raw(last.data(), last.size());
+  robots_alone_ = robots_alone_ && !concerns_other_robots(command);
+  const auto bytes = archive.written();
+  new_commands_.push_back({device, {bytes.begin(), bytes.end()}});
 }
 
-void RecordingWriter::note_read(int client, sim::SimTime oldest_ns) {
+// Between two steps, programs command in any order. If no command concerns other robots, the order
+// of the robots makes no difference, and should not tell recordings apart.
+void RecordingWriter::note_commands() {
+  if (std::exchange(robots_alone_, true)) {
+    std::stable_sort(new_commands_.begin(), new_commands_.end(),
+                     [](const auto& a, const auto& b) { return a.device.robot < b.device.robot; });
+  }
+  for (auto& [device, bytes] : new_commands_) {
+    std::vector<std::uint8_t>& last = commands_[{device.robot, device.device}];
+    const bool same = last == bytes;
+    begin_item(same ? RecordedItem::kSameCommand : RecordedItem::kCommand);
+    archive_device(items_, device);
+    if (same) continue;
+    items_.raw(bytes.data(), bytes.size());
+    last = std::move(bytes);
+  }
+  new_commands_.clear();
+}
+
+void RecordingWriter::note_read(int port, sim::SimTime oldest_ns) {
   if (!out_.is_open()) return;
   constexpr sim::SimTime kMillisecond_ns = 1'000'000;
   constexpr sim::SimTime kMost_ms = std::numeric_limits<std::uint32_t>::max();
   const sim::SimTime age_ms = (simulation_.now_ns() - oldest_ns) / kMillisecond_ns;
-  reads_.emplace_back(static_cast<std::uint16_t>(client),
+  reads_.emplace_back(static_cast<std::uint16_t>(port),
                       static_cast<std::uint32_t>(std::clamp<sim::SimTime>(age_ms, 0, kMost_ms)));
 }
 
 // Between two steps, clients read in any order.
 void RecordingWriter::note_reads() {
   std::sort(reads_.begin(), reads_.end());
-  for (auto& [client, age_ms] : reads_) {
+  for (auto& [port, age_ms] : reads_) {
     begin_item(RecordedItem::kRead);
-    items_(client, age_ms);
+    items_(port, age_ms);
   }
   reads_.clear();
 }
@@ -191,6 +212,7 @@ void RecordingWriter::note_layers() {
 
 std::optional<std::string> RecordingWriter::observe() {
   if (!out_.is_open()) return std::nullopt;
+  note_commands();
   note_reads();
   ++new_steps_;
   if (interventions_ != simulation_.interventions()) note_state();

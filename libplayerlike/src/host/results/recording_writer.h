@@ -34,14 +34,16 @@ class RecordingWriter {
   /// @return an error, once, after which nothing more is recorded.
   [[nodiscard]] std::optional<std::string> observe();
   /// A client has taken readings.
+  /// @param port  of the client. Numbers of clients depend on who connects first.
   /// @param oldest_ns  time stamp of the oldest of them.
-  void note_read(int client, sim::SimTime oldest_ns);
+  void note_read(int port, sim::SimTime oldest_ns);
   /// Completes the file; nothing is recorded afterwards.
   /// @return the error, unless it was returned before.
   [[nodiscard]] std::optional<std::string> close();
 
  private:
   void note_command(sim::Simulation::DeviceId device, const sim::Command& command);
+  void note_commands();
   void begin_item(RecordedItem item);
   void note_steps();
   void note_reads();
@@ -59,6 +61,12 @@ class RecordingWriter {
   sim::StateArchive items_;      ///< not written yet
   std::uint32_t new_steps_ = 0;  ///< since the last item
   std::uint64_t interventions_;  ///< of the simulation when they were last looked at
+  struct NewCommand {
+    sim::Simulation::DeviceId device;
+    std::vector<std::uint8_t> bytes;  ///< kind and fields
+  };
+  std::vector<NewCommand> new_commands_;  ///< since the last step
+  bool robots_alone_ = true;              ///< whether none of these concerns other robots
   /// The last command of each device, as in the file.
   std::map<std::pair<int, int>, std::vector<std::uint8_t>> commands_;
   std::vector<std::pair<std::uint16_t, std::uint32_t>> reads_;  ///< since the last step

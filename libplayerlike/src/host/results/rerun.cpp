@@ -13,7 +13,6 @@
 #include "sim/core/number_text.h"
 #include "sim/core/state_archive.h"
 #include "sim/devices/builtin.h"
-#include "sim/simulation/world_hash.h"
 #include "sim/world/realism.h"
 #include "sim/world/view_mode.h"
 
@@ -77,7 +76,7 @@ sim::WorldDescription world_of(const std::string& file, const RecordingHead& hea
 
 void check_world(const std::string& file, const RecordingHead& head,
                  const sim::WorldDescription& world) {
-  const std::string hash = sim::hexadecimal_text(sim::world_hash(world), 16);
+  const std::string hash = hash_of_world(world);
   if (hash == head.world_hash) return;
   refuse(file, "the world of the run, whose hash is " + head.world_hash,
          (head.world_file.empty() ? "the default world" : head.world_file) + " with " + hash +
@@ -156,11 +155,11 @@ struct Rerun::Impl {
   }
 
   void read_read() {
-    std::uint16_t client = 0;
+    std::uint16_t port = 0;
     std::uint32_t age_ms = 0;
-    (*items)(client, age_ms);
+    (*items)(port, age_ms);
     constexpr sim::SimTime kMillisecond_ns = 1'000'000;
-    next_reads.push_back({client, kMillisecond_ns * age_ms});
+    next_reads.push_back({port, kMillisecond_ns * age_ms});
   }
 
   void read_layers() {

@@ -72,12 +72,12 @@ void Results::keep(WallClock::time_point now) {
   keep_report(now);
 }
 
-void Results::note_read(int client,
+void Results::note_read(const Client& client,
                         const std::vector<std::pair<DeviceId, sim::SharedReading>>& taken) {
-  if (!recording_ || taken.empty()) return;
+  if (!recording_ || taken.empty() || client.onlooker || client.follower) return;
   sim::SimTime oldest_ns = taken.front().second->time_ns;
   for (const auto& [device, reading] : taken) oldest_ns = std::min(oldest_ns, reading->time_ns);
-  recording_->note_read(client, oldest_ns);
+  recording_->note_read(client.port, oldest_ns);
 }
 
 void Results::note_refusal(const std::string& what) {

@@ -71,7 +71,8 @@ class Results {
   }
 
   /// A client has taken readings, for the recording.
-  void note_read(int client, const std::vector<std::pair<DeviceId, sim::SharedReading>>& taken);
+  void note_read(const Client& client,
+                 const std::vector<std::pair<DeviceId, sim::SharedReading>>& taken);
 
   std::map<int, RunLog> logs;  ///< by port; the logs that clients have asked for
 
