@@ -76,7 +76,7 @@ void draw_path(Simulation& simulation, sim::LayerId layer) {
     drawing.layer = layer;
     drawing.x0 = static_cast<int>(std::floor(cell.x()));
     drawing.y0 = canvas.height - 1 - static_cast<int>(std::floor(cell.y()));
-    drawing.value = sim::CellValue{1};
+    drawing.value = sim::CellValue::of(true);
     drawings.push_back(drawing);
   }
   simulation.layers().draw(drawings);

@@ -44,7 +44,7 @@ class FieldWalker {
     const char* const unit = field.range.unit;
     switch (field.type) {
       case FieldType::kNumber:
-        return number_({name, unit, {}, value_as<double>(value)});
+        return number_({name, unit, {}, value_as<double>(value), field.may_be_left_out});
       case FieldType::kInt:
       case FieldType::kInt64:
       case FieldType::kUint32:
@@ -131,6 +131,7 @@ std::string text_of(const sim::Command& command) {
   visit_values(
       kind.fields(), sim::object_in(command),
       [&](const FieldValue& value) {
+        if (value.may_be_left_out && value.value == 0.0) return;
         text += ' ' + value.name + '=';
         const auto word = static_cast<std::size_t>(value.value);
         text += value.value >= 0.0 && word < value.words.size()

@@ -23,6 +23,7 @@ struct FieldValue {
   const char* unit = "";
   std::span<const char* const> words = {};  ///< names of a choice's values: 0, 1, ...
   double value = 0.0;
+  bool may_be_left_out = false;  ///< messages may lack it
 };
 
 /// Calls `number` with each number of a struct and `list` with each longer list of numbers, in the

@@ -2,6 +2,7 @@
 // The layers of a replay: those of the simulation, watched frame by frame, or given from outside.
 #include <algorithm>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -32,12 +33,15 @@ std::vector<CellRun> cell_runs(const std::vector<std::uint8_t>& before,
 }
 
 void ReplayBuilder::add_layers(const sim::LayerStack& layers) {
-  if (seen_layers_ && layers.version() == layers_version_ &&
-      layers.revision() == layers_revision_) {
+  // Comparing a huge canvas takes long; of such a one, a picture per second must do.
+  constexpr std::size_t kHugeCells = 4'000'000;
+  const sim::SimTime now_ns = run_.frames_ns.back();
+  if (layers.cell_count() > kHugeCells && layers_ns_ &&
+      now_ns < *layers_ns_ + sim::kNanosecondsPerSecond) {
     return;
   }
-  seen_layers_ = true;
-  layers_version_ = layers.version();
+  layers_ns_ = now_ns;
+  const bool same_styles = layers.revision() == layers_revision_;
   layers_revision_ = layers.revision();
   const sim::CanvasDescription size = layers.description();
   if (size.width != run_.canvas.width || size.height != run_.canvas.height) {
@@ -52,6 +56,7 @@ void ReplayBuilder::add_layers(const sim::LayerStack& layers) {
     if (std::ranges::find(layer_ids_, info.id) != layer_ids_.end()) continue;
     layer_ids_.push_back(info.id);
     cells_.push_back(blank);
+    raw_cells_.emplace_back();
     run_.layers.push_back({.name = info.style.name,
                            .colour = info.style.colour,
                            .visible = info.style.visible,
@@ -61,11 +66,16 @@ void ReplayBuilder::add_layers(const sim::LayerStack& layers) {
   }
   for (std::size_t i = 0; i < layer_ids_.size(); ++i) {
     // A layer that was removed is blank from now on.
-    std::vector<std::uint8_t> now =
-        layers.contains(layer_ids_[i]) ? layers.picture(layer_ids_[i]) : blank;
+    const bool exists = layers.contains(layer_ids_[i]);
+    if (exists) {
+      const std::span<const std::uint8_t> raw = layers.bytes(layer_ids_[i]);
+      if (same_styles && std::ranges::equal(raw, raw_cells_[i])) continue;
+      raw_cells_[i].assign(raw.begin(), raw.end());
+    }
+    std::vector<std::uint8_t> now = exists ? layers.picture(layer_ids_[i]) : blank;
     std::vector<CellRun> runs = cell_runs(cells_[i], now);
     if (runs.empty()) continue;
-    run_.layers[i].changes.push_back({run_.frames_ns.back(), std::move(runs)});
+    run_.layers[i].changes.push_back({now_ns, std::move(runs)});
     cells_[i] = std::move(now);
   }
 }
@@ -91,6 +101,7 @@ void ReplayBuilder::set_layers(std::vector<LayerLog> layers) {
   options_.watch_layers = false;
   layer_ids_.clear();
   cells_.clear();
+  raw_cells_.clear();
   run_.layers = std::move(layers);
 }
 

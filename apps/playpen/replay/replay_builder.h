@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -82,10 +83,10 @@ class ReplayBuilder {
   std::uint64_t events_ = 0;             ///< number of the newest arena event so far
   std::size_t spoken_ = 0;               ///< length of the simulation's list at the last call
   std::vector<sim::LayerId> layer_ids_;  ///< of ReplayRun::layers
-  std::vector<std::vector<std::uint8_t>> cells_;  ///< their pictures at the last frame
-  std::uint64_t layers_version_ = 0;
+  std::vector<std::vector<std::uint8_t>> cells_;      ///< their pictures at the last frame
+  std::vector<std::vector<std::uint8_t>> raw_cells_;  ///< and their cells
   std::uint64_t layers_revision_ = 0;
-  bool seen_layers_ = false;
+  std::optional<sim::SimTime> layers_ns_;  ///< when they were looked at last
   bool observed_ = false;
   sim::SimTime last_ns_ = 0;
 };

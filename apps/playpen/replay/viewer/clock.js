@@ -2,7 +2,7 @@
 // The time that the page shows, and its playback.
 "use strict";
 
-const Clocks = (() => {
+const Clocks = (function () {
   const kSpeeds = [0.25, 0.5, 1, 2, 4, 8, 16];
 
   class Clock {

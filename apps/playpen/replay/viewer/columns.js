@@ -3,7 +3,7 @@
 // describes the columns.
 "use strict";
 
-const Columns = (() => {
+const Columns = (function () {
   function bytesOfBase64(text) {
     const raw = atob(text.trim());
     const bytes = new Uint8Array(raw.length);

@@ -3,7 +3,7 @@
 // moment is a few changes away.
 "use strict";
 
-const Layers = (() => {
+const Layers = (function () {
   const kMostKeyframeBytes = 96e6; // of a layer
   const kRunCost = 8; // of a run of cells, besides its cells
 

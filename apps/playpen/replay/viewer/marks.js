@@ -3,7 +3,7 @@
 // events, texts and names.
 "use strict";
 
-const Marks = (() => {
+const Marks = (function () {
   const {colour, mix, luma, pathOf, fill, stroke, shadow, outlineOf} = Scene;
   const {disc, ring, line, markedRadius} = Robots;
   const kShownEvent = 1; // how long an event is shown [s]

@@ -2,15 +2,20 @@
 // Puts the page together.
 "use strict";
 
-const Page = (() => {
+const Page = (function () {
   const {element, setText, showLines} = Panels;
   const byId = (id) => document.getElementById(id);
   const kTrails = {whole: 1e9, short: 10, off: 0};
   const kPanelPeriod = 100; // between updates of the panel during a playback [ms]
 
-  const state = {runs: [], stages: [], clock: null, panel: null, dirty: true, over: false,
-    panelAt: 0, options: {trail: 1e9, scans: true, names: true, scale: true, selected: -1,
-      layers: [], paper: null}};
+  const state = {
+    runs: [], stages: [], clock: null, panel: null, over: false,
+    dirty: true, // the picture is out of date
+    panelAt: 0, // when the panel was updated last, by the browser's clock [ms]
+    lastHappening: null, // the newest item of the list that is in the past
+    options: {trail: kTrails.whole, scans: true, names: true, scale: true, selected: -1, layers: [],
+      paper: null},
+  };
 
   function changed() {
     state.dirty = true;
@@ -101,8 +106,6 @@ const Page = (() => {
       if (!clock.playing || now - state.panelAt > kPanelPeriod) {
         state.panelAt = now;
         showTexts();
-      } else {
-        state.panelLate = true;
       }
       if (resized) drawScrubber();
     }
@@ -123,11 +126,20 @@ const Page = (() => {
   function showTexts() {
     const t = state.clock.t;
     state.panel.update(t);
-    const lines = [].concat(...state.runs.map((run) => run.outputBefore(t, Panels.kShownLines)));
+    const lines = [].concat(...state.runs.map((run) => run.outputBefore(t, Panels.kShownLines)
+      .map((line) => Object.assign({}, line, {text: namedIfSeveral(run, line.text)}))));
     lines.sort((a, b) => a.t - b.t);
     showLines(byId("output"), lines.slice(-Panels.kShownLines), "nothing so far");
-    for (const item of byId("happenings").children) {
-      item.classList.toggle("past", Number(item.dataset.t) <= t + 1e-9);
+    const list = byId("happenings");
+    let last = null;
+    for (const item of list.children) {
+      const past = Number(item.dataset.t) <= t + 1e-9;
+      item.classList.toggle("past", past);
+      if (past) last = item;
+    }
+    if (last !== state.lastHappening) {
+      state.lastHappening = last;
+      list.scrollTop = last === null ? 0 : last.offsetTop - list.offsetTop - list.clientHeight / 2;
     }
   }
 
@@ -147,8 +159,9 @@ const Page = (() => {
     const box = byId("layers");
     const tapes = state.runs[0].layers;
     state.options.layers = tapes.map((tape) => tape.visible);
-    byId("layer-box").hidden = tapes.length === 0;
-    tapes.map((tape, i) => i).sort((a, b) => tapes[b].priority - tapes[a].priority || b - a)
+    const drawn = tapes.map((tape, i) => i).filter((i) => tapes[i].times.length > 0);
+    byId("layer-box").hidden = drawn.length === 0;
+    drawn.sort((a, b) => tapes[b].priority - tapes[a].priority || b - a)
       .forEach((i) => {
         const tape = tapes[i];
         const label = box.appendChild(element("label", "layer"));
@@ -174,17 +187,21 @@ const Page = (() => {
 
   function makeHappenings() {
     const list = byId("happenings");
-    for (const run of state.runs) {
-      for (const one of run.happenings()) {
-        const item = list.appendChild(element("li", one.kind));
-        item.dataset.t = String(one.t);
-        const link = item.appendChild(element("button", "", ""));
-        link.type = "button";
-        link.appendChild(element("span", "time", one.t.toFixed(2)));
-        link.appendChild(element("bdi", "", (state.runs.length > 1 ? run.name + ": " : "") + one.text));
-        link.addEventListener("click", () => state.clock.seek(one.t));
-      }
+    const all = [].concat(...state.runs.map((run) => run.happenings().map((one) =>
+      Object.assign(one, {text: namedIfSeveral(run, one.text)}))));
+    for (const one of all.sort((a, b) => a.t - b.t)) {
+      const item = list.appendChild(element("li", one.kind));
+      item.dataset.t = String(one.t);
+      const link = item.appendChild(element("button"));
+      link.type = "button";
+      link.appendChild(element("span", "time", one.t.toFixed(2)));
+      link.appendChild(element("bdi", "", one.text));
+      link.addEventListener("click", () => state.clock.seek(one.t));
     }
+  }
+
+  function namedIfSeveral(run, text) {
+    return state.runs.length > 1 ? run.name + ": " + text : text;
   }
 
   function makeControls() {
@@ -322,8 +339,8 @@ const Page = (() => {
     for (const run of state.runs) {
       if (run.verdict) {
         byId("verdict").appendChild(element("span", run.verdict.passed ? "passed" : "failed",
-          (state.runs.length > 1 ? run.name + ": " : "") + (run.verdict.passed ? "passed" : "failed") +
-          (run.verdict.reason ? ": " + run.verdict.reason : "")));
+          namedIfSeveral(run, (run.verdict.passed ? "passed" : "failed") +
+          (run.verdict.reason ? ": " + run.verdict.reason : ""))));
       }
     }
     const notes = [].concat(...state.runs.map((run) => run.notes), thinned ? [thinned] : []);

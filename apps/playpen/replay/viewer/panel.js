@@ -3,7 +3,7 @@
 // Texts of the run become text nodes only.
 "use strict";
 
-const Panels = (() => {
+const Panels = (function () {
   const kShownCommands = 8;
   const kShownLines = 12;
   const kShownNumbers = 16; // of a list
@@ -131,6 +131,7 @@ const Panels = (() => {
         numbers ? {times: run.frames, numbers} : null, run.end)}));
       this.node.appendChild(element("h3", "", "Devices"));
       const devices = run.devices.filter((device) => device.robot === robot)
+        .sort((a, b) => (b.times.length > 0) - (a.times.length > 0))
         .map((device) => new DeviceView(device, run.end));
       devices.forEach((view) => this.node.appendChild(view.node));
       if (devices.length === 0) this.node.appendChild(element("p", "note", "none"));

@@ -2,7 +2,7 @@
 // Small plots of numbers over time.
 "use strict";
 
-const Plots = (() => {
+const Plots = (function () {
   // At most four significant digits.
   function shortNumber(value) {
     if (!Number.isFinite(value)) return "–";

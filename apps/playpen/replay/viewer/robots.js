@@ -3,7 +3,7 @@
 // libsim/src/render/robot_painter.cpp does.
 "use strict";
 
-const Robots = (() => {
+const Robots = (function () {
   const {colour, mix, luma, withAlpha, pathOf, fill, stroke, shadow, place} = Scene;
   const kMostFans = 20; // with more, fans are short
   const kShades = 24; // of a trail

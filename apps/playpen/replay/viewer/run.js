@@ -3,12 +3,12 @@
 // Times are in seconds, lengths in m, angles in rad.
 "use strict";
 
-const Runs = (() => {
+const Runs = (function () {
   const kPlace = 1e-4;
   const kAngle = Math.PI / 18000;
   const kMicrosecond = 1e-6;
   const kNoNumber = -2147483648;
-  const kFarJump = 0.5; // a robot that moves farther between two frames was placed [m]
+  const kJump = 0.3; // a robot that moves so much farther than at twice its speed was placed [m]
 
   // Numbers in a typed array that grows, times a unit.
   class Numbers {
@@ -110,8 +110,10 @@ const Runs = (() => {
     at(t) {
       const i = Math.max(this.frames.before(t), 0);
       const k = Math.min(i + 1, this.frames.length - 1);
-      const jump = Math.hypot(this.x.at(k) - this.x.at(i), this.y.at(k) - this.y.at(i));
-      const share = jump > kFarJump ? 0 : this.frames.share(i, t);
+      const way = Math.hypot(this.x.at(k) - this.x.at(i), this.y.at(k) - this.y.at(i));
+      const speed = (n) => Math.hypot(this.v.at(n), this.side.at(n));
+      const most = kJump + 2 * Math.max(speed(i), speed(k)) * (this.frames.at(k) - this.frames.at(i));
+      const share = way > most ? 0 : this.frames.share(i, t);
       const mix = (numbers) => numbers.at(i) + (numbers.at(k) - numbers.at(i)) * share;
       return {x: mix(this.x), y: mix(this.y), a: mix(this.a), v: mix(this.v),
         side: mix(this.side), w: mix(this.w), stalled: this.stalled.at(i) === 1};

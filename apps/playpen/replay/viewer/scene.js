@@ -3,7 +3,7 @@
 // the same palette (sim/render/palette.h), inside the page's data.
 "use strict";
 
-const Scene = (() => {
+const Scene = (function () {
   let palette = {};
   function setPalette(colours) {
     palette = colours;

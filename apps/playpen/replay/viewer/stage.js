@@ -2,7 +2,7 @@
 // A picture of a run, or of two runs over each other, on a canvas that can be moved and zoomed.
 "use strict";
 
-const Stages = (() => {
+const Stages = (function () {
   // An off-screen picture that is drawn again only when its key changes.
   class Cache {
     constructor() {

@@ -3,7 +3,7 @@
 // m, x right, y up.
 "use strict";
 
-const Views = (() => {
+const Views = (function () {
   class View {
     constructor() {
       this.width = 1;
