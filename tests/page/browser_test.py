@@ -236,7 +236,10 @@ def look_at(sample, world, folder):
         check_labels(browser)
         check_moments(browser, end)
         check_controls(browser, end)
-        assert browser.run("return document.querySelectorAll('#panel tr').length") > 4
+        browser.run("""const robot = document.getElementById("robot");
+            robot.value = "0";
+            robot.dispatchEvent(new Event("change"));""")
+        browser.wait("return document.querySelectorAll('#panel tr').length > 4")
         assert "<b>of</b>" in browser.run("return document.getElementById('output').textContent")
         assert browser.run("return document.querySelectorAll('#output b').length") == 0
         browser.screenshot(folder / "wide.png")

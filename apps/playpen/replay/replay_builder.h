@@ -17,7 +17,7 @@ namespace playpen::replay {
 
 /// What a ReplayBuilder records.
 struct ReplayOptions {
-  std::string name;             ///< of the run, for people; "": the world's
+  std::string name = {};        ///< of the run, for people; "": the world's
   double frame_rate_hz = 20.0;  ///< poses per simulated second, > 0
   bool watch_layers = true;     ///< records the visible layers of the simulation itself; false:
                                 ///< only those of set_layers()

@@ -123,7 +123,8 @@ const Stages = (function () {
           for (const other of others) {
             other.robots.forEach((one) => Robots.drawTrail(ctx, view, one, t, options.trail, 0.6));
           }
-          run.robots.forEach((one) => Robots.drawTrail(ctx, view, one, t, options.trail));
+          run.robots.forEach((one) => Robots.drawTrail(ctx, view, one, t, options.trail,
+            1 - 0.9 * this.colouredShare(one, t, options)));
         }
         Marks.drawTraps(ctx, view, run, t);
       });
@@ -170,6 +171,28 @@ const Stages = (function () {
             canvas.height * cell);
         }
       });
+    }
+
+    // The share of a robot's trail that lies on coloured cells, so probably on its own drawing.
+    // White, grey and black are a map.
+    colouredShare(robot, t, options) {
+      const {canvas} = this.runs[0];
+      const last = robot.frames.before(t);
+      const first = Math.max(robot.frames.before(t - options.trail), 0);
+      const step = Math.max(Math.floor((last - first) / 200), 1);
+      const shown = this.layers.filter((layer, i) => options.layers[i]);
+      let points = 0;
+      let coloured = 0;
+      for (let i = first; i <= last; i += step, ++points) {
+        const column = Math.floor((robot.x.at(i) - canvas.origin[0]) / canvas.cell);
+        const row = canvas.height - 1 - Math.floor((robot.y.at(i) - canvas.origin[1]) / canvas.cell);
+        if (column < 0 || row < 0 || column >= canvas.width || row >= canvas.height) continue;
+        const at = 4 * (row * canvas.width + column);
+        coloured += shown.some(({image: {data}}) => data[at + 3] >= 128 &&
+          Math.max(data[at], data[at + 1], data[at + 2]) -
+            Math.min(data[at], data[at + 1], data[at + 2]) >= 60) ? 1 : 0;
+      }
+      return points > 0 ? coloured / points : 0;
     }
 
     // A bar of round length in the lower left corner.
