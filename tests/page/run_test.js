@@ -17,9 +17,10 @@ function robotOf(file) {
   const log = (times, records) => new Runs.ChangeLog(timeline(times),
     records.map((record) => record.length), Int32Array.from([].concat(...records)));
   const zero = () => file.add([0, 0, 0]);
+  const speed = file.add([10000, 10000, 10000]);
   const json = {name: "r", colour: "#ff0000", parts: [[[0.1, 0], [0, 0.1], [-0.3, 0]]], core: [],
     superstructures: [], bumpers: [], lights: [], x: file.add([0, 10000, 50000]), y: zero(),
-    a: file.add([0, 9000, 18000]), v: file.add([10000, 10000, 10000]), side: zero(), w: zero(), stalled: file.add([0, 1, 0]),
+    a: file.add([0, 9000, 18000]), v: speed, side: zero(), w: zero(), stalled: file.add([0, 1, 0]),
     looks: null};
   // Two bumpers, the second pressed; no lights; a paddle of two points; no arms.
   const looks = log([0, 1], [[2, 0, 1, 0, 1, 2, 100, 0, 0, -200, 0], [0, 0, 0, 0]]);
