@@ -443,7 +443,9 @@ class RunEncoder {
 }  // namespace
 
 std::string Thinning::text() const {
-  const auto every = [](std::size_t stride) { return "every " + std::to_string(stride) + "th "; };
+  const auto every = [](std::size_t stride) {
+    return "every " + (stride == 2 ? "second" : std::to_string(stride) + "th") + ' ';
+  };
   std::string kept;
   const auto add = [&](const std::string& words) { kept += (kept.empty() ? "" : "; ") + words; };
   if (scans == 0) {

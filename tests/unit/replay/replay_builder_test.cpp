@@ -272,7 +272,7 @@ TEST(ReplayEncoder, ThinningKeepsEveryNth) {
   const json thin = head_of(encoded({run}, {.beams = 2, .scans = 2, .samples = 4}));
   EXPECT_EQ(whole["thinned"], "");
   EXPECT_THAT(thin["thinned"].get<std::string>(),
-              AllOf(HasSubstr("2th laser beam"), HasSubstr("4th pose")));
+              AllOf(HasSubstr("every second laser beam"), HasSubstr("4th pose")));
   const auto count = [](const json& head, const json& column) {
     return head["columns"][column.get<std::size_t>()][1].get<std::size_t>();
   };

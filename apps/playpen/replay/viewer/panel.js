@@ -84,9 +84,9 @@ const Panels = (function () {
           row.update(numbers.length === 0 ? "–"
             : Plots.shortNumber(Math.min(...numbers)) + " " + list.unit, t);
           const step = Math.max(Math.ceil(numbers.length / kShownNumbers), 1);
-          setText(all, numbers.length + " numbers" + (step > 1 ? ", every " + step + "th" : "") + ": " +
-            numbers.filter((number, k) => k % step === 0).map((number) =>
-              Plots.shortNumber(number)).join(" "));
+          const shown = numbers.filter((number, k) => k % step === 0);
+          setText(all, (step > 1 ? shown.length + " of " : "") + numbers.length + " numbers: " +
+            shown.map(Plots.shortNumber).join(" "));
         });
       }
     }

@@ -33,10 +33,13 @@ const Stages = (function () {
       this.canvas.height = tape.height;
       this.ctx = this.canvas.getContext("2d");
       this.image = new ImageData(new Uint8ClampedArray(tape.cells.buffer), tape.width, tape.height);
+      this.isNew = true; // and shows nothing yet
     }
 
     seek(t) {
-      const rows = this.tape.seek(t);
+      let rows = this.tape.seek(t);
+      if (this.isNew) rows = [0, this.tape.height];
+      this.isNew = false;
       if (rows === null) return;
       this.ctx.putImageData(this.image, 0, 0, 0, rows[0], this.tape.width, rows[1] - rows[0]);
     }
