@@ -205,7 +205,7 @@ def check_picture(browser, folder):
     place = json.loads((folder / "scene.json").read_text())
     url = browser.run("""
         const place = arguments[0];
-        const options = Object.assign({}, Page.state.options, {selected: -1, scale: false, paper: null});
+        const options = Object.assign({}, Page.state.options, {selected: -1, frame: false, paper: null});
         return Page.state.stages[0].picture(place.size, place.size,
           {x: place.x, y: place.y, scale: place.scale}, place.end, options);""", place)
     png = base64.b64decode(url.split(",", 1)[1])

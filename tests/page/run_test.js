@@ -38,7 +38,83 @@ function tapeOf(changes, size = {width: 3, height: 2}) {
     palette: [0, 0xff0000ff, 0x00ff00ff]}, size, (index) => file.column(index));
 }
 
+// A run of 2 s with a robot, a laser of three beams, a text, and commands.
+function runOf() {
+  const file = new FakeFile();
+  const times = (...seconds) => file.add(seconds.map((t) => t * 1e6), true);
+  const none = () => ({t: times(), n: file.add([]), v: file.add([])});
+  const zero = () => file.add([0, 0, 0]);
+  const device = (name, more) => Object.assign({robot: 0, name, type: name, t: times(), series: [],
+    lists: []}, more);
+  const json = {name: "one", world: "room", notes: [], end: 2e6, canvas: {width: 2, height: 2},
+    arena: {origin: [0, 0], size: [2, 1], walls: {n: file.add([3]), solid: file.add([1]),
+      xy: file.add([0, 0, 10000, 0, 0, 10000])}},
+    frames: times(0, 1, 2), tracks: [], traps: [], trap_states: none(), scores: none(),
+    timers: ["gate"], timer_dues: {t: times(0, 1.5), n: file.add([1, 1]), v: file.add([1500, -1])},
+    robots: [{name: "r1", colour: "#ff0000", parts: [[[0.1, 0]]], core: [], superstructures: [],
+      bumpers: [], lights: [], x: zero(), y: zero(), a: zero(), v: zero(), side: zero(), w: zero(),
+      stalled: zero(), looks: none()}],
+    obstacles: [{name: "block", shape: "box", outline: [], size: [1, 1], height: 160, dynamic: true,
+      log: {t: times(0, 1, 2), n: file.add([9, 9, 9]), v: file.add([0, 0, 0, 1, 1, 0, 0, -1, -1,
+        10000, 0, 0, 1, 1, 160, 2, -1, -1, 10000, 0, 0, 1, 1, 160, 1, -1, 0x0102ff])}}],
+    devices: [device("laser", {t: times(0.5, 1.5), lists: [{name: "ranges", unit: "m", scale: 1e-3,
+      n: file.add([3, 3]), v: file.add([1000, 2000, 3000, 500, 500, 500])}],
+    beams: {mounts: [[0.1, 0, 0]], first: -Math.PI / 2, step: Math.PI / 2, cone: 0, most: [4],
+      x: file.add([10000, 10000]), y: file.add([0, 0]), a: file.add([9000, 9000])}}),
+    device("motion", {})],
+    collisions: [{t: 1e6, robot: 0, partner: "border", place: [0, 0]}], events: [], texts: [],
+    spoken: [{t: 0.5e6, robot: 0, text: "<b>"}],
+    goals: [{t: 0, robot: 0, place: [1, 1], reached: 1.5e6}, {t: 0, robot: 0, place: [2, 2],
+      reached: null}],
+    commands: {t: times(0, 0.2, 0.4), device: file.add([1, 1, 1]), text: file.add([0, 1, 0]),
+      texts: ["go", "stop"]},
+    output: [[0, "a", 0], [1e6, "b", 1], [1e6, "c", 0]], layers: []};
+  return new Runs.Run(json, file);
+}
+
 run({
+  readsWalls() {
+    assert.deepStrictEqual(JSON.parse(JSON.stringify(runOf().walls)),
+      [{solid: true, points: [[0, 0], [1, 0], [0, 1]]}]);
+  },
+  scansLieInTheWorld() {
+    const laser = runOf().devices[0];
+    assert.strictEqual(laser.measuredAt(0.4), null);
+    // The robot is at (1, 0) and looks along y; the laser is 0.1 m ahead. Beams: right, ahead, left.
+    const {origin, ends} = laser.measuredAt(1);
+    close(origin[1], 0.1);
+    close(ends[0][0], 2);
+    close(ends[1][1], 2.1);
+    close(ends[2][0], -2);
+    close(laser.measuredAt(1.5).ends[1][1], 0.6);
+  },
+  commandsAndLinesUntilATime() {
+    const one = runOf();
+    assert.deepStrictEqual(Array.from(one.commandsBefore(0, 0.3, 8), (command) => command.text),
+      ["stop", "go"]);
+    assert.deepStrictEqual(Array.from(one.commandsBefore(0, 9, 1), (command) => command.t.toFixed(2)),
+      ["0.40"]);
+    assert.strictEqual(one.commandsBefore(7, 9, 1).length, 0);
+    assert.deepStrictEqual(Array.from(one.outputBefore(1, 2), (line) => line.text), ["b", "c"]);
+    assert.deepStrictEqual(Array.from(one.outputBefore(0.5, 2), (line) => line.text), ["a"]);
+  },
+  happeningsAreInOrder() {
+    assert.deepStrictEqual(Array.from(runOf().happenings(), (one) => one.t + " " + one.text),
+      ["0.5 r1 says: <b>", "1 r1 collides with border", "1.5 r1 reaches its goal", "2 end of the run"]);
+  },
+  countdownsEnd() {
+    const left = (t) => Array.from(runOf().countdownsAt(t), (timer) => timer.left.toFixed(2));
+    assert.deepStrictEqual([left(0), left(1.25), left(1.5)], [["1.50"], ["0.25"], []]);
+  },
+  obstaclesMoveBetweenFrames() {
+    const block = runOf().obstacles[0];
+    close(block.at(0.5).x, 0.5);
+    assert.strictEqual(block.at(0.5).state, "standing");
+    assert.strictEqual(block.at(1.2).state, "rising");
+    assert.strictEqual(block.at(2).state, "retracted");
+    assert.strictEqual(block.at(2).colour, "#000102");
+    assert.strictEqual(block.at(1).colour, null);
+  },
   findsTheLastTime() {
     const times = timeline([0, 0.05, 0.1]);
     assert.deepStrictEqual([-0.01, 0, 0.049, 0.05, 7].map((t) => times.before(t)), [-1, 0, 0, 1, 2]);

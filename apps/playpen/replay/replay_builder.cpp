@@ -176,6 +176,7 @@ ReplayBuilder::ReplayBuilder(const sim::Simulation& simulation, ReplayOptions op
   const sim::SceneSnapshot scene = simulation.snapshot(false);
   run_.tracks = scene.tracks;
   run_.traps = scene.traps;
+  for (const sim::TimerMark& timer : scene.timers) run_.timers.push_back(timer.name);
   for (int robot = 0; robot < simulation.robot_count(); ++robot) {
     RobotLog& log = run_.robots.emplace_back();
     log.start = simulation.robot_snapshot(robot);
@@ -253,6 +254,12 @@ void ReplayBuilder::add_controller(const sim::Simulation& simulation) {
     states.push_back(!trap.enabled ? 0 : trap.robots.empty() ? 1 : 2);
   }
   if (!states.empty()) run_.trap_states.note(now_ns, states);
+  std::vector<std::int64_t> dues;
+  for (const sim::TimerMark& timer : scene.timers) {
+    const double due_s = sim::to_seconds(now_ns) + timer.time_left_s.value_or(0.0);
+    dues.push_back(timer.time_left_s ? quantised(due_s, 1e-3) : -1);
+  }
+  if (!dues.empty()) run_.timer_dues.note(now_ns, dues);
   std::vector<std::int64_t> points;
   for (const double score : scene.scores) points.push_back(quantised(score, 1e-3));
   if (!points.empty()) run_.scores.note(now_ns, points);

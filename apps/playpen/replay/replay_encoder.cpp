@@ -360,6 +360,8 @@ class RunEncoder {
                               {"radius", trap.radius_m}});
     }
     out["trap_states"] = of(run_.trap_states);
+    out["timers"] = run_.timers;
+    out["timer_dues"] = of(run_.timer_dues);
     out["scores"] = of(run_.scores);
     if (run_.verdict) {
       out["verdict"] = {{"passed", run_.verdict->passed},

@@ -159,6 +159,8 @@ struct ReplayRun {
   std::vector<sim::SpokenText> spoken;
   std::vector<sim::TrapMark> traps;  ///< at the start
   ChangeLog trap_states;             ///< of each trap: 0 off, 1 on, 2 on with a robot inside
+  std::vector<std::string> timers;   ///< names of the arena controller's timers
+  ChangeLog timer_dues;              ///< of each timer: when it acts next [ms], or -1: it does not
   ChangeLog scores;                  ///< of each robot, in thousandths of a point
   std::vector<TextNote> texts;
   std::optional<sim::Verdict> verdict;

@@ -7,6 +7,7 @@ const Marks = (function () {
   const {colour, mix, luma, pathOf, fill, stroke, shadow, outlineOf} = Scene;
   const {disc, ring, line, markedRadius} = Robots;
   const kShownEvent = 1; // how long an event is shown [s]
+  const kMostCountdowns = 6;
 
   function moverColour(obstacle, now) {
     return now.colour || colour(obstacle.pushable ? "crate" : obstacle.movable ? "driven" : "dynamic");
@@ -236,6 +237,14 @@ const Marks = (function () {
     });
   }
 
+  // The next timers, in the upper right corner.
+  function drawCountdowns(ctx, view, run, t) {
+    run.countdownsAt(t).sort((a, b) => a.left - b.left).slice(0, kMostCountdowns).forEach((timer, i) => {
+      label(ctx, view, timer.name + " " + timer.left.toFixed(1) + " s", [view.width - 12, 18 + 20 * i], 15,
+        colour("trap"), "right");
+    });
+  }
+
   function drawBubble(ctx, view, text, center, away, style) {
     const words = text.length > 60 ? text.slice(0, 59) + "…" : text;
     ctx.font = Math.max(15 * view.unit, 11) + "px system-ui, sans-serif";
@@ -254,5 +263,5 @@ const Marks = (function () {
   }
 
   return {drawTracks, drawMovers, drawMovingBlocks, drawTraps, drawGoals, drawCollisions, drawEvents,
-    drawTexts};
+    drawTexts, drawCountdowns};
 })();

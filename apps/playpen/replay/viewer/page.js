@@ -13,7 +13,7 @@ const Page = (function () {
     dirty: true, // the picture is out of date
     panelAt: 0, // when the panel was updated last, by the browser's clock [ms]
     lastHappening: null, // the newest item of the list that is in the past
-    options: {trail: kTrails.whole, scans: true, names: true, scale: true, selected: -1, layers: [],
+    options: {trail: kTrails.whole, scans: true, names: true, frame: true, selected: -1, layers: [],
       paper: null},
   };
 

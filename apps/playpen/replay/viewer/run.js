@@ -268,6 +268,8 @@ const Runs = (function () {
       }
       this.traps = json.traps;
       this.trapStates = log(json.trap_states);
+      this.timers = json.timers;
+      this.timerDues = log(json.timer_dues);
       this.scores = log(json.scores);
       this.verdict = json.verdict || null;
       this.commands = {times: new Timeline(column(json.commands.t)),
@@ -298,6 +300,13 @@ const Runs = (function () {
       return own.slice(Math.max(low - most, 0), low).reverse().map((i) => ({
         t: this.commands.times.at(i), device: this.devices[this.commands.device[i]].name,
         text: this.commands.texts[this.commands.text[i]]}));
+    }
+
+    // Countdowns of the arena controller's timers at t: {name, left}.
+    countdownsAt(t) {
+      const dues = this.timerDues.at(t) || [];
+      return this.timers.map((name, i) => ({name, left: dues[i] * 1e-3 - t}))
+        .filter((timer) => timer.left >= 0);
     }
 
     // The last `most` printed lines before t, oldest first.

@@ -79,6 +79,8 @@ const Stages = (function () {
       this.view.fit(arena.origin, arena.size, margin);
     }
 
+    // @param options  trail [s], scans, names, selected, layers, paper; frame: whether to draw what
+    //     lies beside the arena: scale and countdowns.
     draw(t, options) {
       const ratio = this.canvas.width / Math.max(this.view.width, 1);
       this.drawOn(this.canvas.getContext("2d"), ratio, t, options);
@@ -144,7 +146,9 @@ const Stages = (function () {
       Marks.drawCollisions(ctx, view, run, t);
       Marks.drawEvents(ctx, view, run, blocks, t);
       Marks.drawTexts(ctx, view, run, t, options);
-      if (options.scale) this.drawScale(ctx);
+      if (!options.frame) return;
+      Marks.drawCountdowns(ctx, view, run, t);
+      this.drawScale(ctx);
     }
 
     // Without borders, scans and trails may extend beyond the floor.
