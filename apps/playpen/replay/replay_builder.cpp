@@ -18,10 +18,6 @@
 namespace playpen::replay {
 namespace {
 
-constexpr double kPlaceUnit_m = 1e-4;
-constexpr double kRangeUnit = 1e-3;
-constexpr double kDegree_rad = 0.017453292519943295;
-constexpr double kAngleUnit_rad = 0.01 * kDegree_rad;
 constexpr std::size_t kMostSeries = 64;  // of a device
 constexpr std::int64_t kGreatestRange = 65535;
 

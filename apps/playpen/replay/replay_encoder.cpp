@@ -19,17 +19,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kPlace_m = 1e-4;
-constexpr double kAngle_rad = 0.01 * std::numbers::pi / 180.0;
-constexpr double kRange = 1e-3;
-
 json text_json(sim::Colour colour) { return to_string(colour); }
 
 json polygon_json(const std::vector<sim::Vec2>& points) {
   json all = json::array();
   for (const sim::Vec2& p : points) {
-    all.push_back({static_cast<double>(quantised(p.x(), kPlace_m)) * kPlace_m,
-                   static_cast<double>(quantised(p.y(), kPlace_m)) * kPlace_m});
+    all.push_back({static_cast<double>(quantised(p.x(), kPlaceUnit_m)) * kPlaceUnit_m,
+                   static_cast<double>(quantised(p.y(), kPlaceUnit_m)) * kPlaceUnit_m});
   }
   return all;
 }
@@ -119,7 +115,7 @@ class RunEncoder {
     double turned_rad = 0.0;
     for (const std::size_t i : kept) {
       turned_rad += std::remainder(poses[i].yaw_rad - turned_rad, 2.0 * std::numbers::pi);
-      values.push_back(quantised(turned_rad, kAngle_rad));
+      values.push_back(quantised(turned_rad, kAngleUnit_rad));
     }
     return columns_.add(values);
   }
@@ -155,8 +151,8 @@ class RunEncoder {
       lengths.push_back(static_cast<std::int64_t>(loop.vertices.size()));
       solid.push_back(loop.solid ? 1 : 0);
       for (const sim::Vec2& p : loop.vertices) {
-        points.push_back(quantised(p.x(), kPlace_m));
-        points.push_back(quantised(p.y(), kPlace_m));
+        points.push_back(quantised(p.x(), kPlaceUnit_m));
+        points.push_back(quantised(p.y(), kPlaceUnit_m));
       }
     }
     out["walls"] = {{"n", columns_.add(lengths)},
@@ -200,16 +196,17 @@ class RunEncoder {
         {"bumpers", bumpers},
         {"lights", lights},
         {"x", column(robot.X_WB, frames_,
-                     [](const sim::Pose& p) { return quantised(p.x_m, kPlace_m); })},
+                     [](const sim::Pose& p) { return quantised(p.x_m, kPlaceUnit_m); })},
         {"y", column(robot.X_WB, frames_,
-                     [](const sim::Pose& p) { return quantised(p.y_m, kPlace_m); })},
+                     [](const sim::Pose& p) { return quantised(p.y_m, kPlaceUnit_m); })},
         {"a", headings(robot.X_WB, frames_)},
         {"v", column(robot.twists, frames_,
-                     [](const sim::Twist& t) { return quantised(t.v_mps, kPlace_m); })},
-        {"side", column(robot.twists, frames_,
-                        [](const sim::Twist& t) { return quantised(t.lateral_mps, kPlace_m); })},
+                     [](const sim::Twist& t) { return quantised(t.v_mps, kPlaceUnit_m); })},
+        {"side",
+         column(robot.twists, frames_,
+                [](const sim::Twist& t) { return quantised(t.lateral_mps, kPlaceUnit_m); })},
         {"w", column(robot.twists, frames_,
-                     [](const sim::Twist& t) { return quantised(t.omega_radps, kAngle_rad); })},
+                     [](const sim::Twist& t) { return quantised(t.omega_radps, kAngleUnit_rad); })},
         {"stalled", column(robot.stalled, frames_, [](std::int64_t s) { return s; })},
         {"looks", of(robot.looks)}};
   }
@@ -223,7 +220,7 @@ class RunEncoder {
                      {"shape", kShapes[static_cast<std::size_t>(one.shape)]},
                      {"outline", polygon_json(one.outline)},
                      {"size", {one.size.x(), one.size.y()}},
-                     {"height", quantised(one.height_m, kRange)},
+                     {"height", quantised(one.height_m, kRangeUnit)},
                      {"dynamic", one.type == sim::ObstacleType::kDynamic},
                      {"solid", one.solid},
                      {"movable", sim::is_movable(one)},
@@ -257,16 +254,17 @@ class RunEncoder {
     for (const sim::Pose& X_BS : device.beams->X_BS) {
       mounts.push_back({X_BS.x_m, X_BS.y_m, X_BS.yaw_rad});
     }
-    out["beams"] = {{"mounts", mounts},
-                    {"first", device.beams->angle_min_rad},
-                    {"step", device.beams->resolution_rad * static_cast<double>(beams)},
-                    {"cone", device.beams->field_of_view_rad},
-                    {"most", device.beams->range_max_m},
-                    {"x", column(device.X_WB, kept,
-                                 [](const sim::Pose& p) { return quantised(p.x_m, kPlace_m); })},
-                    {"y", column(device.X_WB, kept,
-                                 [](const sim::Pose& p) { return quantised(p.y_m, kPlace_m); })},
-                    {"a", headings(device.X_WB, kept)}};
+    out["beams"] = {
+        {"mounts", mounts},
+        {"first", device.beams->angle_min_rad},
+        {"step", device.beams->resolution_rad * static_cast<double>(beams)},
+        {"cone", device.beams->field_of_view_rad},
+        {"most", device.beams->range_max_m},
+        {"x", column(device.X_WB, kept,
+                     [](const sim::Pose& p) { return quantised(p.x_m, kPlaceUnit_m); })},
+        {"y", column(device.X_WB, kept,
+                     [](const sim::Pose& p) { return quantised(p.y_m, kPlaceUnit_m); })},
+        {"a", headings(device.X_WB, kept)}};
     return out;
   }
 
@@ -288,7 +286,7 @@ class RunEncoder {
     }
     return {{"name", list.name},
             {"unit", list.unit},
-            {"scale", kRange},
+            {"scale", kRangeUnit},
             {"n", columns_.add(counts)},
             {"v", columns_.add(values, better_lag(counts, values))}};
   }
@@ -464,8 +462,8 @@ std::string Thinning::text() const {
 
 const std::vector<Thinning>& thinning_steps() {
   static const std::vector<Thinning> kSteps = {
-      {1, 1, 1, true}, {2, 1, 1, true},  {2, 2, 1, true}, {4, 4, 1, true},  {4, 4, 2, true},
-      {8, 8, 4, true}, {8, 16, 8, true}, {1, 0, 8, true}, {1, 0, 16, false}};
+      {1, 1, 1, true}, {2, 1, 1, true}, {2, 2, 1, true},  {4, 2, 1, true}, {4, 4, 1, true},
+      {4, 4, 2, true}, {8, 8, 4, true}, {8, 16, 8, true}, {1, 0, 8, true}, {1, 0, 16, false}};
   return kSteps;
 }
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +21,11 @@
 /// What a replay shows of a run. Plain data; lengths in m, angles in rad, poses in W unless a
 /// comment says otherwise.
 namespace playpen::replay {
+
+/// Units of the whole numbers in change logs and columns.
+inline constexpr double kPlaceUnit_m = 1e-4;                               ///< [m]
+inline constexpr double kAngleUnit_rad = 0.01 * std::numbers::pi / 180.0;  ///< [rad]
+inline constexpr double kRangeUnit = 1e-3;  ///< of ranges and heights [m]
 
 /// Records of whole numbers, each from its time until the next one's.
 class ChangeLog {
@@ -54,7 +59,7 @@ struct ListSeries {
   std::string name;
   std::string unit;
   std::vector<std::int64_t> counts;  ///< of numbers in each reading
-  std::vector<std::int64_t> values;  ///< of all readings, in thousandths of `unit`, at most 65535
+  std::vector<std::int64_t> values;  ///< of all readings, in kRangeUnit times `unit`, at most 65535
                                      ///< of them
 };
 
