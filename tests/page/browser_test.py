@@ -77,6 +77,11 @@ class Browser:
         actions = [{"type": kind, "value": key} for key in text for kind in ("keyDown", "keyUp")]
         self.call("POST", "/actions", {"actions": [{"type": "key", "id": "k", "actions": actions}]})
 
+    def click(self, x, y):
+        self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "p", "actions": [
+            {"type": "pointerMove", "x": x, "y": y}, {"type": "pointerDown", "button": 0},
+            {"type": "pointerUp", "button": 0}]}]})
+
     def messages(self):
         """Errors on the console since the last call, with what the page's policy refused."""
         return [entry["message"] for entry in self.call("POST", "/se/log", {"type": "browser"})
@@ -190,6 +195,10 @@ def check_controls(browser, end):
     assert not state("options.scans")
     browser.keys("sw")
     assert "seconds." in browser.run("return document.getElementById('live').textContent")
+    browser.keys("l")
+    assert browser.run("return Page.state.options.hidden.has('visited')")
+    browser.keys("l")
+    assert not browser.run("return Page.state.options.hidden.has('visited')")
     browser.keys("?")
     assert browser.run("return document.getElementById('help').open")
     browser.keys("\ue00c")  # Escape
@@ -250,6 +259,13 @@ def look_at(sample, world, folder):
         assert browser.run("return Page.state.options.selected") == 0
         browser.open(folder / "two.html", "#t=5")
         assert browser.run("return document.querySelectorAll('#stages canvas').length") == 2
+        # A click on a robot of the second picture shows that robot.
+        where = browser.run("""const {canvas, view, runs} = Page.state.stages[1];
+            const X = runs[0].robots[0].at(Page.state.clock.t);
+            const box = canvas.getBoundingClientRect();
+            return [box.left + view.px(X.x), box.top + view.py(X.y)].map(Math.round);""")
+        browser.click(*where)
+        assert browser.run("return document.getElementById('of-run').textContent") == "in second run"
         browser.run("""const mode = document.getElementById("mode");
             mode.value = "over";
             mode.dispatchEvent(new Event("change"));""")

@@ -9,12 +9,12 @@ const Page = (function () {
   const kPanelPeriod = 100; // between updates of the panel during a playback [ms]
 
   const state = {
-    runs: [], stages: [], clock: null, panel: null, over: false,
+    runs: [], stages: [], clock: null, panel: null, panelRun: null, over: false,
     dirty: true, // the picture is out of date
     panelAt: 0, // when the panel was updated last, by the browser's clock [ms]
     lastHappening: null, // the newest item of the list that is in the past
-    options: {trail: kTrails.whole, scans: true, names: true, frame: true, selected: -1, layers: [],
-      paper: null},
+    options: {trail: kTrails.whole, scans: true, names: true, frame: true, selected: -1,
+      hidden: new Set(), paper: null},
   };
 
   function changed() {
@@ -37,7 +37,7 @@ const Page = (function () {
         figure.appendChild(element("figcaption", "", runs.map((run) => run.name).join(", over it ")));
       }
       const stage = new Stages.Stage(canvas, runs);
-      stage.listen({changed, picked: (robot) => select(robot)}, () => state.clock.t);
+      stage.listen({changed, picked: (robot) => select(robot, runs[0])}, () => state.clock.t);
       return stage;
     });
     changed();
@@ -52,10 +52,13 @@ const Page = (function () {
     changed();
   }
 
-  function select(robot) {
+  // Marks a robot in all pictures, and shows it in the panel. @param run  in which it was picked.
+  function select(robot, run = state.panelRun) {
     state.options.selected = robot;
+    state.panelRun = run;
     byId("robot").value = String(robot);
-    state.panel.show(state.runs[0], robot);
+    state.panel.show(run, robot);
+    setText(byId("of-run"), state.runs.length > 1 && robot >= 0 ? "in " + run.name : "");
     byId("hint").hidden = robot >= 0;
     changed();
   }
@@ -157,19 +160,23 @@ const Page = (function () {
 
   function makeLayers() {
     const box = byId("layers");
-    const tapes = state.runs[0].layers;
-    state.options.layers = tapes.map((tape) => tape.visible);
-    const drawn = tapes.map((tape, i) => i).filter((i) => tapes[i].times.length > 0);
-    byId("layer-box").hidden = drawn.length === 0;
-    drawn.sort((a, b) => tapes[b].priority - tapes[a].priority || b - a)
-      .forEach((i) => {
-        const tape = tapes[i];
+    // Layers of the same name share a switch, also in two runs.
+    const tapes = new Map();
+    for (const tape of [].concat(...state.runs.map((run) => run.layers))) {
+      if (!tape.visible) state.options.hidden.add(tape.name);
+      if (tape.times.length > 0 && !tapes.has(tape.name)) tapes.set(tape.name, tape);
+    }
+    byId("layer-box").hidden = tapes.size === 0;
+    [...tapes.values()].map((tape, i) => ({tape, i}))
+      .sort((a, b) => b.tape.priority - a.tape.priority || b.i - a.i)
+      .forEach(({tape}) => {
         const label = box.appendChild(element("label", "layer"));
         const check = label.appendChild(element("input"));
         check.type = "checkbox";
-        check.checked = tape.visible;
+        check.checked = !state.options.hidden.has(tape.name);
         check.addEventListener("change", () => {
-          state.options.layers[i] = check.checked;
+          if (check.checked) state.options.hidden.delete(tape.name);
+          else state.options.hidden.add(tape.name);
           changed();
         });
         if (!tape.grey) swatch(label, tape.colour.slice(0, 7));
@@ -314,6 +321,7 @@ const Page = (function () {
       const longest = state.runs.reduce((a, b) => (b.end > a.end ? b : a));
       state.clock = new Clocks.Clock(longest.frames, longest.end, changed);
       state.panel = new Panels.Panel(byId("panel"));
+      state.panelRun = state.runs[0];
       makeLayers();
       makeHappenings();
       makeControls();

@@ -118,7 +118,7 @@ const Panels = (function () {
     show(run, robot) {
       this.node.textContent = "";
       this.shown = null;
-      if (robot < 0) return;
+      if (robot < 0 || robot >= run.robots.length) return;
       const one = run.robots[robot];
       const motion = this.node.appendChild(element("table", "motion"));
       const rows = [

@@ -79,7 +79,7 @@ const Stages = (function () {
       this.view.fit(arena.origin, arena.size, margin);
     }
 
-    // @param options  trail [s], scans, names, selected, layers, paper; frame: whether to draw what
+    // @param options  trail [s], scans, names, selected, hidden (names of layers), paper; frame: whether to draw what
     //     lies beside the arena: scale and countdowns.
     draw(t, options) {
       const ratio = this.canvas.width / Math.max(this.view.width, 1);
@@ -115,7 +115,7 @@ const Stages = (function () {
         Scene.drawFloor(to, view, run.arena);
         Scene.drawDocks(to, view, run.arena);
       }));
-      this.drawLayers(ctx, t, options.layers);
+      this.drawLayers(ctx, t, options.hidden);
       Scene.drawRetracted(ctx, view, blocks);
       const scans = Robots.scansAt(run, t);
       this.onFloor(ctx, () => {
@@ -162,7 +162,8 @@ const Stages = (function () {
       ctx.restore();
     }
 
-    drawLayers(ctx, t, shown) {
+    // @param hidden  names of layers.
+    drawLayers(ctx, t, hidden) {
       const {canvas} = this.runs[0];
       const view = this.view;
       const cell = canvas.cell * view.scale;
@@ -172,7 +173,7 @@ const Stages = (function () {
         this.layers[a].tape.priority - this.layers[b].tape.priority || a - b);
       this.onFloor(ctx, () => {
         for (const i of order) {
-          if (!shown[i]) continue;
+          if (hidden.has(this.layers[i].tape.name)) continue;
           this.layers[i].seek(t);
           ctx.drawImage(this.layers[i].canvas, view.px(canvas.origin[0]), top, canvas.width * cell,
             canvas.height * cell);
@@ -187,7 +188,7 @@ const Stages = (function () {
       const last = robot.frames.before(t);
       const first = Math.max(robot.frames.before(t - options.trail), 0);
       const step = Math.max(Math.floor((last - first) / 200), 1);
-      const shown = this.layers.filter((layer, i) => options.layers[i]);
+      const shown = this.layers.filter((layer) => !options.hidden.has(layer.tape.name));
       let points = 0;
       let coloured = 0;
       for (let i = first; i <= last; i += step, ++points) {
