@@ -58,7 +58,8 @@ class Browser:
     def open(self, page, fragment=""):
         self.call("POST", "/url", {"url": "about:blank"})
         self.call("POST", "/url", {"url": page.resolve().as_uri() + fragment})
-        self.wait("return document.body.classList.contains('ready')")
+        self.wait("return document.body.classList.contains('ready') && "
+                  "Page.state.stages.every((stage) => stage.view.width > 1)")  # and drawn
 
     def wait(self, condition):
         """Waits until a script returns true."""

@@ -79,8 +79,8 @@ const Stages = (function () {
       this.view.fit(arena.origin, arena.size, margin);
     }
 
-    // @param options  trail [s], scans, names, selected, hidden (names of layers), paper; frame: whether to draw what
-    //     lies beside the arena: scale and countdowns.
+    // @param options  trail [s], scans, names, selected, hidden (names of layers), paper; frame:
+    //     whether to draw what lies beside the arena, the scale and the countdowns.
     draw(t, options) {
       const ratio = this.canvas.width / Math.max(this.view.width, 1);
       this.drawOn(this.canvas.getContext("2d"), ratio, t, options);
