@@ -18,6 +18,8 @@ Groups (default: build):
           without a screen for the live window, Python, locales with a decimal comma, and, where
           they can be had, MORSE's client library and Boost.Program_options
   lint    clang, its formatter and linter, shellcheck
+  page    Node.js and ESLint, for the scripts of the replay page
+  browser Chromium and its driver, where they can be had, for the nightly test of that page
   doc     Doxygen
   cluster Slurm, GNU parallel and an ssh server, for the nightly test of playpen batch
   package what the target `package` needs to make and check Debian packages
@@ -47,6 +49,9 @@ optional_test_packages=(python3-morse-simulator libboost-program-options-dev)
 cluster_packages=(slurm-wlm=slurmd munge=munged parallel=parallel openssh-server=sshd)
 lint_packages=(
   clang=clang clang-format=clang-format clang-tidy=clang-tidy shellcheck=shellcheck git=git)
+page_packages=(nodejs=node eslint=eslint)
+# Ubuntu has them as snaps only; then the test is skipped.
+optional_browser_packages=(chromium chromium-driver)
 doc_packages=(doxygen=doxygen)
 package_packages=(dpkg-dev=dpkg-shlibdeps file=file lintian=lintian)
 
@@ -107,7 +112,7 @@ for argument in "$@"; do
       usage
       exit 0
       ;;
-    build | test | cluster | lint | doc | package) groups+=("$argument") ;;
+    build | test | cluster | lint | page | browser | doc | package) groups+=("$argument") ;;
     *)
       usage >&2
       fail "unknown argument '$argument'"
@@ -131,6 +136,8 @@ for group in "${groups[@]}"; do
       with_lint=true
       ;;
     cluster) wanted+=("${cluster_packages[@]}") ;;
+    page) wanted+=("${page_packages[@]}") ;;
+    browser) optional+=("${optional_browser_packages[@]}") ;;
     doc) wanted+=("${doc_packages[@]}") ;;
     package) wanted+=("${package_packages[@]}") ;;
   esac

@@ -9,40 +9,11 @@
 #include "render/painter.h"
 #include "sim/core/colour.h"
 #include "sim/core/pose.h"
+#include "sim/render/palette.h"
 #include "sim/render/render.h"
 #include "sim/world/description.h"
 
 namespace sim::render {
-
-/// All colours except those of the robots.
-namespace palette {
-constexpr Colour kPaper{0xf1, 0xef, 0xea};
-constexpr Colour kFloor{0xfc, 0xfb, 0xf8};
-constexpr Colour kGrid{0xe6, 0xe3, 0xdb};
-constexpr Colour kShadow{0x2b, 0x26, 0x20};
-constexpr Colour kBorder{0x8c, 0x5e, 0x3c};
-constexpr Colour kBorderEdge{0x66, 0x42, 0x28};
-constexpr Colour kStatic{0xcd, 0xd1, 0xd6};
-constexpr Colour kStaticEdge{0x97, 0x9d, 0xa6};
-constexpr Colour kDynamic{0xd6, 0x45, 0x41};
-constexpr Colour kDynamicEdge{0x9f, 0x2b, 0x2b};
-constexpr Colour kDriven{0x6d, 0x86, 0xb0};
-constexpr Colour kCrate{0xdb, 0xb5, 0x7c};
-constexpr Colour kWall{0x45, 0x4b, 0x54};
-constexpr Colour kWallEdge{0x2d, 0x31, 0x38};
-constexpr Colour kDock{0xd5, 0xea, 0xe4};
-constexpr Colour kDockInk{0x4f, 0x9a, 0x8b};
-constexpr Colour kInk{0x35, 0x38, 0x3d};
-constexpr Colour kFaintInk{0x7d, 0x7f, 0x82};
-constexpr Colour kHalo{0xff, 0xff, 0xff};
-constexpr Colour kWheel{0x2c, 0x2e, 0x33};
-constexpr Colour kLight{0xff, 0xff, 0xff};
-constexpr Colour kStalled{0xe0, 0x1e, 0x37};
-constexpr Colour kTrap{0x74, 0x42, 0xc8};
-constexpr Colour kAlert{0xd9, 0x7a, 0x06};
-constexpr Colour kPassed{0x2b, 0x8f, 0x57};
-constexpr Colour kFailed{0xc4, 0x27, 0x34};
-}  // namespace palette
 
 /// Linear interpolation from a to b; `share` 1 gives b.
 [[nodiscard]] Colour mix(Colour a, Colour b, double share);

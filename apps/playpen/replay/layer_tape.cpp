@@ -1,0 +1,108 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// The layers of a replay: those of the simulation, watched frame by frame, or given from outside.
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "replay/replay_builder.h"
+
+namespace playpen::replay {
+
+std::vector<CellRun> cell_runs(const std::vector<std::uint8_t>& before,
+                               const std::vector<std::uint8_t>& now) {
+  std::vector<CellRun> runs;
+  const auto colour_at = [](const std::vector<std::uint8_t>& cells, std::size_t i) {
+    return cells[i + 3] == 0 ? sim::Colour{0, 0, 0, 0}
+                             : sim::Colour{cells[i], cells[i + 1], cells[i + 2], cells[i + 3]};
+  };
+  for (std::size_t i = 0; i + 3 < now.size(); i += 4) {
+    if (std::memcmp(&now[i], &before[i], 4) == 0) continue;
+    const sim::Colour colour = colour_at(now, i);
+    if (colour == colour_at(before, i)) continue;
+    const auto cell = static_cast<std::uint32_t>(i / 4);
+    if (!runs.empty() && runs.back().first + runs.back().count == cell &&
+        runs.back().colour == colour) {
+      ++runs.back().count;
+    } else {
+      runs.push_back({cell, 1, colour});
+    }
+  }
+  return runs;
+}
+
+void ReplayBuilder::add_layers(const sim::LayerStack& layers) {
+  // Comparing a huge canvas takes long; of such a one, a picture per second must do.
+  constexpr std::size_t kHugeCells = 4'000'000;
+  const sim::SimTime now_ns = run_.frames_ns.back();
+  if (layers.cell_count() > kHugeCells && layers_ns_ &&
+      now_ns < *layers_ns_ + sim::kNanosecondsPerSecond) {
+    return;
+  }
+  layers_ns_ = now_ns;
+  const bool same_styles = layers.revision() == layers_revision_;
+  layers_revision_ = layers.revision();
+  const sim::CanvasDescription size = layers.description();
+  if (size.width != run_.canvas.width || size.height != run_.canvas.height) {
+    // Cells keep their index in a picture of the first size only.
+    run_.notes.push_back("The canvas changed its size; drawings after that are left out.");
+    options_.watch_layers = false;
+    return;
+  }
+  const std::vector<sim::LayerInfo> infos = layers.layers();
+  const std::vector<std::uint8_t> blank(4 * layers.cell_count(), 0);
+  for (const sim::LayerInfo& info : infos) {
+    if (std::ranges::find(layer_ids_, info.id) != layer_ids_.end()) continue;
+    layer_ids_.push_back(info.id);
+    cells_.push_back(blank);
+    raw_cells_.emplace_back();
+    run_.layers.push_back({.name = info.style.name,
+                           .colour = info.style.colour,
+                           .visible = info.style.visible,
+                           .priority = info.style.priority,
+                           .is_grey = info.kind == sim::LayerKind::kGrey,
+                           .changes = {}});
+  }
+  for (std::size_t i = 0; i < layer_ids_.size(); ++i) {
+    // A layer that was removed is blank from now on.
+    const bool exists = layers.contains(layer_ids_[i]);
+    if (exists) {
+      const std::span<const std::uint8_t> raw = layers.bytes(layer_ids_[i]);
+      if (same_styles && std::ranges::equal(raw, raw_cells_[i])) continue;
+      raw_cells_[i].assign(raw.begin(), raw.end());
+    }
+    std::vector<std::uint8_t> now = exists ? layers.picture(layer_ids_[i]) : blank;
+    std::vector<CellRun> runs = cell_runs(cells_[i], now);
+    if (runs.empty()) continue;
+    run_.layers[i].changes.push_back({now_ns, std::move(runs)});
+    cells_[i] = std::move(now);
+  }
+}
+
+void ReplayBuilder::set_layers(std::vector<LayerLog> layers) {
+  const auto cells = static_cast<std::uint64_t>(run_.canvas.width) *
+                     static_cast<std::uint64_t>(run_.canvas.height);
+  for (const LayerLog& layer : layers) {
+    if (!std::ranges::is_sorted(layer.changes, {}, &LayerChange::time_ns)) {
+      throw std::invalid_argument("the changes of the layer '" + layer.name +
+                                  "' must be in the order of time");
+    }
+    for (const LayerChange& change : layer.changes) {
+      for (const CellRun& run : change.runs) {
+        if (run.count > 0 && std::uint64_t{run.first} + run.count <= cells) continue;
+        throw std::invalid_argument("the layer '" + layer.name + "' has a run of " +
+                                    std::to_string(run.count) + " cells from cell " +
+                                    std::to_string(run.first) +
+                                    "; expected 1 or more cells within " + std::to_string(cells));
+      }
+    }
+  }
+  options_.watch_layers = false;
+  layer_ids_.clear();
+  cells_.clear();
+  raw_cells_.clear();
+  run_.layers = std::move(layers);
+}
+
+}  // namespace playpen::replay

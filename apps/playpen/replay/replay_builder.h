@@ -1,0 +1,99 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "replay/replay_run.h"
+#include "sim/devices/device.h"
+#include "sim/simulation/simulation.h"
+
+namespace playpen::replay {
+
+/// What a ReplayBuilder records.
+struct ReplayOptions {
+  std::string name = {};        ///< of the run, for people; "": the world's
+  double frame_rate_hz = 20.0;  ///< poses per simulated second, > 0
+  bool watch_layers = true;     ///< records the visible layers of the simulation itself; false:
+                                ///< only those of set_layers()
+  std::size_t most_commands = 50000;        ///< further ones are left out, and a note says so
+  std::size_t most_output_bytes = 1 << 20;  ///< of printed text, likewise
+};
+
+/// Records a run for a replay.
+///
+/// The simulation is observed from outside: call observe() for the initial state and after each
+/// step. Between steps, note what the simulation does not keep. Not thread-safe.
+class ReplayBuilder {
+ public:
+  /// Records the world, the robots and the devices as they are now, but no frame yet.
+  /// @throws std::invalid_argument if the options are out of range.
+  explicit ReplayBuilder(const sim::Simulation& simulation, ReplayOptions options = {});
+
+  /// Records what has changed since the last call: the readings of the last step, contacts, events
+  /// and texts in any case; poses, obstacles and layers when a frame is due.
+  /// @param simulation  the one of the constructor, or a continuation with the same world.
+  /// @throws std::invalid_argument if its time is before the last call's, or if it has other
+  /// robots.
+  void observe(const sim::Simulation& simulation);
+
+  /// Notes a command to a device that exists. Equal commands to a device, one after the other, are
+  /// one note.
+  void note_command(sim::SimTime time_ns, sim::Simulation::DeviceId device,
+                    const sim::Command& command);
+  /// Notes what a program printed: a line, or several with line ends between them.
+  void note_output(sim::SimTime time_ns, std::string_view text, bool is_error);
+  /// Notes a goal that no waypoint device has.
+  void note_goal(const GoalNote& goal);
+  /// Replaces the layers: they come from outside. Ends the recording of the simulation's own.
+  /// @throws std::invalid_argument if a run of cells is empty or exceeds the canvas, or if the
+  ///     times of a layer decrease.
+  void set_layers(std::vector<LayerLog> layers);
+
+  /// Ends the recording with the present state as the last frame. The builder is empty then.
+  /// @throws std::invalid_argument as observe().
+  [[nodiscard]] ReplayRun finish(const sim::Simulation& simulation);
+
+ private:
+  void add_frame(const sim::Simulation& simulation);
+  void add_obstacles(const sim::Simulation& simulation);
+  void add_controller(const sim::Simulation& simulation);
+  void add_layers(const sim::LayerStack& layers);
+  void add_reading(const sim::Simulation& simulation, sim::Simulation::DeviceId id);
+  void add_happenings(const sim::Simulation& simulation);
+  void add_goals(const sim::Simulation& simulation);
+
+  ReplayOptions options_;
+  ReplayRun run_;
+  sim::SimTime period_ns_;                   ///< of frames
+  std::vector<std::size_t> first_device_;    ///< of each robot: index in ReplayRun::devices
+  std::vector<sim::Vec2> goal_of_;           ///< of each robot: its newest goal, if it has one
+  std::vector<std::ptrdiff_t> newest_goal_;  ///< of each robot; -1: none
+  std::vector<double> tolerance_m_;          ///< of that goal
+  std::map<std::string, std::size_t> text_index_;  ///< of ReplayRun::command_texts
+  std::map<std::size_t, std::string> last_text_;   ///< of each device: its newest command
+  std::size_t command_count_ = 0;
+  std::size_t output_bytes_ = 0;
+  std::uint64_t collisions_ = 0;         ///< number of all collisions so far
+  std::uint64_t events_ = 0;             ///< number of the newest arena event so far
+  std::size_t spoken_ = 0;               ///< length of the simulation's list at the last call
+  std::vector<sim::LayerId> layer_ids_;  ///< of ReplayRun::layers
+  std::vector<std::vector<std::uint8_t>> cells_;      ///< their pictures at the last frame
+  std::vector<std::vector<std::uint8_t>> raw_cells_;  ///< and their cells
+  std::uint64_t layers_revision_ = 0;
+  std::optional<sim::SimTime> layers_ns_;  ///< when they were looked at last
+  bool observed_ = false;
+  sim::SimTime last_ns_ = 0;
+};
+
+/// The runs of cells in which two RGBA pictures of equal size differ, with the colours of `now`.
+/// Cells with alpha 0 are equal whatever their colour. O(cells).
+[[nodiscard]] std::vector<CellRun> cell_runs(const std::vector<std::uint8_t>& before,
+                                             const std::vector<std::uint8_t>& now);
+
+}  // namespace playpen::replay

@@ -1,0 +1,56 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "replay/replay_page.h"
+
+#include <cstdint>
+#include <stdexcept>
+
+#include "replay/columns.h"
+#include "replay/replay_encoder.h"
+#include "replay/viewer_files.h"
+#include "sim/core/base64.h"
+#include "sim/core/utf8.h"
+
+namespace playpen::replay {
+namespace {
+
+std::string joined(std::span<const std::string_view> files) {
+  std::string all;
+  for (const std::string_view file : files) all += file;
+  return all;
+}
+
+// The page without its data, up to the place of the data.
+std::string head_of(const std::string& title) {
+  const std::string policy = "default-src 'none'; script-src 'sha256-" +
+                             std::string(kViewerScriptSha256) + "'; style-src 'sha256-" +
+                             std::string(kViewerStyleSha256) +
+                             "'; img-src data:; base-uri 'none'; form-action 'none'";
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
+         policy +
+         "\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         markup_escaped(sim::escape_invalid_utf8(title)) + "</title>\n<style>" +
+         std::string(kViewerStyle) + "</style>\n</head>\n<body>\n" + std::string(kViewerBody) +
+         "<script type=\"application/octet-stream\" id=\"replay-data\">";
+}
+
+}  // namespace
+
+std::string html(const std::vector<ReplayRun>& runs, const PageOptions& options) {
+  if (runs.empty()) throw std::invalid_argument("a replay needs at least one run");
+  std::string title = options.title;
+  for (const ReplayRun& run : runs) {
+    if (options.title.empty()) title += (title.empty() ? "" : " and ") + run.name;
+  }
+  const std::string head = head_of(title);
+  const std::string tail =
+      "</script>\n<script>" + joined(kViewerScripts) + "</script>\n</body>\n</html>\n";
+  std::string page;
+  for (const Thinning& thinning : thinning_steps()) {
+    page = head + sim::to_base64(deflated(encoded(runs, thinning))) + tail;
+    if (page.size() <= options.most_bytes) break;
+  }
+  return page;
+}
+
+}  // namespace playpen::replay

@@ -1,0 +1,28 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "replay/replay_run.h"
+
+namespace playpen::replay {
+
+/// A replay as a page of its own.
+struct PageOptions {
+  std::string title = {};              ///< "": the runs' names
+  std::size_t most_bytes = 5'000'000;  ///< of the page
+};
+
+/// The runs as one HTML page that needs no other file and no network, see docs/replay.md. Texts of
+/// the runs are data for its script, never markup, and a Content-Security-Policy allows no script
+/// but the page's own. Several runs are shown side by side or over each other.
+///
+/// If the page would have more than `most_bytes`, parts of the run are left out in the steps of
+/// thinning_steps(), and the page says which. If even the last step is too large, its page is
+/// returned, and says that too.
+/// @throws std::invalid_argument if there is no run.
+[[nodiscard]] std::string html(const std::vector<ReplayRun>& runs, const PageOptions& options = {});
+
+}  // namespace playpen::replay

@@ -1,0 +1,299 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+"""Opens replays in Chromium, from disk and without a network, and looks at them.
+
+usage: browser_test.py REPLAY_SAMPLE WORLD [--keep FOLDER]
+
+REPLAY_SAMPLE is the program of replay_sample.cpp. Needs chromium and chromedriver; speaks plain
+WebDriver (W3C). Checks: no error on the console; 20 moments, each drawn in less than LIMIT_MS of
+JavaScript; keys, panel, fragment and live region; two runs in one page; and that the picture of the
+end differs from the renderer's by at most MEAN_DIFFERENCE and MOST_DIFFERENT.
+"""
+
+import argparse
+import base64
+import json
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import urllib.request
+import zlib
+
+LIMIT_MS = 100  # of the median moment; a loaded machine may delay a single one
+# The pictures have different fonts, anti-aliasing, and opacities where shapes overlap.
+MEAN_DIFFERENCE = 1.5  # mean of the absolute differences of channels, of 255
+MOST_DIFFERENT = 0.01  # share of the pixels with a channel that differs by more than 64
+
+
+class Browser:
+    """A session of chromedriver."""
+
+    def __init__(self, width, height):
+        self.driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=subprocess.PIPE, text=True)
+        port = None
+        for line in self.driver.stdout:
+            if "started successfully on port" in line:
+                port = int(line.rsplit(" ", 1)[1].rstrip(".\n"))
+                break
+        if port is None:
+            raise RuntimeError("chromedriver did not start")
+        self.base = f"http://127.0.0.1:{port}/session"
+        arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+                     f"--window-size={width},{height}", "--disable-background-networking"]
+        made = self.call("POST", "", {"capabilities": {"alwaysMatch": {
+            "goog:chromeOptions": {"args": arguments}, "goog:loggingPrefs": {"browser": "ALL"}}}})
+        self.base += "/" + made["sessionId"]
+
+    def call(self, method, path, body=None):
+        data = None if body is None else json.dumps(body).encode()
+        request = urllib.request.Request(self.base + path, data=data, method=method,
+                                         headers={"Content-Type": "application/json"})
+        with urllib.request.urlopen(request, timeout=120) as answer:
+            return json.load(answer)["value"]
+
+    def open(self, page, fragment=""):
+        self.call("POST", "/url", {"url": "about:blank"})
+        self.call("POST", "/url", {"url": page.resolve().as_uri() + fragment})
+        self.wait("return document.body.classList.contains('ready') && "
+                  "Page.state.stages.every((stage) => stage.view.width > 1)")  # and drawn
+
+    def wait(self, condition):
+        """Waits until a script returns true."""
+        deadline = time.monotonic() + 60
+        while not self.run(condition):
+            if time.monotonic() > deadline:
+                raise AssertionError(f"never true: {condition}; the page says: " +
+                                     self.run("return document.body.innerText"))
+            time.sleep(0.05)
+
+    def run(self, script, *arguments):
+        return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
+
+    def keys(self, text):
+        """Types into the page, whatever has the focus."""
+        actions = [{"type": kind, "value": key} for key in text for kind in ("keyDown", "keyUp")]
+        self.call("POST", "/actions", {"actions": [{"type": "key", "id": "k", "actions": actions}]})
+
+    def click(self, x, y):
+        self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "p", "actions": [
+            {"type": "pointerMove", "x": x, "y": y}, {"type": "pointerDown", "button": 0},
+            {"type": "pointerUp", "button": 0}]}]})
+
+    def messages(self):
+        """Errors on the console since the last call, with what the page's policy refused."""
+        return [entry["message"] for entry in self.call("POST", "/se/log", {"type": "browser"})
+                if entry["level"] == "SEVERE"]
+
+    def screenshot(self, path):
+        path.write_bytes(base64.b64decode(self.call("GET", "/screenshot")))
+
+    def close(self):
+        try:
+            self.call("DELETE", "")
+        finally:
+            self.driver.terminate()
+            self.driver.wait(30)
+
+
+def pixels_of(png):
+    """(width, height, rows of RGB bytes) of a PNG with 8 bits per channel."""
+    assert png[:8] == b"\x89PNG\r\n\x1a\n"
+    at, packed, width, height, channels = 8, b"", 0, 0, 0
+    while at < len(png):
+        length, kind = struct.unpack(">I4s", png[at:at + 8])
+        body = png[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, bits, colour = struct.unpack(">IIBB", body[:10])
+            assert bits == 8 and colour in (2, 6), "RGB or RGBA"
+            channels = 3 if colour == 2 else 4
+        packed += body if kind == b"IDAT" else b""
+        at += 12 + length
+    raw = zlib.decompress(packed)
+    stride = width * channels
+    rows, above = [], bytes(stride)
+    for y in range(height):
+        kind = raw[y * (stride + 1)]
+        line = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride):
+            left = line[i - channels] if i >= channels else 0
+            corner = above[i - channels] if i >= channels else 0
+            if kind == 1:
+                line[i] = (line[i] + left) & 255
+            elif kind == 2:
+                line[i] = (line[i] + above[i]) & 255
+            elif kind == 3:
+                line[i] = (line[i] + (left + above[i]) // 2) & 255
+            elif kind == 4:
+                guess = left + above[i] - corner
+                best = min((left, above[i], corner), key=lambda value: abs(guess - value))
+                line[i] = (line[i] + best) & 255
+        above = bytes(line)
+        rows.append(above if channels == 3 else
+                    b"".join(above[i:i + 3] for i in range(0, stride, 4)))
+    return width, height, rows
+
+
+def difference_of(one, other):
+    """(mean difference of channels, share of pixels that differ much) of two pictures."""
+    (width, height, rows), (other_width, other_height, other_rows) = pixels_of(one), pixels_of(other)
+    assert (width, height) == (other_width, other_height)
+    total, many = 0, 0
+    for a, b in zip(rows, other_rows):
+        if a == b:
+            continue
+        for i in range(0, len(a), 3):
+            parts = [abs(a[i + k] - b[i + k]) for k in range(3)]
+            total += sum(parts)
+            many += max(parts) > 64
+    return total / (3 * width * height), many / (width * height)
+
+
+def check_no_messages(browser, page):
+    messages = browser.messages()
+    assert not messages, f"{page}: errors on the console: {messages}"
+
+
+def check_moments(browser, end):
+    times = browser.run("""
+        const times = [];
+        for (let i = 0; i < 20; ++i) {
+          const t = arguments[0] * ((i * 7) % 20) / 19;
+          const begin = performance.now();
+          Page.state.clock.seek(t);
+          for (const stage of Page.state.stages) stage.draw(t, Page.state.options);
+          Page.state.panel.update(t);
+          // Reading a pixel waits until the canvas is drawn.
+          Page.state.stages[0].canvas.getContext("2d").getImageData(0, 0, 1, 1);
+          times.push(performance.now() - begin);
+        }
+        return times;""", end)
+    times.sort()
+    print(f"20 moments: median {times[10]:.1f} ms, most {times[-1]:.1f} ms")
+    assert times[10] < LIMIT_MS, f"a moment takes {times[10]:.1f} ms of JavaScript"
+
+
+def check_controls(browser, end):
+    state = lambda what: browser.run(f"return Page.state.{what}")
+    browser.keys("\ue010")  # End
+    assert abs(state("clock.t") - end) < 0.06
+    browser.keys("\ue011")  # Home
+    assert state("clock.t") == 0
+    browser.keys("\ue014")  # right
+    assert 0 < state("clock.t") < 0.2, state("clock.t")
+    browser.keys("n")
+    assert state("clock.t") > 0.2
+    scale = state("stages[0].view.scale")
+    browser.keys("++")
+    assert state("stages[0].view.scale") > 1.9 * scale
+    browser.keys("0")
+    assert abs(state("stages[0].view.scale") - scale) < 1e-6
+    assert state("options.scans")
+    browser.keys("s")
+    assert not state("options.scans")
+    browser.keys("sw")
+    assert "seconds." in browser.run("return document.getElementById('live').textContent")
+    browser.keys("l")
+    assert browser.run("return Page.state.options.hidden.has('visited')")
+    browser.keys("l")
+    assert not browser.run("return Page.state.options.hidden.has('visited')")
+    browser.keys("?")
+    assert browser.run("return document.getElementById('help').open")
+    browser.keys("\ue00c")  # Escape
+    # The browser gives the focus back with the next picture.
+    browser.wait("return !document.getElementById('help').open && document.activeElement === document.body")
+    browser.keys(" ")
+    assert state("clock.playing")
+    browser.keys(" ")
+    assert not state("clock.playing")
+
+
+def check_picture(browser, folder):
+    place = json.loads((folder / "scene.json").read_text())
+    url = browser.run("""
+        const place = arguments[0];
+        const options = Object.assign({}, Page.state.options, {selected: -1, frame: false, paper: null});
+        return Page.state.stages[0].picture(place.size, place.size,
+          {x: place.x, y: place.y, scale: place.scale}, place.end, options);""", place)
+    png = base64.b64decode(url.split(",", 1)[1])
+    (folder / "page.png").write_bytes(png)
+    mean, share = difference_of(png, (folder / "scene.png").read_bytes())
+    print(f"picture of the end: mean difference {mean:.2f} of 255, {100 * share:.2f} % of the pixels differ much")
+    assert mean <= MEAN_DIFFERENCE, f"mean difference {mean:.2f}"
+    assert share <= MOST_DIFFERENT, f"{100 * share:.2f} % of the pixels differ by more than 64"
+
+
+def check_labels(browser):
+    """Every control has a name for screen readers."""
+    nameless = browser.run("""
+        return [...document.querySelectorAll("button, select, input, canvas:not([aria-hidden])")]
+          .filter((node) => !(node.getAttribute("aria-label") || node.textContent.trim() ||
+            (node.labels && node.labels.length > 0 && node.labels[0].textContent.trim())))
+          .map((node) => node.outerHTML);""")
+    assert not nameless, f"controls without a name: {nameless}"
+
+
+def look_at(sample, world, folder):
+    subprocess.run([sample, world, "20", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    end = json.loads((folder / "scene.json").read_text())["end"]
+    browser = Browser(1400, 900)
+    try:
+        browser.open(folder / "replay.html", "#t=12.5")
+        assert browser.run("return Page.state.clock.t") == 12.5
+        check_labels(browser)
+        check_moments(browser, end)
+        check_controls(browser, end)
+        browser.run("""const robot = document.getElementById("robot");
+            robot.value = "0";
+            robot.dispatchEvent(new Event("change"));""")
+        browser.wait("return document.querySelectorAll('#panel tr').length > 4")
+        assert "<b>of</b>" in browser.run("return document.getElementById('output').textContent")
+        assert browser.run("return document.querySelectorAll('#output b').length") == 0
+        browser.screenshot(folder / "wide.png")
+        check_picture(browser, folder)
+        check_no_messages(browser, "replay.html")
+        name = browser.run("return Page.state.runs[0].robots[0].name")
+        browser.open(folder / "replay.html", f"#t=1&robot={name}")
+        assert browser.run("return Page.state.options.selected") == 0
+        browser.open(folder / "two.html", "#t=5")
+        assert browser.run("return document.querySelectorAll('#stages canvas').length") == 2
+        # A click on a robot of the second picture shows that robot.
+        where = browser.run("""const {canvas, view, runs} = Page.state.stages[1];
+            const X = runs[0].robots[0].at(Page.state.clock.t);
+            const box = canvas.getBoundingClientRect();
+            return [box.left + view.px(X.x), box.top + view.py(X.y)].map(Math.round);""")
+        browser.click(*where)
+        assert browser.run("return document.getElementById('of-run').textContent") == "in second run"
+        browser.run("""const mode = document.getElementById("mode");
+            mode.value = "over";
+            mode.dispatchEvent(new Event("change"));""")
+        assert browser.run("return document.querySelectorAll('#stages canvas').length") == 1
+        check_moments(browser, end)
+        check_no_messages(browser, "two.html")
+        browser.call("POST", "/window/rect", {"width": 500, "height": 844})
+        assert browser.run("return document.documentElement.scrollWidth <= window.innerWidth")
+    finally:
+        browser.close()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("sample")
+    parser.add_argument("world")
+    parser.add_argument("--keep", type=pathlib.Path, help="write the pages and pictures here")
+    arguments = parser.parse_args()
+    for program in ("chromedriver", "chromium"):
+        if shutil.which(program) is None:
+            print(f"skipped: there is no {program}")
+            return 77
+    with tempfile.TemporaryDirectory() as temporary:
+        look_at(arguments.sample, arguments.world, arguments.keep or pathlib.Path(temporary))
+    print("passed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
