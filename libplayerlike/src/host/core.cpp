@@ -18,6 +18,8 @@ namespace {
 
 // The program is ended after so many reads beyond the end of the run.
 constexpr int kReadsAfterEnd = 1000;
+// How often a server calls check_silence().
+constexpr std::chrono::milliseconds kSilenceChecks(100);
 // Cells of a canvas whose pictures are written so quickly that nobody has to be served meanwhile.
 constexpr std::size_t kQuicklyWritten = std::size_t{1} << 20U;
 
@@ -50,7 +52,10 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       mirror_(Mirror::open(simulation_, robots_, settings_.open_real_robot, warn_)),
       clients_(simulation_, robots_, turns_, mirror_.get()),
       lockstep_(clients_, simulation_.world().simulation.start_gate_clients,
-                settings_.silence_limit_s, warn_),
+                settings_.silence_limit_s, warn_,
+                excuses_debuggers()
+                    ? Lockstep::IsDebugged([this](Client& client) { return is_debugged(client); })
+                    : Lockstep::IsDebugged()),
       pace_(sim::to_seconds(step_ns_), simulation_.world().simulation.time_factor),
       inputs_(simulation_, robots_, warn_, mirror_.get()),
       stalled_time_warning_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
@@ -238,7 +243,7 @@ void Host::Core::wait_for_others(Lock& lock, const Client& client) {
   if (!client.is_programs() || writing_) return changed_.wait(lock);
   const auto deadline = lockstep_.silence_deadline(WallClock::now());
   if (changed_.wait_until(lock, deadline) == std::cv_status::timeout) {
-    lockstep_.note_silence(WallClock::now());
+    lockstep_.note_silence(WallClock::now(), deadline);
   }
 }
 
@@ -407,10 +412,12 @@ bool Host::Core::advance_for(std::chrono::microseconds slice) {
 }
 
 void Host::Core::check_silence() {
+  const auto now = WallClock::now();
   const Lock lock = lock_with_priority();
+  const auto due = std::exchange(silence_check_due_, now + kSilenceChecks);
   // Silence matters only if clients wait for lockstep time that could advance.
   if (paced() || stands_still()) return;
-  if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(WallClock::now());
+  if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(now, due);
 }
 
 AlarmId Host::Core::set_alarm(Alarm alarm) {

@@ -20,7 +20,7 @@
 #include "patient_host.h"
 #include "player_wire_client.h"
 #include "playerlike/server/server.h"
-#include "server/local_process.h"
+#include "process/local_process.h"
 #include "sim/core/error.h"
 
 namespace playerlike::server {

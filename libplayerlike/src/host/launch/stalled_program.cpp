@@ -5,12 +5,20 @@
 #include "host/core.h"
 #include "host/launch/busy_alarm.h"
 #include "host/stepping/virtual_clock.h"
+#include "process/debugger.h"
 #include "sim/core/number_text.h"
 
 namespace playerlike {
 
 void Host::Core::set_busy_alarm() {
   if (!paced() && !stands_still() && simulation_.now_ns() == 0) stalled_time_warning_.set_alarm();
+}
+
+bool Host::Core::is_debugged(Client& client) {
+  if (tracer_of(0) != 0) return true;
+  if (!client.find_process) return false;
+  if (!client.found_process) client.found_process = client.find_process().value_or(0);
+  return *client.found_process != 0 && tracer_of(*client.found_process) != 0;
 }
 
 void Host::Core::watch_program() {

@@ -39,7 +39,9 @@ Charge Host::Core::take_charge(Client& client, const TakeChargeRequest& what) {
 }
 
 void Host::Core::stop_unwatched(WallClock::time_point now) {
-  for (const int robot : inputs_.commanders.overdue(now)) {
+  // A real robot stops whatever the reason is.
+  const auto is_excused = [this] { return !mirror_ && lockstep_.anybody_is_debugged(); };
+  for (const int robot : inputs_.commanders.overdue(now, is_excused)) {
     warn_("robot " + robots_[static_cast<std::size_t>(robot)].name +
           " is stopped: the client in charge of it has sent nothing");
     inputs_.stop({robot});
