@@ -319,7 +319,7 @@ std::optional<json> Connection::Impl::answer(std::uint64_t id, WaitPolicy policy
   const auto began = slot->second.asked;
   c.heard = std::max(c.heard, began);
   bool looked = false;  // whether the splitter was searched after the time limit
-  std::optional<Clock::time_point> planned;  // end of the last wait
+  auto planned = Clock::time_point::max();  // end of the last wait
   for (;;) {
     if (slot->second.answer) {
       json found = std::move(*slot->second.answer);
@@ -339,8 +339,8 @@ std::optional<json> Connection::Impl::answer(std::uint64_t id, WaitPolicy policy
     // thread comes much too late, its process was stopped.
     constexpr milliseconds kLate(250);
     const bool was_stopped =
-        planned && now - *planned > std::max<Clock::duration>(longest / 4, kLate);
-    planned.reset();
+        now > planned && now - planned > std::max<Clock::duration>(longest / 4, kLate);
+    planned = Clock::time_point::max();
     const auto half = limit - longest / 2;
     if (!at_most && (was_stopped || (now >= half && c.is_debugged()))) {
       c.excused_until = now + longest;
