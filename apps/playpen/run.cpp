@@ -121,6 +121,7 @@ class ServedWorld {
     settings.virtual_time = false;  // that is for programs
     settings.quiet_end = false;
     settings.kept_run.clear();
+    settings.silence_limit_s = playerlike::silence_limit_s_of_environment();
     settings.open_real_robot = playerlike::open_real_robot;
     if (!settings.time_mode && !world_.simulation.time_mode_given) {
       settings.time_mode = sim::TimeMode::kPaced;

@@ -29,6 +29,8 @@ double processor_time_s() {
 void compute(double seconds) {
   const double end = processor_time_s() + seconds;
   while (processor_time_s() < end) {
+    for (volatile int i = 0; i < 1'000'000; i = i + 1) {
+    }
   }
 }
 
