@@ -168,7 +168,8 @@ TEST_F(Debugger, OneOfSeveralPrograms_SameRun) {
                         "--args "));
   EXPECT_EQ(debugged.status, 0) << debugged.err;
   EXPECT_THAT(debugged.out, HasSubstr("Breakpoint 1, stop_here"));
-  EXPECT_THAT(debugged.err, Not(HasSubstr("warning")));
+  // The start gate may warn: gdb needs longer than this limit to load the program.
+  EXPECT_THAT(debugged.err, Not(HasSubstr("has not called Read()")));
   expect_equal_files(files_of_run(out_), expected);
 }
 

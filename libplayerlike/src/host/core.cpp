@@ -18,8 +18,6 @@ namespace {
 
 // The program is ended after so many reads beyond the end of the run.
 constexpr int kReadsAfterEnd = 1000;
-// How often a server calls check_silence().
-constexpr std::chrono::milliseconds kSilenceChecks(100);
 // Cells of a canvas whose pictures are written so quickly that nobody has to be served meanwhile.
 constexpr std::size_t kQuicklyWritten = std::size_t{1} << 20U;
 
@@ -409,15 +407,6 @@ bool Host::Core::advance_for(std::chrono::microseconds slice) {
     if (priority_waiters_.load(std::memory_order_relaxed) > 0) return true;
   } while (WallClock::now() < end);
   return true;
-}
-
-void Host::Core::check_silence() {
-  const auto now = WallClock::now();
-  const Lock lock = lock_with_priority();
-  const auto due = std::exchange(silence_check_due_, now + kSilenceChecks);
-  // Silence matters only if clients wait for lockstep time that could advance.
-  if (paced() || stands_still()) return;
-  if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(now, due);
 }
 
 AlarmId Host::Core::set_alarm(Alarm alarm) {

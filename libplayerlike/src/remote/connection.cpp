@@ -50,6 +50,11 @@ SessionError error_of(const json& message) {
           text + " [" + id + ']'};
 }
 
+/// Whether a wait has ended so late that the process was stopped meanwhile.
+bool is_much_later(Clock::time_point now, Clock::time_point planned, Clock::duration limit) {
+  return now - planned > std::max<Clock::duration>(limit / 4, milliseconds(250));
+}
+
 bool is_error(const json& message) {
   const auto error = message.find("error");
   return error != message.end() && error->is_string();
@@ -318,8 +323,8 @@ std::optional<json> Connection::Impl::answer(std::uint64_t id, WaitPolicy policy
   const auto slot = c.slots.find(id);
   const auto began = slot->second.asked;
   c.heard = std::max(c.heard, began);
-  bool looked = false;  // whether the splitter was searched after the time limit
-  auto planned = Clock::time_point::max();  // end of the last wait
+  bool looked = false;          // whether the splitter was searched after the time limit
+  auto planned = Clock::now();  // end of the last wait
   for (;;) {
     if (slot->second.answer) {
       json found = std::move(*slot->second.answer);
@@ -335,12 +340,8 @@ std::optional<json> Connection::Impl::answer(std::uint64_t id, WaitPolicy policy
     const bool living = policy == WaitPolicy::kWhileAlive;
     const auto limit = std::max((living ? c.heard : began) + longest, c.excused_until);
     const auto now = Clock::now();
-    // From half of the limit on: so much is left at least when a debugger leaves a process. If this
-    // thread comes much too late, its process was stopped.
-    constexpr milliseconds kLate(250);
-    const bool was_stopped =
-        now > planned && now - planned > std::max<Clock::duration>(longest / 4, kLate);
-    planned = Clock::time_point::max();
+    const bool was_stopped = is_much_later(now, std::exchange(planned, now), longest);
+    // Looked for from half of the limit on: so much is left when a debugger leaves a process.
     const auto half = limit - longest / 2;
     if (!at_most && (was_stopped || (now >= half && c.is_debugged()))) {
       c.excused_until = now + longest;
