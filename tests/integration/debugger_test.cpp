@@ -125,6 +125,10 @@ class Debugger : public testing::Test {
 
 TEST_F(Debugger, OneThreadAtBreakpoint_SameRun) { expect_same_run({PROGRAM, "one"}, kHold); }
 
+TEST_F(Debugger, StartedAgain_SameRun) {
+  expect_same_run({PROGRAM, "one"}, "break stop_here\nrun\nrun\ncontinue\n");
+}
+
 TEST_F(Debugger, TwoThreadsAtBreakpoint_SameRun) { expect_same_run({PROGRAM, "two"}, kHold); }
 
 TEST_F(Debugger, OneOfTwoThreadsAtBreakpoint_SameRun) {
