@@ -51,9 +51,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       clients_(simulation_, robots_, turns_, mirror_.get()),
       lockstep_(clients_, simulation_.world().simulation.start_gate_clients,
                 settings_.silence_limit_s, warn_,
-                excuses_debuggers()
-                    ? Lockstep::IsDebugged([this](Client& client) { return is_debugged(client); })
-                    : Lockstep::IsDebugged()),
+                excuses_debuggers() ? Lockstep::IsDebugged(is_debugged) : Lockstep::IsDebugged()),
       pace_(sim::to_seconds(step_ns_), simulation_.world().simulation.time_factor),
       inputs_(simulation_, robots_, warn_, mirror_.get()),
       stalled_time_warning_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
