@@ -28,6 +28,7 @@ struct RunRequest {
   bool quiet = false;
   bool view = false;        ///< in a window, in real time unless the settings say otherwise
   bool real_sleep = false;  ///< the program's sleeps take wall time, not simulated time
+  bool debug = false;       ///< in gdb
   IsolationSettings isolation;
   std::vector<std::string> command;  ///< program and arguments
   /// the call of `playpen run` up to "--", as the user wrote it, for advice

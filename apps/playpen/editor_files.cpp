@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "course/html_text.h"
+#include "debug_call.h"
 #include "grade/text.h"
 #include "own_folders.h"
 #include "playerlike/host/program.h"
@@ -26,8 +27,6 @@ using nlohmann::ordered_json;
 constexpr const char* kWorldWithoutTask = "cave";
 constexpr double kDurationWithoutTask_s = 60.0;
 constexpr const char* kDebugBuild = "build for debugging";
-// A program that stands at a breakpoint must not count as one that computes; see docs/ends.md.
-constexpr const char* kSilenceInDebugger_s = "100000";
 
 bool has_task(const ProjectTemplate& kind) { return *kind.task != '\0'; }
 
@@ -94,7 +93,6 @@ playerlike::EnvironmentChanges debug_environment(const ProjectTemplate& kind) {
   playerlike::EnvironmentChanges environment =
       playerlike::run_environment(shipped_world(world_of(kind)), settings);
   environment["PLAYPEN_OUT"] = std::string("${workspaceFolder}/out/") + world_of(kind);
-  environment["PLAYPEN_SILENCE_LIMIT"] = kSilenceInDebugger_s;
   add_libraries_folder(environment);
   const PreloadedLibrary library;
   if (library.has_own_name()) {
@@ -115,6 +113,12 @@ ordered_json launch_file(const ProjectTemplate& kind) {
   const ordered_json pretty = {{"description", "Show containers by their elements"},
                                {"text", "-enable-pretty-printing"},
                                {"ignoreFailures", true}};
+  ordered_json setup = ordered_json::array({pretty});
+  if (const auto commands = gdb_commands_file()) {
+    setup.push_back({{"description", "Playpen's commands, as -exec playpen-robots"},
+                     {"text", "source " + commands->string()},
+                     {"ignoreFailures", true}});
+  }
   ordered_json debug = {{"name", std::string("debug in ") + world_of(kind)},
                         {"type", "cppdbg"},
                         {"request", "launch"},
@@ -123,7 +127,7 @@ ordered_json launch_file(const ProjectTemplate& kind) {
                         {"cwd", "${workspaceFolder}"},
                         {"environment", std::move(environment)},
                         {"MIMode", "gdb"},
-                        {"setupCommands", ordered_json::array({pretty})},
+                        {"setupCommands", std::move(setup)},
                         {"preLaunchTask", kDebugBuild}};
   return {{"version", "0.2.0"}, {"configurations", ordered_json::array({std::move(debug)})}};
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "commands.h"
+#include "debug_call.h"
 #include "debugger_hint.h"
 #include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
@@ -80,6 +81,11 @@ int verdict(const RunRequest& request, const sim::WorldDescription& world,
     tell_more(request, end, completed);
     return kProgramFailed;
   }
+  if (completed && request.debug) {
+    std::cerr << "playpen: gdb has ended the program in the middle of the run; the results are "
+                 "those until then\n";
+    return kProgramFailed;
+  }
   if (completed) {
     std::cerr << "playpen: " << program
               << " left in the middle of the run (by _exit?); the results are those until then\n";
@@ -115,6 +121,7 @@ class ServedWorld {
     settings.virtual_time = false;  // that is for programs
     settings.quiet_end = false;
     settings.kept_run.clear();
+    settings.silence_limit_s = playerlike::silence_limit_s_of_environment();
     settings.open_real_robot = playerlike::open_real_robot;
     if (!settings.time_mode && !world_.simulation.time_mode_given) {
       settings.time_mode = sim::TimeMode::kPaced;
@@ -156,6 +163,7 @@ bool names_server(const std::string& world) {
 }
 
 int run_at_server(const RunRequest& request) {
+  const std::string gdb = request.debug ? find_gdb() : std::string();
   playerlike::EnvironmentChanges environment = playerlike::run_environment("", {});
   environment["PLAYPEN_WORLD"] = request.world;
   environment["PLAYPEN_RUN"] = "1";
@@ -167,7 +175,10 @@ int run_at_server(const RunRequest& request) {
   }
   std::vector<std::string> command = request.command;
   command.front() = playerlike::find_program(command.front());
-  const playerlike::ProgramEnd end = playerlike::run_program(command, environment);
+  playerlike::RunWatch watch;
+  watch.is_debugger = request.debug;
+  if (request.debug) command = debug_call(gdb, command, environment);
+  const playerlike::ProgramEnd end = playerlike::run_program(command, environment, watch);
   if (end.success()) return kOk;
   std::cerr << "playpen: " << command.front() << ' ' << end.text() << '\n';
   return kProgramFailed;
@@ -178,6 +189,7 @@ int run(RunRequest request) {
   sim::WorldDescription world = load_found_world(world_file);
   request.settings.apply_to(world);  // reports settings that do not match the world before the run
   request.command.front() = playerlike::find_program(request.command.front());
+  const std::string gdb = request.debug ? find_gdb() : std::string();
   playerlike::RunSettings& settings = request.settings;
   const IsolatedPrograms isolated(request.isolation);
   if (settings.player_port) {
@@ -185,12 +197,16 @@ int run(RunRequest request) {
     playerlike::Server::check(playerlike::onlooker_settings(*settings.player_port), world);
   }
   if (request.view) pace_for_view(settings, world);
-  settings.progress = !request.quiet;
+  settings.progress = !request.quiet && !request.debug;  // it would mix with gdb's prompt
   settings.quiet_end = true;
   prepare_outputs(settings, world_file);
   if (!request.quiet && !settings.duration_s && !world.simulation.duration_ns) {
     std::cerr << "playpen: the world sets no duration, so the run ends when the program does "
                  "(or give --duration)\n";
+  }
+  if (request.debug && !in_lockstep(settings, world)) {
+    std::cerr << "playpen: time is real in this run, so it does not stand still at breakpoints "
+                 "(--time lockstep decides otherwise)\n";
   }
   std::optional<ViewerProcess> viewer;
   if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
@@ -212,6 +228,7 @@ int run(RunRequest request) {
   playerlike::RunWatch watch;
   watch.kept = &kept;
   watch.desk = &desk;
+  watch.is_debugger = request.debug;
   // With a window, the program's process draws pictures also while time is paused.
   watch.standstill_s = request.view ? std::numeric_limits<double>::infinity()
                                     : playerlike::silence_limit_s_of_environment();
@@ -229,6 +246,7 @@ int run(RunRequest request) {
   std::vector<std::string> command = isolated.launcher(
       virtual_time ? virtual_time->file() : std::string(), {settings.output_folder, world_file});
   command.insert(command.end(), request.command.begin(), request.command.end());
+  if (request.debug) command = debug_call(gdb, command, environment);
   const playerlike::ProgramEnd end = playerlike::run_program(command, environment, watch);
 
   viewer.reset();  // the window has nothing left to show

@@ -49,13 +49,20 @@ void refuse_settings_of_server(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || option->get_positional() || name == "--real-sleep" ||
-        name == "--quiet") {
+        name == "--debug" || name == "--quiet") {
       continue;
     }
     throw CLI::ValidationError(name,
                                "the world is that of a server, which decides about this: "
                                "give it to playpen serve");
   }
+}
+
+/// @throws CLI::ParseError if a program is to be isolated.
+void refuse_isolated_debugging(const IsolationSettings& isolation) {
+  if (isolation.level == Isolation::kOff) return;
+  throw CLI::ValidationError("--debug",
+                             "a debugger cannot reach an isolated program: leave out --isolated");
 }
 
 }  // namespace
@@ -244,10 +251,13 @@ void add_run(CommandLine& line) {
   command.add_flag("--real-sleep", request->real_sleep,
                    "In lockstep: the program's sleeps and clocks are real, not simulated time");
   add_isolation(line, command, request->isolation);
+  command.add_flag("--debug", request->debug,
+                   "Start the program in gdb; simulated time stands still at its breakpoints");
   command.add_flag("--quiet", request->quiet, "No progress, no summary");
   command.callback([request, &line, &command] {
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
     request->command = line.program;
+    if (request->debug) refuse_isolated_debugging(request->isolation);
     if (names_server(request->world)) {
       refuse_settings_of_server(command);
       line.status = run_at_server(*request);

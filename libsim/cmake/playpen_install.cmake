@@ -94,6 +94,9 @@ if(TARGET playpen)
   # The window's program is looked for beside the command.
   install(TARGETS playpen playpen-view
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+  # `playpen run --debug` loads it.
+  install(FILES "${PROJECT_SOURCE_DIR}/apps/playpen/playpen_gdb.py" COMPONENT programs
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/playpen")
   foreach(_template IN ITEMS par_intro par_planning par_exploration par_traps
       par_exploration_changing par_chase par_localization client)
     string(REPLACE "par_" "" _name "${_template}")

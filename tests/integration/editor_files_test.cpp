@@ -31,6 +31,7 @@ using test_support::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsSubsetOf;
+using testing::StartsWith;
 
 std::vector<std::string> keys(const json& object) {
   std::vector<std::string> names;
@@ -114,6 +115,9 @@ class EditorFiles : public testing::Test {
     EXPECT_EQ(debug.at("request"), "launch");
     EXPECT_EQ(debug.at("MIMode"), "gdb");
     EXPECT_FALSE(task(debug.at("preLaunchTask")).empty());
+    const std::string source = debug.at("setupCommands").back().at("text");
+    EXPECT_THAT(source, StartsWith("source "));
+    EXPECT_TRUE(fs::is_regular_file(source.substr(source.find(' ') + 1))) << source;
     std::string world;
     for (const json& variable : debug.at("environment")) {
       EXPECT_THAT(keys(variable), ElementsAre("name", "value"));

@@ -133,6 +133,8 @@ class Process {
   /// Its standard error so far.
   [[nodiscard]] const std::string& errors() const { return result_.err; }
 
+  /// Its process id.
+  [[nodiscard]] pid_t process() const noexcept { return child_; }
   void send_signal(int signal) const { kill(child_, signal); }
   /// Sends a signal to the program and all processes in its group, as a terminal does.
   void send_signal_to_group(int signal) const { kill(-child_, signal); }

@@ -50,7 +50,8 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       mirror_(Mirror::open(simulation_, robots_, settings_.open_real_robot, warn_)),
       clients_(simulation_, robots_, turns_, mirror_.get()),
       lockstep_(clients_, simulation_.world().simulation.start_gate_clients,
-                settings_.silence_limit_s, warn_),
+                settings_.silence_limit_s, warn_,
+                excuses_debuggers() ? Lockstep::IsDebugged(is_debugged) : Lockstep::IsDebugged()),
       pace_(sim::to_seconds(step_ns_), simulation_.world().simulation.time_factor),
       inputs_(simulation_, robots_, warn_, mirror_.get()),
       stalled_time_warning_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
@@ -238,7 +239,7 @@ void Host::Core::wait_for_others(Lock& lock, const Client& client) {
   if (!client.is_programs() || writing_) return changed_.wait(lock);
   const auto deadline = lockstep_.silence_deadline(WallClock::now());
   if (changed_.wait_until(lock, deadline) == std::cv_status::timeout) {
-    lockstep_.note_silence(WallClock::now());
+    lockstep_.note_silence(WallClock::now(), deadline);
   }
 }
 
@@ -405,13 +406,6 @@ bool Host::Core::advance_for(std::chrono::microseconds slice) {
     if (priority_waiters_.load(std::memory_order_relaxed) > 0) return true;
   } while (WallClock::now() < end);
   return true;
-}
-
-void Host::Core::check_silence() {
-  const Lock lock = lock_with_priority();
-  // Silence matters only if clients wait for lockstep time that could advance.
-  if (paced() || stands_still()) return;
-  if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(WallClock::now());
 }
 
 AlarmId Host::Core::set_alarm(Alarm alarm) {

@@ -175,6 +175,11 @@ class Host::Core {
   void count_data_reads(Client& client, int count, bool has_data);
   void check_stalled_time(Client& client);
   void set_busy_alarm();
+  /// Whether limits of the wall clock count no time under a debugger. A program that is graded
+  /// could be its own debugger.
+  [[nodiscard]] bool excuses_debuggers() const { return settings_.grading.nonce.empty(); }
+  /// Whether the client's process, or this one, is under a debugger now.
+  [[nodiscard]] static bool is_debugged(Client& client);
   /// See Host::watch_program().
   void watch_program();
   /// Tells the user of a program that runs without `playpen run` that its run has no end.
@@ -289,6 +294,8 @@ class Host::Core {
   bool ended_by_program_ = false;
   bool end_reported_ = false;  ///< a session has thrown because the run is over
   int reads_after_end_ = 0;
+  /// When the server calls check_silence() again; nullopt: it has not called it yet.
+  std::optional<WallClock::time_point> silence_check_due_;
   std::vector<std::string> told_unrepeatable_;  ///< see Host::note_unrepeatable()
   bool driven_by_hand_ = false;                 ///< a user has driven a robot in the window
   std::atomic<bool> onlooker_acted_{false};     ///< see Host::note_onlooker_acts()

@@ -34,6 +34,10 @@ EventClient::Outcome EventClient::begin_turns_wait(ThreadId thread_id, const Tur
   return host_->core_->begin_turns_wait(*client_, thread_id, what);
 }
 
+void EventClient::set_process_search(std::function<std::optional<int>()> find) {
+  host_->core_->locked([&] { client_->find_process = std::move(find); });
+}
+
 bool EventClient::has_data() const {
   return host_->core_->locked([this] { return client_->has_data; });
 }

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "process/debugger.h"
+#include "process/local_process.h"
 #include "process/short_wait.h"
 #include "protocol/codec.h"
 
@@ -48,6 +50,11 @@ SessionError error_of(const json& message) {
           text + " [" + id + ']'};
 }
 
+/// Whether a wait has ended so late that the process was stopped meanwhile.
+bool is_much_later(Clock::time_point now, Clock::time_point planned, Clock::duration limit) {
+  return now - planned > std::max<Clock::duration>(limit / 4, milliseconds(250));
+}
+
 bool is_error(const json& message) {
   const auto error = message.find("error");
   return error != message.end() && error->is_string();
@@ -83,7 +90,9 @@ struct Connection::Impl {
   bool led = false;   // a leader is reading the socket
   int followers = 0;  // threads that wait for the leader
   Clock::time_point heard{};
-  Clock::time_point asked{};  // when the server was last asked for a sign of life
+  Clock::time_point asked{};          // when the server was last asked for a sign of life
+  Clock::time_point excused_until{};  // by a debugger: no limit ends earlier
+  std::optional<int> server_process;  // on this machine; 0: elsewhere
   std::optional<SessionError> async_error;
   std::string bye_message;  // the server's last message
   bool lost = false;
@@ -144,6 +153,13 @@ struct Connection::Impl {
     }
     take();
     return messages;
+  }
+
+  /// Whether this process or the server's is under a debugger now. `mutex` is held.
+  [[nodiscard]] bool is_debugged() {
+    if (tracer_of(0) != 0) return true;
+    if (!server_process) server_process = peer_process(socket.native_handle()).value_or(0);
+    return *server_process != 0 && tracer_of(*server_process) != 0;
   }
 
   /// Whether the socket has data to read.
@@ -307,7 +323,8 @@ std::optional<json> Connection::Impl::answer(std::uint64_t id, WaitPolicy policy
   const auto slot = c.slots.find(id);
   const auto began = slot->second.asked;
   c.heard = std::max(c.heard, began);
-  bool looked = false;  // whether the splitter was searched after the time limit
+  bool looked = false;          // whether the splitter was searched after the time limit
+  auto planned = Clock::now();  // end of the last wait
   for (;;) {
     if (slot->second.answer) {
       json found = std::move(*slot->second.answer);
@@ -321,8 +338,15 @@ std::optional<json> Connection::Impl::answer(std::uint64_t id, WaitPolicy policy
     }
     const auto longest = std::min(c.request_timeout(), at_most.value_or(Clock::duration::max()));
     const bool living = policy == WaitPolicy::kWhileAlive;
-    const auto limit = (living ? c.heard : began) + longest;
+    const auto limit = std::max((living ? c.heard : began) + longest, c.excused_until);
     const auto now = Clock::now();
+    const bool was_stopped = is_much_later(now, std::exchange(planned, now), longest);
+    // Looked for from half of the limit on: so much is left when a debugger leaves a process.
+    const auto half = limit - longest / 2;
+    if (!at_most && (was_stopped || (now >= half && c.is_debugged()))) {
+      c.excused_until = now + longest;
+      continue;
+    }
     // Data that arrived in time count, even if this thread was scheduled late.
     if (now >= limit && now < limit + std::max<Clock::duration>(longest, milliseconds(1000)) &&
         (c.has_unread() || !std::exchange(looked, true))) {
@@ -343,7 +367,7 @@ std::optional<json> Connection::Impl::answer(std::uint64_t id, WaitPolicy policy
       continue;
     }
     if (give_up && now >= *give_up) return std::nullopt;
-    auto wake = std::min(limit, give_up.value_or(limit));
+    auto wake = std::min(now < half ? half : limit, give_up.value_or(limit));
     if (living && c.asked <= c.heard) {
       const auto next = c.heard + longest / 2;
       if (now >= next) {
@@ -361,6 +385,7 @@ std::optional<json> Connection::Impl::answer(std::uint64_t id, WaitPolicy policy
       }
       wake = std::min(wake, next);
     }
+    planned = wake;
     if (!c.led) {
       c.lead(lock, wake);
     } else {

@@ -15,7 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "server/local_process.h"
+#include "process/debugger.h"
+#include "process/local_process.h"
 #include "sim/core/number_text.h"
 
 namespace playerlike::server {
@@ -205,6 +206,11 @@ std::optional<int> Connection::local_process() {
   return socket_.is_open() ? peer_process(socket_.native_handle()) : std::nullopt;
 }
 
+std::function<std::optional<int>()> Connection::process_search() {
+  return socket_.is_open() ? peer_process_search(socket_.native_handle())
+                           : std::function<std::optional<int>()>();
+}
+
 std::uint32_t Connection::own_ipv4() { return own_ipv4_of(socket_.native_handle()); }
 
 // --- Writing
@@ -376,21 +382,35 @@ void Connection::enforce_limits(Clock::time_point now) {
   }
   const ServerLimits& limits = owner_.limits();
   const auto too_late = [&](Clock::time_point since, double limit_s) {
-    return limit_s > 0.0 && now - since >= wall(limit_s);
+    return limit_s > 0.0 && now - std::max(since, debugged_at_) >= wall(limit_s);
   };
-  if (partial_since_ && too_late(*partial_since_, limits.partial_request_s)) {
+  const bool partial_too_late =
+      partial_since_ && too_late(*partial_since_, limits.partial_request_s);
+  const bool first_too_late = requests_ == 0 && too_late(opened_, limits.first_request_s) &&
+                              !handler_->takes_bytes() && !handler_->may_be_silent();
+  if ((partial_too_late || first_too_late) && is_debugged()) {
+    debugged_at_ = now;
+    return;
+  }
+  if (partial_too_late) {
     return fail(protocol::ProtocolError(
         "server/partial-request",
         "a request was not complete within " + seconds_text(limits.partial_request_s)));
   }
   if (handler_->takes_bytes() || handler_->may_be_silent()) return;
-  if (requests_ == 0 && too_late(opened_, limits.first_request_s)) {
+  if (first_too_late) {
     return fail(protocol::ProtocolError(
         "server/first-request", "no request came within " + seconds_text(limits.first_request_s)));
   }
   if (in_flight_ == 0 && requests_ > 0 && too_late(last_request_, limits.idle_s)) {
     fail(protocol::ProtocolError("server/idle", "no request for " + seconds_text(limits.idle_s)));
   }
+}
+
+// Under a debugger a program may stand in the middle of a request.
+bool Connection::is_debugged() {
+  const std::optional<int> process = local_process();
+  return tracer_of(0) != 0 || (process && tracer_of(*process) != 0);
 }
 
 std::string Connection::summary() const {

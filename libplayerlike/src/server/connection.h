@@ -76,6 +76,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   [[nodiscard]] std::size_t queued_bytes() const noexcept { return queued_bytes_; }
   /// Statistics of the connection for the log.
   [[nodiscard]] std::string summary() const;
+  [[nodiscard]] bool is_debugged();
 
   void send(std::string bytes) override;
   bool send_record(std::shared_ptr<const std::string> bytes) override;
@@ -86,6 +87,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   void acknowledge_at_once() override { acknowledges_at_once_ = true; }
   [[nodiscard]] std::optional<std::uint64_t> settled_input() const override;
   [[nodiscard]] std::optional<int> local_process() override;
+  [[nodiscard]] std::function<std::optional<int>()> process_search() override;
   [[nodiscard]] std::uint32_t own_ipv4() override;
   [[nodiscard]] const std::string& name() const noexcept override { return name_; }
   void describe(const std::string& text) override { description_ = text; }
@@ -149,6 +151,8 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
 
   Clock::time_point opened_ = Clock::now();
   Clock::time_point last_request_ = opened_;
+  Clock::time_point
+      debugged_at_{};  ///< the last time when a limit found the client under a debugger
   std::optional<Clock::time_point> partial_since_;  ///< age of an incomplete message
   std::optional<Clock::time_point> close_deadline_;
   std::uint64_t requests_ = 0;

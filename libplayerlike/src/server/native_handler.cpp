@@ -91,6 +91,7 @@ NativeHandler::NativeHandler(Peer& peer, Hub& hub, Terms terms)
 void NativeHandler::open_session(EventRole role) {
   wait_.emplace(
       hub_, terms_.port, role, [this] { answer_waiting(); }, terms_.order);
+  wait_->client()->set_process_search(peer_.process_search());
   state_->open[terms_.key] = {number_, terms_.port, terms_.rights.command, terms_.process,
                               wait_->client().get()};
 }

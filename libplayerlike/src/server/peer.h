@@ -99,6 +99,8 @@ class Peer {
   /// The process at the other end; nullopt if it is unknown or on another machine. See
   /// peer_process().
   [[nodiscard]] virtual std::optional<int> local_process() { return std::nullopt; }
+  /// The same search for later and for any thread; see peer_process_search().
+  [[nodiscard]] virtual std::function<std::optional<int>()> process_search() { return {}; }
   /// The address of this end as it lies in memory; 0: not IPv4.
   [[nodiscard]] virtual std::uint32_t own_ipv4() { return 0; }
   /// "127.0.0.1:51234", for the log.

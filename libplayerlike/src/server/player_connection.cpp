@@ -52,6 +52,7 @@ PlayerConnection::PlayerConnection(Peer& peer, Hub& hub, int robot_port, int tcp
             hub.settings().onlookers ? EventRole::kOnlooker : EventRole::kParticipant,
             [this] { on_wait_end(); }),
       session_(wait_.session(), guard_) {
+  wait_.client()->set_process_search(peer_.process_search());
   peer_.set_framing(protocol::Framing::kPlayer);
   peer_.acknowledge_at_once();
   peer_.describe("player, port " + std::to_string(tcp_port_));

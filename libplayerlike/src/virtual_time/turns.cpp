@@ -13,6 +13,7 @@
 #include <ctime>
 #include <utility>
 
+#include "process/debugger.h"
 #include "process/system_threads.h"
 #include "virtual_time/virtual_time.h"
 
@@ -402,8 +403,10 @@ void Turns::park(Lock& lock, TurnThread& self) {
     if (!parked()) break;
     lock.unlock();
     signals.let_through();
+    const auto before = SteadyClock::now();
     const WaitResult result = wait_for_event(self.event_count, known_count, kCheckPeriod);
     lock.lock();
+    if (SteadyClock::now() - before > silence_limit() / 2) forgive_standstill();
     if (result == WaitResult::kSignal && self.interruptible) note_signal(self);
     if (result == WaitResult::kTimeOut && parked()) check_blocked_threads(lock);
   }
@@ -471,6 +474,22 @@ bool Turns::somebody_waits_for_time() const {
 
 // --- Rules of the wall clock
 
+SteadyClock::duration Turns::silence_limit() const {
+  return clock_ != nullptr ? clock_->silence_limit() : SteadyClock::duration(kSilence);
+}
+
+bool Turns::excuses_debuggers() const { return clock_ == nullptr || clock_->excuses_debuggers(); }
+
+void Turns::forgive_standstill() {
+  if (!excuses_debuggers()) return;
+  const auto now = SteadyClock::now();
+  for (const auto& thread : threads_) {
+    if (thread->state != State::kRunning && thread->state != State::kConcurrent) continue;
+    thread->seen = now;
+    thread->blocked_since.reset();
+  }
+}
+
 // A thread that sleeps in the system for something other than simulated time, such as a file or a
 // key, does not hold up the others. A thread that computes or waits for a processor does.
 void Turns::check_blocked_threads(Lock& lock) {
@@ -520,9 +539,14 @@ void Turns::check_blocked_threads(Lock& lock) {
     }
     return;
   }
-  const auto limit = clock_ != nullptr ? clock_->silence_limit() : SteadyClock::duration(kSilence);
+  const auto limit = silence_limit();
   for (TurnThread* const t : running) {
     const auto seen = clock_ != nullptr ? clock_->last_seen(*t) : t->seen;
+    // From half of the limit on: so much is left at least when a debugger leaves the process.
+    if (now - seen >= limit / 2 && excuses_debuggers() && tracer_of(0) != 0) {
+      t->seen = now;
+      continue;
+    }
     if (now - seen < limit) continue;
     move(*t, State::kDetached);
     note_unrepeatable("a thread of the program neither read nor slept for the silence limit");

@@ -119,6 +119,8 @@ class TurnClock {
   virtual void note_timed_wait(std::unique_lock<std::mutex>& lock, sim::SimTime left_ns) = 0;
   /// How long a thread may run before the others stop waiting for it.
   [[nodiscard]] virtual std::chrono::steady_clock::duration silence_limit() const = 0;
+  /// Whether that limit counts no time under a debugger.
+  [[nodiscard]] virtual bool excuses_debuggers() const { return true; }
 };
 
 /// Scheduler of virtual time: the program's threads run one at a time in a fixed order, so that
@@ -229,6 +231,11 @@ class Turns {
   void flush_deferred_wakes();
   /// Checks for threads that are blocked or run for too long.
   void check_blocked_threads(Lock& lock);
+  [[nodiscard]] std::chrono::steady_clock::duration silence_limit() const;
+  [[nodiscard]] bool excuses_debuggers() const;
+  /// All threads of the process were stopped for long, as at a breakpoint: the wall-clock limits
+  /// begin anew.
+  void forgive_standstill();
 
   std::mutex mutex_;
   std::atomic<bool> active_{false};

@@ -139,6 +139,16 @@ TEST_F(CommandersTest, Commander_MustSendHeartbeat) {
       << "another client that is there drives it";
 }
 
+TEST_F(CommandersTest, DebuggedCommander_MayBeSilent) {
+  open(b_, 0);
+  EXPECT_FALSE(commanders_.take_charge(&a_, charge(0.5), begin_));
+  drive(&a_, 0);
+  EXPECT_THAT(commanders_.overdue(begin_ + wall(600.0), [] { return true; }), IsEmpty());
+  EXPECT_FALSE(commanders_.has_stopped());
+  EXPECT_THAT(commanders_.overdue(begin_ + wall(600.5)), IsEmpty()) << "the time begins anew";
+  EXPECT_THAT(commanders_.overdue(begin_ + wall(600.6), [] { return false; }), ElementsAre(0));
+}
+
 TEST_F(CommandersTest, CommanderLost_RobotStops) {
   open(b_, 0);
   EXPECT_FALSE(commanders_.take_charge(&a_, charge(0.5), begin_));

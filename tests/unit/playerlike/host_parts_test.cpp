@@ -37,6 +37,7 @@ using std::chrono::seconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::SizeIs;
 
 // Two robots side by side in an empty room; poses are measured at 10 Hz.
 class HostPartsTest : public testing::Test {
@@ -206,6 +207,60 @@ TEST_F(LockstepTest, SilentClients_NotAwaited) {
                           "simulated time advances without it until it does"));
   lockstep.adopt(*thinks, 2);
   EXPECT_FALSE(lockstep.all_wait());
+}
+
+class DebuggedLockstepTest : public LockstepTest {
+ protected:
+  /// Two threads, one of which thinks for this time. @return its client.
+  std::shared_ptr<Client> think() {
+    debugged.adopt(*clients.add(6665, EventRole::kParticipant, {}), 1);
+    auto thinking = clients.add(6666, EventRole::kParticipant, {});
+    debugged.adopt(*thinking, 2);
+    EXPECT_TRUE(debugged.gate_open());
+    return thinking;
+  }
+  bool is_debugged = true;
+  Lockstep debugged{clients, /*gate=*/2, /*silence_limit_s=*/5.0, warn,
+                    [this](Client& /*client*/) { return is_debugged; }};
+};
+
+TEST_F(DebuggedLockstepTest, TimeUnderDebugger_DoesNotCount) {
+  const auto thinking = think();
+  const auto begin = thinking->seen();
+  for (int minute = 1; minute <= 10; ++minute) debugged.note_silence(begin + minute * seconds(60));
+  EXPECT_EQ(thinking->seen(), begin + seconds(600));
+  // Looked for from half of the limit on, so that a debugger that leaves leaves at least the rest.
+  EXPECT_EQ(debugged.silence_deadline(begin + seconds(601)), begin + milliseconds(602'500));
+  is_debugged = false;
+  debugged.note_silence(begin + milliseconds(602'500));
+  EXPECT_EQ(debugged.silence_deadline(begin + seconds(603)), begin + seconds(605));
+  debugged.note_silence(begin + milliseconds(604'999));
+  EXPECT_FALSE(debugged.silence_noted());
+  EXPECT_THAT(warnings, IsEmpty());
+  debugged.note_silence(begin + seconds(605));
+  EXPECT_TRUE(debugged.silence_noted());
+}
+
+TEST_F(DebuggedLockstepTest, StoppedProcess_LimitBeginsAnew) {
+  const auto thinking = think();
+  const auto begin = thinking->seen();
+  is_debugged = false;  // the debugger has left before anybody looked
+  debugged.note_silence(begin + seconds(600), begin + milliseconds(2500));
+  EXPECT_FALSE(debugged.silence_noted());
+  EXPECT_EQ(thinking->seen(), begin + seconds(600));
+  debugged.note_silence(begin + seconds(605), begin + milliseconds(604'900));
+  EXPECT_TRUE(debugged.silence_noted()) << "a tenth of a second late only";
+}
+
+TEST_F(DebuggedLockstepTest, ClosedGate_NoWarning) {
+  const auto client = clients.add(6665, EventRole::kParticipant, {});
+  debugged.adopt(*client, 1);
+  EXPECT_FALSE(debugged.gate_open());
+  debugged.note_silence(WallClock::now() + seconds(6));
+  EXPECT_THAT(warnings, IsEmpty());
+  is_debugged = false;
+  debugged.note_silence(WallClock::now() + seconds(12));
+  EXPECT_THAT(warnings, SizeIs(1));
 }
 
 TEST_F(LockstepTest, TimeAdvancesForProgramsOnly) {

@@ -2,10 +2,12 @@
 // The server of Player's protocol, with raw sockets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <fstream>
@@ -20,7 +22,7 @@
 #include "patient_host.h"
 #include "player_wire_client.h"
 #include "playerlike/server/server.h"
-#include "server/local_process.h"
+#include "process/local_process.h"
 #include "sim/core/error.h"
 
 namespace playerlike::server {
@@ -809,6 +811,14 @@ TEST(PeerProcess, FindsThisProcessForIpv4AndIpv6) {
     // Both ends belong to this process.
     EXPECT_EQ(peer_process(client.descriptor()), getpid());
   }
+}
+
+TEST(PeerProcess, Search_NeedsNoSocket) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+  const auto search = peer_process_search(ends[0]);
+  for (const int end : ends) close(end);
+  EXPECT_EQ(search(), getpid());
 }
 
 TEST(PeerProcess, OtherSockets_Unknown) {

@@ -70,6 +70,11 @@ class EventClient final {
   /// next step, if there is one: in a process of its own such a program would have ended the run.
   void abandon() noexcept;
 
+  /// Sets how to find the client's process on this machine. While it is under a debugger, the
+  /// silence limit does not count. Without this call, no debugger of the client is known.
+  /// @param find  called rarely, by any thread, with the simulation locked; may return nullopt.
+  void set_process_search(std::function<std::optional<int>()> find);
+
   /// Begins a wait like Session::wait(). It ends with kData or kFinished.
   /// @return the outcome, or kWaiting if the wait is not over. The same applies to the functions
   ///         below.

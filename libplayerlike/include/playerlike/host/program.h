@@ -107,6 +107,9 @@ struct RunWatch {
   /// Processor time that the program may use between two steps before tell() says so [s]; infinity:
   /// any.
   double standstill_s = 5.0;
+  /// The program is a debugger. The terminal's keys for SIGINT and SIGQUIT are meant for it and do
+  /// not request the end of the run.
+  bool is_debugger = false;
   /// Called when the program and all its descendants have ended, while signals are still blocked.
   /// It runs in this process or, if this process was killed, in another process that then ends.
   std::function<void(const ProgramEnd&)> on_end = {};

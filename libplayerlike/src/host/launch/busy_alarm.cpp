@@ -13,6 +13,7 @@
 #include <set>
 #include <string_view>
 
+#include "process/debugger.h"
 #include "process/system_threads.h"
 
 namespace playerlike {
@@ -29,6 +30,7 @@ constinit std::atomic<bool> rang{false};
 constinit std::atomic<sim::SimTime> last_step_ns{0};
 constinit std::atomic<sim::SimTime> seen_step_ns{-1};  // when the handler last ran
 constinit std::atomic<int> quiet_periods{0};
+constinit std::atomic<double> limit_s{0.0};
 
 constexpr int kQuietPeriods = 2;
 
@@ -56,9 +58,29 @@ void print_seconds(sim::SimTime time_ns) noexcept {
   print({digits.data() + first, digits.size() - first});
 }
 
+timespec time_of(double time_s) {
+  const double whole = std::floor(time_s);
+  return {static_cast<time_t>(whole), static_cast<long>(1e9 * (time_s - whole))};
+}
+
+/// Starts the timer; for signal handlers, too. @param period_s  0: it rings once.
+void start_timer(double first_s, double period_s) noexcept {
+  itimerspec times{};
+  times.it_value = time_of(first_s);
+  times.it_interval = time_of(period_s);
+  timer_settime(timer, 0, &times, nullptr);
+}
+
 void on_busy(int /*signal*/) {
   const int error = errno;
   const std::string* const text = alarm_text.load();
+  // A debugger steps slowly, and its user sees where the program is.
+  if (text != nullptr && tracer_of(0) != 0) {
+    quiet_periods = 0;
+    if (alarm_end.load() == nullptr) start_timer(limit_s, 0.0);
+    errno = error;
+    return;
+  }
   const std::string* const end = alarm_end.load();
   bool is_due = text != nullptr;
   if (end != nullptr) {
@@ -89,11 +111,6 @@ bool take_signal() {
   return sigaction(SIGURG, &action, nullptr) == 0;
 }
 
-timespec time_of(double time_s) {
-  const double whole = std::floor(time_s);
-  return {static_cast<time_t>(whole), static_cast<long>(1e9 * (time_s - whole))};
-}
-
 constexpr const char* kPrefix = "playpen: warning: ";
 
 }  // namespace
@@ -107,9 +124,8 @@ void set_busy_alarm(double cpu_s, const std::string& text) {
   if (timer_create(CLOCK_PROCESS_CPUTIME_ID, &event, &timer) != 0) return;
   alarm_end = nullptr;
   alarm_text = &kept(kPrefix + text + '\n');
-  itimerspec times{};
-  times.it_value = time_of(cpu_s);
-  timer_settime(timer, 0, &times, nullptr);
+  limit_s = cpu_s;
+  start_timer(cpu_s, 0.0);
   timer_runs = true;
 }
 
@@ -124,9 +140,7 @@ void set_standstill_alarm(double cpu_s, const std::string& text, const std::stri
   quiet_periods = 0;
   alarm_end = &kept(end + '\n');
   alarm_text = &kept(kPrefix + text);
-  itimerspec times{};
-  times.it_value = times.it_interval = time_of(cpu_s / kQuietPeriods);
-  timer_settime(timer, 0, &times, nullptr);
+  start_timer(cpu_s / kQuietPeriods, cpu_s / kQuietPeriods);
   timer_runs = true;
 }
 

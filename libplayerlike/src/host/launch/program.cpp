@@ -20,6 +20,7 @@
 #include "host/launch/supervisor.h"
 #include "host/stepping/standstill_watch.h"
 #include "playerlike/host/program_desk.h"
+#include "process/debugger.h"
 #include "sim/core/number_text.h"
 #include "sim/world/realism.h"
 #include "sim/world/view_mode.h"
@@ -397,6 +398,8 @@ ProgramEnd run_program(const std::vector<std::string>& command,
     // Nonzero if the simulated run ends because of the signal, and not in a handler of the program.
     const int noted = watch.kept != nullptr ? watch.kept->interrupt_noted() : 0;
     while (const std::optional<HeldSignals::Signal> signal = signals.take()) {
+      const bool is_key = signal->number == SIGINT || signal->number == SIGQUIT;
+      if (watch.is_debugger && is_key && signal->from_system) continue;
       const EndRequests::Meaning meaning = requests.note(signal->number);
       if (meaning == EndRequests::Meaning::kCopy) continue;
       if (meaning == EndRequests::Meaning::kRepeated && noted != 0) {
@@ -414,7 +417,7 @@ ProgramEnd run_program(const std::vector<std::string>& command,
     if (noted != 0 && !requests.first()) static_cast<void>(requests.note(noted));
     if (requests.first() && goes_on) {
       if (!time_to_end) time_to_end.emplace(watch.kept->progress().process);
-      time_to_end->look();
+      if (tracer_of(watch.kept->progress().process) == 0) time_to_end->look();
       if (time_to_end->total() > kTimeToEnd && !std::exchange(killed, true)) program.kill_all();
     }
     std::vector<int> descriptors = {program.descriptor()};

@@ -1,16 +1,35 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // The part of Host::Core that watches the program: whether it lets time advance, and for how long.
 #include <chrono>
+#include <utility>
 
 #include "host/core.h"
 #include "host/launch/busy_alarm.h"
 #include "host/stepping/virtual_clock.h"
+#include "process/debugger.h"
 #include "sim/core/number_text.h"
 
 namespace playerlike {
 
 void Host::Core::set_busy_alarm() {
   if (!paced() && !stands_still() && simulation_.now_ns() == 0) stalled_time_warning_.set_alarm();
+}
+
+void Host::Core::check_silence() {
+  constexpr std::chrono::milliseconds kPeriod(100);  // of the server's calls
+  const auto now = WallClock::now();
+  const Lock lock = lock_with_priority();
+  const auto due = std::exchange(silence_check_due_, now + kPeriod);
+  // Silence matters only if clients wait for lockstep time that could advance.
+  if (paced() || stands_still()) return;
+  if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(now, due);
+}
+
+bool Host::Core::is_debugged(Client& client) {
+  if (tracer_of(0) != 0) return true;
+  if (!client.find_process) return false;
+  if (!client.found_process) client.found_process = client.find_process().value_or(0);
+  return *client.found_process != 0 && tracer_of(*client.found_process) != 0;
 }
 
 void Host::Core::watch_program() {

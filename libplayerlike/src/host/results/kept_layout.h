@@ -9,7 +9,7 @@
 #include "playerlike/host/kept_run.h"
 
 /// The layout of a KeptRun's memory. Readers must validate everything: the program may have
-/// overwritten any part of it.
+/// overwritten any part of it. apps/playpen/playpen_gdb.py reads it, too.
 namespace playerlike {
 
 inline constexpr std::uint64_t kKeptMagic = 0x706c617970656e31;  // "playpen1"
@@ -43,6 +43,9 @@ struct KeptHeader {
   std::atomic<std::uint64_t> motors{0};  ///< JSON: a list of RealMotors, also if robots is 0
 };
 static_assert(sizeof(KeptHeader) <= kKeptHeaderSize);
+// As in playpen_gdb.py.
+static_assert(offsetof(KeptHeader, made_steps) == 24 && offsetof(KeptHeader, robots) == 40 &&
+              offsetof(KeptHeader, step) == 64 && offsetof(KeptHeader, report) == 88);
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
 /// Packs place and size of a text into one number; the place is a multiple of 8.
@@ -78,7 +81,12 @@ struct KeptRobot {
   std::uint32_t stalled = 0;
   std::uint32_t trail_points = 0;
   std::uint32_t scan = 0;  ///< 0: none yet; otherwise its index plus one
+  double forward_mps = 0.0, left_mps = 0.0, turn_radps = 0.0;  ///< sim::BodyState::twist
 };
+// As in playpen_gdb.py.
+static_assert(sizeof(KeptStep) == 32 && sizeof(KeptRobot) == 160 &&
+              offsetof(KeptRobot, x_m) == 96 && offsetof(KeptRobot, stalled) == 124 &&
+              offsetof(KeptRobot, forward_mps) == 136);
 
 /// The newest scan of a robot's first laser.
 struct KeptScan {

@@ -187,6 +187,9 @@ void KeptWriter::keep_step(const TimeStatistics& time, const Recorder& recorder,
     kept.y_m = body.X_WB.y_m;
     kept.yaw_rad = body.X_WB.yaw_rad;
     kept.stalled = body.stalled ? 1 : 0;
+    kept.forward_mps = body.twist.v_mps;
+    kept.left_mps = body.twist.lateral_mps;
+    kept.turn_radps = body.twist.omega_radps;
     keep_trail(i, recorder.trail(i), kept);
     kept.scan = at<KeptRobot>(header_->steps[1 - next] + sizeof(KeptStep))[i].scan;
     keep_scan(i, simulation, kept);

@@ -45,8 +45,11 @@ struct Client {
   bool onlooker = false;  ///< see EventRole::kOnlooker; also what acts for an onlooker
   /// Belongs to a server, which checks itself what its clients may read.
   bool served = false;
-  ThreadId creator = 0;                     ///< the thread that connected it
-  ThreadId process = 0;                     ///< see CreationOrder
+  ThreadId creator = 0;  ///< the thread that connected it
+  ThreadId process = 0;  ///< see CreationOrder
+  /// See EventClient::set_process_search(); empty: it belongs to this process.
+  std::function<std::optional<int>()> find_process;
+  std::optional<int> found_process;         ///< what it has found; 0: nothing
   std::vector<Subscription> subscriptions;  ///< in order of device
   bool replace_by_default = true;
   std::uint32_t overflow = 0;
@@ -81,8 +84,8 @@ struct Client {
   /// Whether it belongs to this process's program, not to a driver or a server.
   [[nodiscard]] bool is_programs() const noexcept { return !follower && !onlooker && !notify; }
   /// Any thread, without the mutex.
-  void touch() {
-    last_seen.store(WallClock::now().time_since_epoch().count(), std::memory_order_relaxed);
+  void touch(WallClock::time_point now = WallClock::now()) {
+    last_seen.store(now.time_since_epoch().count(), std::memory_order_relaxed);
   }
   [[nodiscard]] WallClock::time_point seen() const {
     return WallClock::time_point(WallClock::duration(last_seen.load()));

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -60,7 +61,11 @@ class Commanders {
   /// Whether the watchdog has stopped a robot since the last call.
   [[nodiscard]] bool take_stopped(int robot);
   /// The robots to stop because the client in charge of them has sent nothing for too long.
-  [[nodiscard]] std::vector<int> overdue(WallClock::time_point now);
+  /// @param is_excused  asked then: whether that does not count, since a client is under a
+  /// debugger.
+  ///                    Its time begins anew. Empty: it counts.
+  [[nodiscard]] std::vector<int> overdue(WallClock::time_point now,
+                                         const std::function<bool()>& is_excused = {});
   /// Whether a watchdog has ever stopped a robot.
   [[nodiscard]] bool has_stopped() const noexcept { return has_stopped_; }
 

@@ -39,7 +39,12 @@ Charge Host::Core::take_charge(Client& client, const TakeChargeRequest& what) {
 }
 
 void Host::Core::stop_unwatched(WallClock::time_point now) {
-  for (const int robot : inputs_.commanders.overdue(now)) {
+  // In lockstep a robot stands while the client does. In real time, and if it is real, it must
+  // stop.
+  const auto is_excused = [this] {
+    return !mirror_ && !paced() && lockstep_.anybody_is_debugged();
+  };
+  for (const int robot : inputs_.commanders.overdue(now, is_excused)) {
     warn_("robot " + robots_[static_cast<std::size_t>(robot)].name +
           " is stopped: the client in charge of it has sent nothing");
     inputs_.stop({robot});

@@ -7,8 +7,13 @@
 
 namespace playerlike {
 
-Lockstep::Lockstep(const Clients& clients, int gate, double silence_limit_s, Warn warn)
-    : clients_(clients), gate_(gate), silence_limit_s_(silence_limit_s), warn_(std::move(warn)) {}
+Lockstep::Lockstep(const Clients& clients, int gate, double silence_limit_s, Warn warn,
+                   IsDebugged is_debugged)
+    : clients_(clients),
+      gate_(gate),
+      silence_limit_s_(silence_limit_s),
+      warn_(std::move(warn)),
+      is_debugged_(std::move(is_debugged)) {}
 
 void Lockstep::adopt(Client& client, ThreadId thread_id) {
   client.owner = thread_id;
@@ -77,21 +82,39 @@ WallClock::time_point Lockstep::silence_deadline(WallClock::time_point now) cons
   auto deadline = now + limit;
   if (!gate_opened_) return deadline;
   for (const auto& c : clients_) {
-    if (thinks(*c)) deadline = std::min(deadline, c->seen() + limit);
+    if (!thinks(*c)) continue;
+    const auto half = c->seen() + limit / 2;
+    deadline = std::min(deadline, is_debugged_ && half > now ? half : c->seen() + limit);
   }
   return deadline;
 }
 
-void Lockstep::note_silence(WallClock::time_point now) {
+bool Lockstep::anybody_is_debugged() const {
+  return is_debugged_ && std::any_of(clients_.begin(), clients_.end(),
+                                     [this](const auto& c) { return is_debugged_(*c); });
+}
+
+void Lockstep::note_closed_gate(WallClock::time_point now) {
+  if (now - gate_warned_at_ < wall(silence_limit_s_)) return;
+  gate_warned_at_ = now;
+  if (anybody_is_debugged()) return;
+  warn_("the start gate waits for " + std::to_string(gate_) + " clients; " +
+        std::to_string(joined_programs()) + " have joined so far");
+}
+
+void Lockstep::note_silence(WallClock::time_point now, std::optional<WallClock::time_point> due) {
+  // A busy machine delays a thread, too, but not for so long.
+  constexpr double kLate_s = 0.25;
+  if (!gate_opened_) return note_closed_gate(now);
   const auto limit = wall(silence_limit_s_);
-  if (!gate_opened_) {
-    if (now - gate_warned_at_ < limit) return;
-    gate_warned_at_ = now;
-    return warn_("the start gate waits for " + std::to_string(gate_) + " clients; " +
-                 std::to_string(joined_programs()) + " have joined so far");
-  }
+  const bool was_stopped = is_debugged_ && due && now - *due > std::max(limit / 4, wall(kLate_s));
   for (const auto& c : clients_) {
-    if (!thinks(*c) || now - c->seen() < limit) continue;
+    if (!thinks(*c)) continue;
+    if (was_stopped || (is_debugged_ && now - c->seen() >= limit / 2 && is_debugged_(*c))) {
+      c->touch(now);
+      continue;
+    }
+    if (now - c->seen() < limit) continue;
     c->silent = true;
     silence_noted_ = true;
     warn_of_silence("client " + std::to_string(c->number + 1) + " (port " +

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +16,20 @@ namespace playerlike {
 /// thread waits if one of its clients does. Time waits for all threads that do not wait themselves,
 /// except for those that have exceeded the silence limit. The start gate stays open once it is
 /// open. Not thread-safe: guarded by the host's mutex.
+///
+/// The silence limit counts no time in which the client's process is under a debugger, so that a
+/// program may stand at a breakpoint for any time. It is looked for from half of the limit on. So
+/// at least half of it is left when a debugger leaves the process.
 class Lockstep {
  public:
+  /// Whether a client's process, or this one, is under a debugger now.
+  using IsDebugged = std::function<bool(Client&)>;
+
   /// @param clients  must outlive this object.
   /// @param gate     how many programs' clients must have joined before time begins.
-  Lockstep(const Clients& clients, int gate, double silence_limit_s, Warn warn);
+  /// @param is_debugged  empty: debuggers make no difference, as in a graded run.
+  Lockstep(const Clients& clients, int gate, double silence_limit_s, Warn warn,
+           IsDebugged is_debugged = {});
 
   /// This thread waits with the client, which takes part from now on.
   void adopt(Client& client, ThreadId thread_id);
@@ -38,7 +49,11 @@ class Lockstep {
   [[nodiscard]] WallClock::time_point silence_deadline(WallClock::time_point now) const;
   /// Warns about clients that hold up the others, and stops waiting for those that have exceeded
   /// the silence limit.
-  void note_silence(WallClock::time_point now);
+  /// @param due  when this call was to be made. If it comes much later, this process was stopped,
+  ///             and the limit begins anew.
+  void note_silence(WallClock::time_point now, std::optional<WallClock::time_point> due = {});
+  /// Whether debuggers make a difference, and one is at work in this process or a client's.
+  [[nodiscard]] bool anybody_is_debugged() const;
   /// In virtual time: a thread has exceeded the silence limit.
   void note_silent_thread(ThreadId thread_id) const;
   /// How long a thread may run without waiting.
@@ -56,11 +71,13 @@ class Lockstep {
   [[nodiscard]] int joined_programs() const;
   [[nodiscard]] bool thinks(const Client& client) const;
   void warn_of_silence(const std::string& who) const;
+  void note_closed_gate(WallClock::time_point now);
 
   const Clients& clients_;
   const int gate_;
   const double silence_limit_s_;
   const Warn warn_;
+  const IsDebugged is_debugged_;
   bool gate_opened_ = false;
   /// When missing clients were last reported.
   WallClock::time_point gate_warned_at_ = WallClock::now();

@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "process/debugger.h"
 #include "process/system_threads.h"
 #include "sim/core/number_text.h"
 #include "sim/core/time.h"
@@ -12,7 +13,9 @@ std::optional<std::string> StandstillWatch::look(const KeptRun& run) {
   if (told_) return std::nullopt;
   const KeptRun::Progress now = run.progress();
   const auto cpu = processor_time(now.process);
-  const bool stands = run.phase() == KeptRun::Phase::kRunning && now.steps > 0 && now == last_;
+  // A debugger steps slowly, and its user sees where the program is.
+  const bool stands = tracer_of(now.process) == 0 && run.phase() == KeptRun::Phase::kRunning &&
+                      now.steps > 0 && now == last_;
   if (!cpu || !stands) {
     last_ = now;
     last_cpu_ = cpu.value_or(std::chrono::nanoseconds::zero());

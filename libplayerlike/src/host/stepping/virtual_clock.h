@@ -28,6 +28,7 @@ class Host::Core::VirtualClock final : public ProgramClock {
   [[nodiscard]] sim::SimTime now_ns() const noexcept override { return core_.now_ns(); }
   [[nodiscard]] sim::SimTime step_ns() const noexcept override { return core_.step_ns_; }
   [[nodiscard]] WallClock::duration silence_limit() const override;
+  [[nodiscard]] bool excuses_debuggers() const override { return core_.excuses_debuggers(); }
 
   /// Whether other threads can run without a step.
   [[nodiscard]] static bool others_take_turns(ThreadId thread_id);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "server/local_process.h"
+#include "process/local_process.h"
 
 #include <dirent.h>
 #include <netinet/in.h>
@@ -17,11 +17,11 @@
 #include <string>
 #include <string_view>
 
-namespace playerlike::server {
+namespace playerlike {
 namespace {
 
 /// An end of a connection, as an IPv6 address; IPv4 is mapped.
-struct End {
+struct ConnectionEnd {
   std::array<std::uint32_t, 4> address{};  ///< as in memory
   std::uint16_t port = 0;
 
@@ -43,11 +43,11 @@ struct End {
 
 using NameOf = int (*)(int, sockaddr*, socklen_t*);
 
-std::optional<End> end_of(int socket, NameOf name_of) {
+std::optional<ConnectionEnd> end_of(int socket, NameOf name_of) {
   sockaddr_storage storage{};
   socklen_t size = sizeof storage;
   if (name_of(socket, reinterpret_cast<sockaddr*>(&storage), &size) != 0) return std::nullopt;
-  End end;
+  ConnectionEnd end;
   if (storage.ss_family == AF_INET) {
     sockaddr_in address{};
     std::memcpy(&address, &storage, sizeof address);
@@ -99,29 +99,11 @@ bool has_file(const std::string& process, std::string_view target) {
   return false;
 }
 
-}  // namespace
-
-std::uint32_t own_ipv4_of(int socket) {
-  const std::optional<End> own = end_of(socket, getsockname);
-  return own && own->is_ipv4() ? own->address[3] : 0;
-}
-
-std::optional<int> peer_process(int socket) {
-  ucred peer{};
-  socklen_t peer_size = sizeof peer;
-  int family = 0;
-  socklen_t family_size = sizeof family;
-  if (getsockopt(socket, SOL_SOCKET, SO_DOMAIN, &family, &family_size) == 0 && family == AF_UNIX) {
-    const bool known = getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &peer_size) == 0;
-    return known && peer.pid > 0 ? std::optional<int>(peer.pid) : std::nullopt;
-  }
-  // The other end's own address is this end's peer.
-  const std::optional<End> own = end_of(socket, getpeername);
-  const std::optional<End> other = end_of(socket, getsockname);
-  if (!own || !other) return std::nullopt;
+/// The process that holds a TCP connection between two ends. @param own  its end.
+std::optional<int> process_of_connection(const ConnectionEnd& own, const ConnectionEnd& other) {
   std::string inode;
-  if (own->is_ipv4()) inode = inode_of("/proc/net/tcp", own->text(true), other->text(true));
-  if (inode.empty()) inode = inode_of("/proc/net/tcp6", own->text(false), other->text(false));
+  if (own.is_ipv4()) inode = inode_of("/proc/net/tcp", own.text(true), other.text(true));
+  if (inode.empty()) inode = inode_of("/proc/net/tcp6", own.text(false), other.text(false));
   if (inode.empty()) return std::nullopt;
   const std::string target = "socket:[" + inode + ']';
   const Folder processes(opendir("/proc"));
@@ -137,4 +119,30 @@ std::optional<int> peer_process(int socket) {
   return found;
 }
 
-}  // namespace playerlike::server
+}  // namespace
+
+std::uint32_t own_ipv4_of(int socket) {
+  const std::optional<ConnectionEnd> own = end_of(socket, getsockname);
+  return own && own->is_ipv4() ? own->address[3] : 0;
+}
+
+std::function<std::optional<int>()> peer_process_search(int socket) {
+  ucred peer{};
+  socklen_t peer_size = sizeof peer;
+  int family = 0;
+  socklen_t family_size = sizeof family;
+  if (getsockopt(socket, SOL_SOCKET, SO_DOMAIN, &family, &family_size) == 0 && family == AF_UNIX) {
+    const bool known = getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &peer_size) == 0;
+    const auto process = known && peer.pid > 0 ? std::optional<int>(peer.pid) : std::nullopt;
+    return [process] { return process; };
+  }
+  // The other end's own address is this end's peer.
+  const std::optional<ConnectionEnd> own = end_of(socket, getpeername);
+  const std::optional<ConnectionEnd> other = end_of(socket, getsockname);
+  if (!own || !other) return [] { return std::optional<int>(); };
+  return [own = *own, other = *other] { return process_of_connection(own, other); };
+}
+
+std::optional<int> peer_process(int socket) { return peer_process_search(socket)(); }
+
+}  // namespace playerlike
