@@ -216,4 +216,23 @@ struct WhyRequest {
 ///         robot that there is not, or the file that cannot be written.
 [[nodiscard]] int explain(const WhyRequest& request);
 
+/// Name of a replay in the folder of its run.
+inline constexpr const char* kReplayFile = "replay.html";
+
+/// Arguments of `playpen replay`.
+struct ReplayRequest {
+  std::string first;             ///< folder of results of a run or of a grade
+  std::string second;            ///< folder of a run to show with it; "": none
+  std::string file;              ///< .html; "": kReplayFile in the folder of the first run
+  std::optional<double> time_s;  ///< at which the printed address opens the page
+  std::string robot;             ///< that it chooses; "": none
+  double most_megabytes = 5.0;   ///< size of the page
+};
+
+/// Writes the replay of a run, of two runs in one page, or of each run of a grade.
+/// @return kOk.
+/// @throws std::runtime_error naming the folder that does not contain a run with a recording, or
+///         the file that cannot be written.
+[[nodiscard]] int make_replay(const ReplayRequest& request);
+
 }  // namespace playpen
