@@ -29,6 +29,8 @@ struct RunRequest {
   bool view = false;        ///< in a window, in real time unless the settings say otherwise
   bool real_sleep = false;  ///< the program's sleeps take wall time, not simulated time
   bool debug = false;       ///< in gdb
+  std::string replay_file;  ///< .html; "": no replay is written
+  double replay_megabytes = 5.0;
   IsolationSettings isolation;
   std::vector<std::string> command;  ///< program and arguments
   /// the call of `playpen run` up to "--", as the user wrote it, for advice
@@ -45,6 +47,8 @@ struct GradeRequest {
   std::optional<sim::Realism> realism;  ///< empty: that of each world
   std::string output_folder;            ///< "": out/grade/TASK
   std::string json_file;                ///< "": grade.json in the output folder
+  bool replays = false;                 ///< whether each run gets its replay, course::kReplayFile
+  double replay_megabytes = 5.0;        ///< size of a replay
   IsolationSettings isolation;
   std::vector<std::string> command;  ///< program and arguments
   std::string invocation;            ///< how the user calls playpen, for advice
@@ -64,6 +68,7 @@ struct ClassRequest {
   std::string id;                      ///< of the person of `submission`; "": its name
   std::vector<std::string> baselines;  ///< folders and archives of programs that everybody knows
   bool individual = false;             ///< whether each person has conditions of their own
+  bool replays = false;                ///< whether the runs on the pages get their replays
   bool must_pass = false;              ///< whether a run that does not pass is a failure
   std::string roster_file;             ///< "": none
   std::string output_folder;
@@ -216,14 +221,17 @@ struct WhyRequest {
 ///         robot that there is not, or the file that cannot be written.
 [[nodiscard]] int explain(const WhyRequest& request);
 
-/// Name of a replay in the folder of its run.
-inline constexpr const char* kReplayFile = "replay.html";
+/// Writes the replay of a run.
+/// @param folder  of its results.
+/// @param file    .html; "": course::kReplayFile in that folder.
+/// @return the file. @throws as make_replay().
+std::string write_replay(const std::string& folder, const std::string& file, double most_megabytes);
 
 /// Arguments of `playpen replay`.
 struct ReplayRequest {
   std::string first;             ///< folder of results of a run or of a grade
   std::string second;            ///< folder of a run to show with it; "": none
-  std::string file;              ///< .html; "": kReplayFile in the folder of the first run
+  std::string file;              ///< .html; "": course::kReplayFile in the folder of the first run
   std::optional<double> time_s;  ///< at which the printed address opens the page
   std::string robot;             ///< that it chooses; "": none
   double most_megabytes = 5.0;   ///< size of the page

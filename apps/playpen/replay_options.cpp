@@ -4,8 +4,20 @@
 
 #include "command_line.h"
 #include "parsed_option.h"
+#include "run_options.h"
 
 namespace playpen {
+
+bool is_page_name(const std::string& name) { return name.size() > 5 && name.ends_with(".html"); }
+
+CLI::Option* add_replay_size(CLI::App& command, double& most_megabytes) {
+  return add_parsed(command, "--replay-size",
+                    "Size of a replay at most; it says what is left out to meet it [5]", "MB",
+                    "a number of megabytes in [0.2, 1000]", [&most_megabytes](const auto& text) {
+                      return parse_number(text, most_megabytes) && most_megabytes >= 0.2 &&
+                             most_megabytes <= 1000.0;
+                    });
+}
 
 void add_replay(CommandLine& line) {
   const auto request = std::make_shared<ReplayRequest>();
@@ -20,7 +32,7 @@ void add_replay(CommandLine& line) {
       add_parsed(command, "--html", "Page to write [FIRST/replay.html]", "FILE",
                  "a file ending in .html", [request](const std::string& text) {
                    request->file = text;
-                   return text.size() > 5 && text.ends_with(".html");
+                   return is_page_name(text);
                  });
   line.takes(html, ValueKind::Kind::kFile);
   add_parsed(command, "--at", "Simulated time at which the printed address opens the page [s] [0]",
@@ -32,12 +44,7 @@ void add_replay(CommandLine& line) {
              });
   command.add_option("--robot", request->robot, "Robot that the printed address chooses [none]")
       ->type_name("NAME");
-  add_parsed(command, "--replay-size",
-             "Size of the page at most; what is left out then, it says [5]", "MB",
-             "a number of megabytes in [0.2, 1000]", [request](const std::string& text) {
-               return parse_number(text, request->most_megabytes) &&
-                      request->most_megabytes >= 0.2 && request->most_megabytes <= 1000.0;
-             });
+  add_replay_size(command, request->most_megabytes);
   command.footer(
       "Makes the run again from its recording and writes one HTML file, which needs no\n"
       "network and no other file: robots, scans, layers, commands, readings, events and\n"

@@ -251,6 +251,11 @@ int run(RunRequest request) {
 
   viewer.reset();  // the window has nothing left to show
 
+  if (!request.replay_file.empty() && has_report(settings)) {
+    const std::string page =
+        write_replay(settings.output_folder, request.replay_file, request.replay_megabytes);
+    if (!request.quiet) std::cerr << "playpen: replay: " << page << '\n';
+  }
   const int status = verdict(request, world, end, completed);
   return desk.conflict().empty() ? status : kProgramFailed;
 }

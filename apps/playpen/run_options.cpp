@@ -253,6 +253,14 @@ void add_run(CommandLine& line) {
   add_isolation(line, command, request->isolation);
   command.add_flag("--debug", request->debug,
                    "Start the program in gdb; simulated time stands still at its breakpoints");
+  line.takes(add_parsed(command, "--html", "Write the replay of the run as a page [none]", "FILE",
+                        "a file ending in .html",
+                        [request](const std::string& text) {
+                          request->replay_file = text;
+                          return is_page_name(text);
+                        }),
+             ValueKind::Kind::kFile);
+  add_replay_size(command, request->replay_megabytes);
   command.add_flag("--quiet", request->quiet, "No progress, no summary");
   command.callback([request, &line, &command] {
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");

@@ -44,7 +44,7 @@ class PrintedLines {
 
 }  // namespace
 
-ReplayRun replay_of(playerlike::Rerun& rerun, const std::string& name,
+ReplayRun replay_of(playerlike::Rerun& rerun, const std::string& folder, const std::string& name,
                     const std::vector<GoalNote>& goals) {
   const sim::Simulation& run = rerun.simulation();
   ReplayOptions options;
@@ -52,7 +52,7 @@ ReplayRun replay_of(playerlike::Rerun& rerun, const std::string& name,
   ReplayBuilder builder(run, std::move(options));
   builder.watch_layers(rerun.layers());
   for (const GoalNote& goal : goals) builder.note_goal(goal);
-  PrintedLines printed(rerun.program_log());
+  PrintedLines printed(rerun.program_log().empty() ? folder + "/program.log" : rerun.program_log());
   builder.observe(run);
   for (;;) {
     const sim::SimTime before_ns = run.now_ns();

@@ -43,6 +43,12 @@ bool concerns_other_robots(const sim::Command& command) {
          std::holds_alternative<sim::SayCommand>(command);
 }
 
+/// A canvas of the same kind that takes no memory.
+sim::CanvasDescription without_cells(sim::CanvasDescription canvas) {
+  canvas.width = canvas.height = 1;
+  return canvas;
+}
+
 RecordingHead head_of(const RunSettings& settings, const sim::Simulation& simulation,
                       bool has_program_log) {
   const sim::WorldDescription& world = simulation.world();
@@ -81,7 +87,7 @@ RecordingWriter::RecordingWriter(const RunSettings& settings, sim::Simulation& s
       file_((fs::path(settings.output_folder) / kRecordingFile).string()),
       watches_output_(prints_into(settings.output_folder)),
       interventions_(simulation.interventions()),
-      layers_(simulation.layers().description()) {
+      layers_(without_cells(simulation.layers().description())) {
   out_.open(file_, std::ios::trunc | std::ios::binary);
   const std::string head = text_of_head(head_of(settings, simulation, watches_output_)) + '\n';
   out_ << head << std::flush;
@@ -160,9 +166,8 @@ void RecordingWriter::note_reads() {
 void RecordingWriter::note_state() {
   interventions_ = simulation_.interventions();
   begin_item(RecordedItem::kState);
-  sim::CanvasDescription blank = simulation_.layers().description();
-  blank.width = blank.height = 1;  // the layers are recorded otherwise
-  sim::LayerStack layers(blank);
+  // The layers are recorded otherwise.
+  sim::LayerStack layers(without_cells(simulation_.layers().description()));
   sim::Snapshot snapshot = simulation_.state_parts().snapshot(layers);
   items_(snapshot);
 }

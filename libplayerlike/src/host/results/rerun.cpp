@@ -187,6 +187,12 @@ struct Rerun::Impl {
     ++layer_changes;
   }
 
+  /// A recording notes steps at least as often as it is written.
+  [[nodiscard]] std::uint32_t most_steps() const {
+    const sim::SimTime step_ns = simulation->world().simulation.step_ns;
+    return static_cast<std::uint32_t>(kRecordingPeriod_ns / step_ns) + 2;
+  }
+
   void read_hash() {
     std::uint64_t hash = 0;
     (*items)(hash);
@@ -211,7 +217,8 @@ struct Rerun::Impl {
         read_command();
       } else if (kind == RecordedItem::kSteps) {
         (*items)(steps_left);
-        items->expect(steps_left > 0, "at least one step");
+        items->expect(steps_left > 0 && steps_left <= most_steps(),
+                      "the steps of a tenth of a second");
         kind.reset();
         return true;
       } else if (!read_after_step()) {
