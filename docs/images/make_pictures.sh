@@ -101,7 +101,7 @@ take exploration/snapshots/scene_000024.000s.png exploration
 page() {
   local fragment=$1 name=$2 size=$3
   shift 3
-  chromium --headless --no-sandbox --hide-scrollbars --window-size="$size" "$@" \
+  chromium --headless --no-sandbox --hide-scrollbars --virtual-time-budget=5000 --window-size="$size" "$@" \
     --screenshot="$out/$name.png" "file://$root/$out/exploration/replay.html#$fragment" \
     2>"$out/$name.log"
   take "$name.png" "$name"
