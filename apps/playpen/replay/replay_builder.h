@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "replay/happenings.h"
 #include "replay/replay_run.h"
 #include "sim/devices/device.h"
 #include "sim/simulation/simulation.h"
@@ -79,10 +80,8 @@ class ReplayBuilder {
   std::map<std::size_t, std::string> last_text_;   ///< of each device: its newest command
   std::size_t command_count_ = 0;
   std::size_t output_bytes_ = 0;
-  std::uint64_t collisions_ = 0;         ///< number of all collisions so far
-  std::uint64_t events_ = 0;             ///< number of the newest arena event so far
-  std::size_t spoken_ = 0;               ///< length of the simulation's list at the last call
-  std::vector<sim::LayerId> layer_ids_;  ///< of ReplayRun::layers
+  HappeningsWatch happenings_;
+  std::vector<sim::LayerId> layer_ids_;               ///< of ReplayRun::layers
   std::vector<std::vector<std::uint8_t>> cells_;      ///< their pictures at the last frame
   std::vector<std::vector<std::uint8_t>> raw_cells_;  ///< and their cells
   std::uint64_t layers_revision_ = 0;
