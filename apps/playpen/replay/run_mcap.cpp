@@ -33,6 +33,7 @@ namespace {
 using json = nlohmann::json;
 
 constexpr sim::SimTime kPosePeriod_ns = sim::kNanosecondsPerSecond / 20;
+constexpr double kUnitsPerMetre = 1e4;  // resolution of ranges in pictures
 constexpr const char* kWorldFrame = "world";
 
 std::string dumped(const json& value) {
@@ -161,7 +162,7 @@ class RunChannels {
   void add_robot(const sim::Simulation& run, int robot) {
     const std::string topic = '/' + run.world().robots[static_cast<std::size_t>(robot)].name + '/';
     RobotChannels& own = robots_.emplace_back();
-    own.pose = channel(topic + "pose", "playpen.Pose",
+    own.pose = channel(topic + "true_pose", "playpen.TruePose",
                        object_schema({{"x", "number", "true position in the world [m]"},
                                       {"y", "number", "true position in the world [m]"},
                                       {"yaw", "number", "true heading [rad]"},
@@ -170,7 +171,7 @@ class RunChannels {
                                       {"omega", "number", "turn rate [rad/s]"},
                                       {"stalled", "boolean", "blocked by an obstacle"}}));
     own.pose_in_frame =
-        channel(topic + "pose/in_frame", "foxglove.PoseInFrame", pose_in_frame_schema());
+        channel(topic + "true_pose/in_frame", "foxglove.PoseInFrame", pose_in_frame_schema());
     own.commands = channel(topic + "commands", "playpen.Command",
                            with_members(object_schema({{"device", "string"}}),
                                         {{"command", object_schema({{"kind", "string"}})}}));
@@ -251,6 +252,11 @@ class RunChannels {
     if (own.scans == 0) return;
     const auto& laser = static_cast<const sim::Laser&>(device);
     const sim::LaserReading& scan = laser.reading();
+    // For pictures, so a third of the digits does. The exact ranges are in the reading.
+    json ranges_m = json::array();
+    for (const double range_m : scan.ranges_m) {
+      ranges_m.push_back(std::round(range_m * kUnitsPerMetre) / kUnitsPerMetre);
+    }
     const auto last = static_cast<double>(scan.ranges_m.empty() ? 0 : scan.ranges_m.size() - 1);
     write(own.scans, scan.time_ns,
           {{"timestamp", time_json(scan.time_ns)},
@@ -258,7 +264,7 @@ class RunChannels {
            {"pose", pose_in_space(scan.X_WB * laser.params().X_BL, laser.params().height_m)},
            {"start_angle", scan.angle_min_rad},
            {"end_angle", scan.angle_min_rad + last * scan.resolution_rad},
-           {"ranges", scan.ranges_m},
+           {"ranges", std::move(ranges_m)},
            {"intensities", scan.intensities}});
   }
 

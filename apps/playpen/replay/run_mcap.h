@@ -14,10 +14,11 @@ namespace playpen::replay {
 /// written, so that log times never decrease; its publish time is when a reading was measured or an
 /// event happened. Topics, with JSON messages and their JSON Schemas:
 ///
-/// - `/ROBOT/pose`: true pose, velocity in B, and whether the robot is stalled, each 0.05 s, and at
-///   the end; `/ROBOT/pose/in_frame`: the pose as foxglove.PoseInFrame, in the frame "world";
+/// - `/ROBOT/true_pose`: true pose, velocity in B, and whether the robot is stalled, each 0.05 s,
+///   and at the end; `/ROBOT/true_pose/in_frame`: the pose as foxglove.PoseInFrame, in the frame
+///   "world". Most robots have a device named "pose", so this is not `/ROBOT/pose`;
 /// - `/ROBOT/DEVICE`: each reading, see playerlike::reading_json(); `/ROBOT/DEVICE/scan`: a laser's
-///   scan as foxglove.LaserScan, in the frame "world";
+///   scan as foxglove.LaserScan, in the frame "world", with ranges to 0.1 mm;
 /// - `/ROBOT/commands`: each command and its device, at the time before the step that executed it;
 /// - `/ROBOT/said`: texts that it said;
 /// - `/arena/events`, `/arena/collisions`;
