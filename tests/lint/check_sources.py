@@ -188,7 +188,7 @@ PLACES = [(re.compile(include), re.compile(path), why) for include, path, why in
      "clients are C++14, libsim's headers are C++20"),
     (r"protocol/", r"(?!libplayerlike/(src|include/playerlike)/host/)"
                    r"|libplayerlike/src/host/results/(run_log|reading_json|report_fields|recording_format)\.cpp$",
-     "of a host only log, report, recording and export of a run are written in the protocol's words"),
+     "of a host only log, report and recording of a run are written in the protocol's words"),
     (r"asio(\.hpp$|/)", r"(?!libplayerlike/)|libplayerlike/src/(server|remote)/",
      "sockets belong in libplayerlike/src/server and libplayerlike/src/remote"),
     (rf"(libsim/(src|include/sim)/)?({'|'.join(SIM)})/", r"(?!apps/)", "programs include public headers only"),

@@ -167,7 +167,7 @@ ReplayBuilder::ReplayBuilder(const sim::Simulation& simulation, ReplayOptions op
   run_.name = options_.name.empty() ? world.name : options_.name;
   run_.world = world.name;
   run_.arena = world.arena;
-  run_.canvas = simulation.layers().description();
+  run_.canvas = canvas_ = simulation.layers().description();
   run_.obstacles.resize(world.arena.obstacles.size());
   const sim::SceneSnapshot scene = simulation.snapshot(false);
   run_.tracks = scene.tracks;

@@ -65,6 +65,7 @@ class ReplayBuilder {
   void add_obstacles(const sim::Simulation& simulation);
   void add_controller(const sim::Simulation& simulation);
   void add_layers(const sim::LayerStack& layers);
+  void begin_layers(const sim::CanvasDescription& canvas);
   void add_reading(const sim::Simulation& simulation, sim::Simulation::DeviceId id);
   void add_happenings(const sim::Simulation& simulation);
   void add_goals(const sim::Simulation& simulation);
@@ -81,7 +82,10 @@ class ReplayBuilder {
   std::size_t command_count_ = 0;
   std::size_t output_bytes_ = 0;
   HappeningsWatch happenings_;
-  std::vector<sim::LayerId> layer_ids_;               ///< of ReplayRun::layers
+  sim::CanvasDescription canvas_;  ///< as it is now
+  int canvas_changes_ = 0;         ///< how often its size has changed
+  std::size_t first_layer_ = 0;    ///< index in ReplayRun::layers of those of the present size
+  std::vector<sim::LayerId> layer_ids_;               ///< of these layers
   std::vector<std::vector<std::uint8_t>> cells_;      ///< their pictures at the last frame
   std::vector<std::vector<std::uint8_t>> raw_cells_;  ///< and their cells
   std::uint64_t layers_revision_ = 0;
