@@ -187,7 +187,7 @@ PLACES = [(re.compile(include), re.compile(path), why) for include, path, why in
     (r"sim/", r"(?!libplayerlike/include/(libplayer|libCCMorse/|libPlayer/|imr-h/))",
      "clients are C++14, libsim's headers are C++20"),
     (r"protocol/", r"(?!libplayerlike/(src|include/playerlike)/host/)"
-                   r"|libplayerlike/src/host/results/(run_log|report_fields|recording_format)\.cpp$",
+                   r"|libplayerlike/src/host/results/(run_log|reading_json|report_fields|recording_format)\.cpp$",
      "of a host only log, report and recording of a run are written in the protocol's words"),
     (r"asio(\.hpp$|/)", r"(?!libplayerlike/)|libplayerlike/src/(server|remote)/",
      "sockets belong in libplayerlike/src/server and libplayerlike/src/remote"),

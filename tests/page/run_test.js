@@ -32,10 +32,10 @@ function tapeOf(changes, size = {width: 3, height: 2}) {
   const file = new FakeFile();
   const runs = [].concat(...changes.map((change) => change.runs));
   return new Layers.Tape({name: "l", colour: "#000000", visible: true, priority: 0, grey: false,
-    t: file.add(changes.map((change) => change.t * 1e6)),
+    width: size.width, height: size.height, t: file.add(changes.map((change) => change.t * 1e6)),
     runs: file.add(changes.map((change) => change.runs.length)), first: file.add(runs.map((one) => one[0])),
     count: file.add(runs.map((one) => one[1])), colours: file.add(runs.map((one) => one[2])),
-    palette: [0, 0xff0000ff, 0x00ff00ff]}, size, (index) => file.column(index));
+    palette: [0, 0xff0000ff, 0x00ff00ff]}, (index) => file.column(index));
 }
 
 // A run of 2 s with a robot, a laser of three beams, a text, and commands.
@@ -46,7 +46,7 @@ function runOf() {
   const zero = () => file.add([0, 0, 0]);
   const device = (name, more) => Object.assign({robot: 0, name, type: name, t: times(), series: [],
     lists: []}, more);
-  const json = {name: "one", world: "room", notes: [], end: 2e6, canvas: {width: 2, height: 2},
+  const json = {name: "one", world: "room", notes: [], end: 2e6, canvas: {cell: 0.1, origin: [0, 0]},
     arena: {origin: [0, 0], size: [2, 1], walls: {n: file.add([3]), solid: file.add([1]),
       xy: file.add([0, 0, 10000, 0, 0, 10000])}},
     frames: times(0, 1, 2), tracks: [], traps: [], trap_states: none(), scores: none(),

@@ -44,11 +44,9 @@ void ReplayBuilder::add_layers(const sim::LayerStack& layers) {
   const bool same_styles = layers.revision() == layers_revision_;
   layers_revision_ = layers.revision();
   const sim::CanvasDescription size = layers.description();
-  if (size.width != run_.canvas.width || size.height != run_.canvas.height) {
-    // Cells keep their index in a picture of the first size only.
-    run_.notes.push_back("The canvas changed its size; drawings after that are left out.");
-    options_.watch_layers = false;
-    return;
+  if (size.width != canvas_.width || size.height != canvas_.height) {
+    begin_layers(size);
+    if (!options_.watch_layers) return;
   }
   const std::vector<sim::LayerInfo> infos = layers.layers();
   const std::vector<std::uint8_t> blank(4 * layers.cell_count(), 0);
@@ -62,6 +60,8 @@ void ReplayBuilder::add_layers(const sim::LayerStack& layers) {
                            .visible = info.style.visible,
                            .priority = info.style.priority,
                            .is_grey = info.kind == sim::LayerKind::kGrey,
+                           .width = size.width,
+                           .height = size.height,
                            .changes = {}});
   }
   for (std::size_t i = 0; i < layer_ids_.size(); ++i) {
@@ -75,15 +75,38 @@ void ReplayBuilder::add_layers(const sim::LayerStack& layers) {
     std::vector<std::uint8_t> now = exists ? layers.picture(layer_ids_[i]) : blank;
     std::vector<CellRun> runs = cell_runs(cells_[i], now);
     if (runs.empty()) continue;
-    run_.layers[i].changes.push_back({now_ns, std::move(runs)});
+    run_.layers[first_layer_ + i].changes.push_back({now_ns, std::move(runs)});
     cells_[i] = std::move(now);
   }
 }
 
+// Cells keep their index in pictures of one size only, so each size has layers of its own.
+void ReplayBuilder::begin_layers(const sim::CanvasDescription& canvas) {
+  constexpr int kMostChanges = 16;
+  for (std::size_t i = 0; i < layer_ids_.size(); ++i) {
+    std::vector<CellRun> runs =
+        cell_runs(cells_[i], std::vector<std::uint8_t>(cells_[i].size(), 0));
+    if (runs.empty()) continue;
+    run_.layers[first_layer_ + i].changes.push_back({run_.frames_ns.back(), std::move(runs)});
+  }
+  layer_ids_.clear();
+  cells_.clear();
+  raw_cells_.clear();
+  first_layer_ = run_.layers.size();
+  canvas_ = canvas;
+  if (++canvas_changes_ <= kMostChanges) return;
+  run_.notes.push_back("The canvas changed its size more than " + std::to_string(kMostChanges) +
+                       " times; drawings after that are left out.");
+  options_.watch_layers = false;
+}
+
 void ReplayBuilder::set_layers(std::vector<LayerLog> layers) {
-  const auto cells = static_cast<std::uint64_t>(run_.canvas.width) *
-                     static_cast<std::uint64_t>(run_.canvas.height);
   for (const LayerLog& layer : layers) {
+    const auto side = [](int own, int of_canvas) {
+      return static_cast<std::uint64_t>(own > 0 ? own : of_canvas);
+    };
+    const std::uint64_t cells =
+        side(layer.width, run_.canvas.width) * side(layer.height, run_.canvas.height);
     if (!std::ranges::is_sorted(layer.changes, {}, &LayerChange::time_ns)) {
       throw std::invalid_argument("the changes of the layer '" + layer.name +
                                   "' must be in the order of time");

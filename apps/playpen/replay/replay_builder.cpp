@@ -167,7 +167,7 @@ ReplayBuilder::ReplayBuilder(const sim::Simulation& simulation, ReplayOptions op
   run_.name = options_.name.empty() ? world.name : options_.name;
   run_.world = world.name;
   run_.arena = world.arena;
-  run_.canvas = simulation.layers().description();
+  run_.canvas = canvas_ = simulation.layers().description();
   run_.obstacles.resize(world.arena.obstacles.size());
   const sim::SceneSnapshot scene = simulation.snapshot(false);
   run_.tracks = scene.tracks;
@@ -305,33 +305,10 @@ void ReplayBuilder::add_reading(const sim::Simulation& simulation, sim::Simulati
 }
 
 void ReplayBuilder::add_happenings(const sim::Simulation& simulation) {
-  std::uint64_t contacts = 0;
-  for (int robot = 0; robot < simulation.robot_count(); ++robot) {
-    contacts += static_cast<std::uint64_t>(simulation.statistics(robot).collisions);
-  }
-  const std::vector<sim::Collision>& kept = simulation.collisions();
-  const std::size_t fresh = std::min<std::size_t>(kept.size(), contacts - collisions_);
-  run_.collisions.insert(run_.collisions.end(), kept.end() - static_cast<std::ptrdiff_t>(fresh),
-                         kept.end());
-  collisions_ = contacts;
-  for (const sim::ArenaEvent& event : simulation.arena_events().newest) {
-    if (event.number > events_) run_.events.push_back(event);
-  }
-  events_ = simulation.arena_events().count;
-  // The list drops its oldest texts when it is full. Then those after the newest known one are new.
-  const std::vector<sim::SpokenText>& said = simulation.spoken_texts();
-  std::size_t first = std::min(spoken_, said.size());
-  if (spoken_ == said.size() && !run_.spoken.empty()) {
-    const sim::SpokenText& newest = run_.spoken.back();
-    while (first > 0 &&
-           !(said[first - 1].time_ns == newest.time_ns && said[first - 1].robot == newest.robot &&
-             said[first - 1].text == newest.text)) {
-      --first;
-    }
-  }
-  run_.spoken.insert(run_.spoken.end(), said.begin() + static_cast<std::ptrdiff_t>(first),
-                     said.end());
-  spoken_ = said.size();
+  const HappeningsWatch::Happenings fresh = happenings_.look(simulation);
+  run_.collisions.insert(run_.collisions.end(), fresh.collisions.begin(), fresh.collisions.end());
+  run_.events.insert(run_.events.end(), fresh.events.begin(), fresh.events.end());
+  run_.spoken.insert(run_.spoken.end(), fresh.spoken.begin(), fresh.spoken.end());
   run_.verdict = simulation.verdict();
 }
 

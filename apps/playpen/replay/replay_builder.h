@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "replay/happenings.h"
 #include "replay/replay_run.h"
 #include "sim/canvas/layers.h"
 #include "sim/devices/device.h"
@@ -68,6 +69,7 @@ class ReplayBuilder {
   void add_obstacles(const sim::Simulation& simulation);
   void add_controller(const sim::Simulation& simulation);
   void add_layers(const sim::LayerStack& layers);
+  void begin_layers(const sim::CanvasDescription& canvas);
   void add_reading(const sim::Simulation& simulation, sim::Simulation::DeviceId id);
   void add_happenings(const sim::Simulation& simulation);
   void add_goals(const sim::Simulation& simulation);
@@ -84,10 +86,11 @@ class ReplayBuilder {
   std::map<std::size_t, std::string> last_text_;   ///< of each device: its newest command
   std::size_t command_count_ = 0;
   std::size_t output_bytes_ = 0;
-  std::uint64_t collisions_ = 0;         ///< number of all collisions so far
-  std::uint64_t events_ = 0;             ///< number of the newest arena event so far
-  std::size_t spoken_ = 0;               ///< length of the simulation's list at the last call
-  std::vector<sim::LayerId> layer_ids_;  ///< of ReplayRun::layers
+  HappeningsWatch happenings_;
+  sim::CanvasDescription canvas_;  ///< as it is now
+  int canvas_changes_ = 0;         ///< how often its size has changed
+  std::size_t first_layer_ = 0;    ///< index in ReplayRun::layers of those of the present size
+  std::vector<sim::LayerId> layer_ids_;               ///< of these layers
   std::vector<std::vector<std::uint8_t>> cells_;      ///< their pictures at the last frame
   std::vector<std::vector<std::uint8_t>> raw_cells_;  ///< and their cells
   std::uint64_t layers_revision_ = 0;

@@ -162,9 +162,7 @@ class RunEncoder {
   }
 
   json canvas() const {
-    return {{"width", run_.canvas.width},
-            {"height", run_.canvas.height},
-            {"cell", run_.canvas.cell_size_m},
+    return {{"cell", run_.canvas.cell_size_m},
             {"origin", {run_.canvas.origin.x(), run_.canvas.origin.y()}}};
   }
 
@@ -424,6 +422,8 @@ class RunEncoder {
                      {"visible", layer.visible},
                      {"priority", layer.priority},
                      {"grey", layer.is_grey},
+                     {"width", layer.width > 0 ? layer.width : run_.canvas.width},
+                     {"height", layer.height > 0 ? layer.height : run_.canvas.height},
                      {"t", columns_.add(at)},
                      {"runs", columns_.add(runs)},
                      {"first", columns_.add(first)},
@@ -467,10 +467,13 @@ const std::vector<Thinning>& thinning_steps() {
   return kSteps;
 }
 
-std::string encoded(const std::vector<ReplayRun>& runs, const Thinning& thinning) {
+std::string encoded(const std::vector<ReplayRun>& runs, const Thinning& thinning,
+                    const std::string& note) {
   Columns columns;
+  std::string thinned = thinning.text();
+  if (!note.empty()) thinned += (thinned.empty() ? "" : " ") + note;
   json out = {{"format", 1},
-              {"thinned", thinning.text()},
+              {"thinned", thinned},
               {"palette", json::object()},
               {"runs", json::array()},
               {"columns", json::array()}};

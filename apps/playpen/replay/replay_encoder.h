@@ -27,6 +27,8 @@ struct Thinning {
 /// bytes of Columns. viewer/columns.js and viewer/run.js read them. Times are in microseconds,
 /// lengths in tenths of a millimetre, angles in hundredths of a degree, if an entry states no unit.
 /// Invalid UTF-8 in texts is replaced.
-[[nodiscard]] std::string encoded(const std::vector<ReplayRun>& runs, const Thinning& thinning);
+/// @param note  a sentence that the page shows after Thinning::text().
+[[nodiscard]] std::string encoded(const std::vector<ReplayRun>& runs, const Thinning& thinning,
+                                  const std::string& note = "");
 
 }  // namespace playpen::replay

@@ -8,6 +8,7 @@
 #include "replay/replay_encoder.h"
 #include "replay/viewer_files.h"
 #include "sim/core/base64.h"
+#include "sim/core/number_text.h"
 #include "sim/core/utf8.h"
 
 namespace playpen::replay {
@@ -45,12 +46,18 @@ std::string html(const std::vector<ReplayRun>& runs, const PageOptions& options)
   const std::string head = head_of(title);
   const std::string tail =
       "</script>\n<script>" + joined(kViewerScripts) + "</script>\n</body>\n</html>\n";
-  std::string page;
+  const auto page = [&](const Thinning& thinning, const std::string& note) {
+    return head + sim::to_base64(deflated(encoded(runs, thinning, note))) + tail;
+  };
   for (const Thinning& thinning : thinning_steps()) {
-    page = head + sim::to_base64(deflated(encoded(runs, thinning))) + tail;
-    if (page.size() <= options.most_bytes) break;
+    std::string made = page(thinning, "");
+    if (made.size() <= options.most_bytes) return made;
   }
-  return page;
+  constexpr double kMegabyte = 1e6;
+  return page(thinning_steps().back(),
+              "Nothing more can be left out, so it is still larger than the limit of " +
+                  sim::rounded_text(static_cast<double>(options.most_bytes) / kMegabyte, 3) +
+                  " MB.");
 }
 
 }  // namespace playpen::replay

@@ -130,13 +130,16 @@ struct LayerChange {
   std::vector<CellRun> runs;
 };
 
-/// A layer over time; blank at first.
+/// A layer over time; blank at first. Its bottom left corner is that of the canvas. When the canvas
+/// changes its size, layers become blank, and others of the same names go on.
 struct LayerLog {
   std::string name;
   sim::Colour colour;  ///< of its entry in legends
   bool visible = true;
   int priority = 0;                  ///< higher priorities lie above lower ones
   bool is_grey = false;              ///< an occupancy grid: its legend says free, unknown, occupied
+  int width = 0;                     ///< columns; 0: those of ReplayRun::canvas
+  int height = 0;                    ///< rows; 0: those of ReplayRun::canvas
   std::vector<LayerChange> changes;  ///< in the order of time
 };
 
@@ -149,11 +152,11 @@ struct TextNote {
 
 /// A run, as ReplayBuilder has recorded it.
 struct ReplayRun {
-  std::string name;             ///< for people, e.g. the folder of the results
-  std::string world;            ///< its name
-  sim::SimTime end_ns = 0;      ///< time of the last frame
-  sim::ArenaDescription arena;  ///< at the start
-  sim::CanvasDescription canvas;
+  std::string name;               ///< for people, e.g. the folder of the results
+  std::string world;              ///< its name
+  sim::SimTime end_ns = 0;        ///< time of the last frame
+  sim::ArenaDescription arena;    ///< at the start
+  sim::CanvasDescription canvas;  ///< at the start
   std::vector<sim::SimTime> frames_ns;
   std::vector<RobotLog> robots;
   std::vector<ChangeLog> obstacles;  ///< see obstacle_record() in replay_builder.cpp

@@ -10,9 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "replay/columns.h"
 #include "replay/field_values.h"
 #include "replay/replay_encoder.h"
 #include "replay/replay_page.h"
+#include "sim/core/base64.h"
 #include "sim/simulation/simulation.h"
 
 namespace {
@@ -209,6 +211,41 @@ TEST(ReplayBuilder, DrawingsOfTheSimulationAreWatched) {
   EXPECT_EQ(run.layers[0].changes[0].runs[0].count, 3U);
 }
 
+TEST(ReplayBuilder, CanvasResized_LayersOfEachSize) {
+  const ReplayRun run = driven(0.3, [](Simulation& simulation, ReplayBuilder&) {
+    const auto paint = [&](int column) {
+      simulation.layers().set_cells(
+          sim::kBaseLayer, {column, 0, 1, 1},
+          std::vector(1, sim::CellValue::of(sim::Colour{255, 0, 0, 255})));
+    };
+    if (simulation.steps() == 6) paint(2);
+    if (simulation.steps() == 16) simulation.layers().resize(30, 12);
+    if (simulation.steps() == 26) paint(29);
+  });
+  ASSERT_THAT(run.layers, SizeIs(2));
+  EXPECT_EQ(run.layers[0].width, 20);
+  EXPECT_EQ(run.layers[1].width, 30);
+  EXPECT_EQ(run.layers[1].height, 12);
+  EXPECT_EQ(run.layers[0].name, run.layers[1].name);
+  ASSERT_THAT(run.layers[0].changes, SizeIs(2));  // drawn, then blank
+  EXPECT_EQ(run.layers[0].changes[1].time_ns, 200'000'000);
+  EXPECT_EQ(run.layers[0].changes[1].runs[0].colour.a, 0);
+  ASSERT_THAT(run.layers[1].changes, SizeIs(2));
+  EXPECT_EQ(run.layers[1].changes[0].time_ns, 200'000'000);
+  // The bottom left corner stays, so the cell of row 0 is now in row 2.
+  EXPECT_EQ(run.layers[1].changes[0].runs[0].first, 2U * 30U + 2U);
+  EXPECT_EQ(run.layers[1].changes[1].runs[0].first, 29U);
+  EXPECT_THAT(run.notes, testing::IsEmpty());
+}
+
+TEST(ReplayBuilder, CanvasResizedOften_Noted) {
+  const ReplayRun run = driven(2.0, [](Simulation& simulation, ReplayBuilder&) {
+    simulation.layers().resize(20 + static_cast<int>(simulation.steps() / 5), 10);
+  });
+  EXPECT_THAT(run.notes, ElementsAre(HasSubstr("more than 16 times; drawings after that")));
+  EXPECT_LE(run.layers.size(), 17U);
+}
+
 TEST(ReplayBuilder, CellRunsJoinEqualNeighbours) {
   const std::vector<std::uint8_t> before(16, 0);
   std::vector<std::uint8_t> now(16, 0);
@@ -301,6 +338,16 @@ TEST(ReplayPage, LargePagesAreThinned) {
   for (const std::size_t most : {whole - 1, (whole + least) / 2, least}) {
     EXPECT_LE(html({run}, {.most_bytes = most}).size(), most);
   }
+}
+
+TEST(ReplayPage, PageTooLargeInAnyCase_SaysSo) {
+  const ReplayRun run = driven(1.0);
+  const std::string said =
+      encoded({run}, playpen::replay::thinning_steps().back(),
+              "Nothing more can be left out, so it is still larger than the limit of 0.02 MB.");
+  EXPECT_THAT(said, HasSubstr("no drawings. Nothing more can be left out"));
+  EXPECT_THAT(html({run}, {.most_bytes = 20'000}),
+              HasSubstr(sim::to_base64(playpen::replay::deflated(said))));
 }
 
 TEST(ReplayPage, TextsAreNoMarkup) {

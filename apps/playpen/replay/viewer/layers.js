@@ -18,14 +18,14 @@ const Layers = (function () {
   }
 
   class Tape {
-    constructor(json, canvas, column) {
+    constructor(json, column) {
       this.name = json.name;
       this.colour = json.colour;
       this.visible = json.visible;
       this.priority = json.priority;
       this.grey = json.grey;
-      this.width = canvas.width;
-      this.height = canvas.height;
+      this.width = json.width;
+      this.height = json.height;
       this.times = new Runs.Timeline(column(json.t));
       this.first = column(json.first);
       this.count = column(json.count);

@@ -279,7 +279,7 @@ const Runs = (function () {
         (i) => this.devices[this.commands.device[i]].robot);
       this.output = json.output.map(([t, text, error]) => ({t: t * kMicrosecond, text,
         error: error === 1}));
-      this.layers = json.layers.map((one) => new Layers.Tape(one, json.canvas, column));
+      this.layers = json.layers.map((one) => new Layers.Tape(one, column));
     }
 
     robotNamed(name) {

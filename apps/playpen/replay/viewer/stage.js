@@ -167,16 +167,17 @@ const Stages = (function () {
       const {canvas} = this.runs[0];
       const view = this.view;
       const cell = canvas.cell * view.scale;
-      const top = view.py(canvas.origin[1] + canvas.height * canvas.cell);
+      const [left, bottom] = view.point(canvas.origin);
       ctx.imageSmoothingEnabled = cell * (window.devicePixelRatio || 1) < 1;
       const order = this.layers.map((picture, i) => i).sort((a, b) =>
         this.layers[a].tape.priority - this.layers[b].tape.priority || a - b);
       this.onFloor(ctx, () => {
         for (const i of order) {
-          if (hidden.has(this.layers[i].tape.name)) continue;
+          const {tape, canvas: picture} = this.layers[i];
+          if (hidden.has(tape.name)) continue;
           this.layers[i].seek(t);
-          ctx.drawImage(this.layers[i].canvas, view.px(canvas.origin[0]), top, canvas.width * cell,
-            canvas.height * cell);
+          const height = tape.height * cell;
+          ctx.drawImage(picture, left, bottom - height, tape.width * cell, height);
         }
       });
     }
@@ -193,12 +194,13 @@ const Stages = (function () {
       let coloured = 0;
       for (let i = first; i <= last; i += step, ++points) {
         const column = Math.floor((robot.x.at(i) - canvas.origin[0]) / canvas.cell);
-        const row = canvas.height - 1 - Math.floor((robot.y.at(i) - canvas.origin[1]) / canvas.cell);
-        if (column < 0 || row < 0 || column >= canvas.width || row >= canvas.height) continue;
-        const at = 4 * (row * canvas.width + column);
-        coloured += shown.some(({image: {data}}) => data[at + 3] >= 128 &&
-          Math.max(data[at], data[at + 1], data[at + 2]) -
-            Math.min(data[at], data[at + 1], data[at + 2]) >= 60) ? 1 : 0;
+        const up = Math.floor((robot.y.at(i) - canvas.origin[1]) / canvas.cell);
+        coloured += shown.some(({tape: {width, height}, image: {data}}) => {
+          if (column < 0 || up < 0 || column >= width || up >= height) return false;
+          const at = 4 * ((height - 1 - up) * width + column);
+          const rgb = data.subarray(at, at + 3);
+          return data[at + 3] >= 128 && Math.max(...rgb) - Math.min(...rgb) >= 60;
+        }) ? 1 : 0;
       }
       return points > 0 ? coloured / points : 0;
     }
