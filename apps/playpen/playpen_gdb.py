@@ -17,6 +17,7 @@ SIZE = 128 << 20
 HEADER = struct.Struct("<QIIiIQqI4xQQI4xQQQ")
 STEP = struct.Struct("<Qqdd")
 ROBOT_SIZE = 160
+NAMESPACES = ("playerlike::", "sim::", "PlayerCc::", "std::")  # of functions below a user's code
 PHASES = (
     "no simulation yet",
     "the run goes on",
@@ -163,9 +164,10 @@ Page: playpen doc debugging"""
     @staticmethod
     def is_users(frame):
         symtab = frame.find_sal().symtab
-        name = frame.name() or ""
+        library = os.path.basename(gdb.solib_name(frame.pc()) or "")
         return (symtab is not None and os.path.isfile(symtab.fullname())
-                and not name.startswith(("playerlike::", "sim::", "PlayerCc::", "std::")))
+                and not library.startswith("libplaypen")
+                and not (frame.name() or "").startswith(NAMESPACES))
 
 
 def keep_state():
@@ -182,5 +184,5 @@ Time()
 Robots()
 Frame()
 keep_state()
-print("Simulated time stands still at breakpoints. playpen-time and playpen-robots show the run; "
-      "'run' starts it.")
+print("Simulated time stands still at breakpoints. playpen-time, playpen-robots and playpen-frame "
+      "show the run; 'run' starts it.")

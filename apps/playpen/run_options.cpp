@@ -46,16 +46,17 @@ void add_real_robots(CLI::App& command, playerlike::RunSettings& settings) {
 
 /// @throws CLI::ParseError if an option was given that a server decides about.
 void refuse_settings_of_server(const CLI::App& command) {
+  for (const char* name : {"--from", "--until", "--then"}) {
+    if (command.get_option(name)->count() == 0) continue;
+    throw CLI::ValidationError(name,
+                               "the world is that of a server: only a run whose world this command "
+                               "starts can begin or stop at a time");
+  }
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || option->get_positional() || name == "--real-sleep" ||
         name == "--debug" || name == "--quiet") {
       continue;
-    }
-    if (name == "--from" || name == "--until" || name == "--then") {
-      throw CLI::ValidationError(name,
-                                 "the world is that of a server: only worlds of this command "
-                                 "can be started or stopped at a time");
     }
     throw CLI::ValidationError(name,
                                "the world is that of a server, which decides about this: "

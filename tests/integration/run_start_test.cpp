@@ -81,7 +81,7 @@ TEST_F(RunStart, SameStart_SameRunAlsoIsolated) {
   const std::string moment = first_ + "@2.345";
   ASSERT_EQ(run({"--from", moment}, second_).status, 0);
   const std::string other = folder_ / "other";
-  const ProcessResult end = run({"--from", moment, "--isolated"}, other);
+  const ProcessResult end = run({"--from", moment, "--isolated", "best"}, other);
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_EQ(rows(other), rows(second_));
 }
@@ -157,7 +157,7 @@ TEST_F(RunStart, UnusableUntil_Refused) {
     refused({"--until", "3", "--then", then, "--duration", "3"}, "the run is over at 3 s");
   }
   refused({"--until", "3", "--then", "debug", "--clients", "2"}, "not in the program's process");
-  refused({"--until", "3", "--then", "debug", "--isolated"}, "a debugger cannot reach");
+  refused({"--until", "3", "--then", "debug", "--isolated", "best"}, "a debugger cannot reach");
   expect_refused({"tcp://localhost", "--until", "3", "--then", "save"},
                  "--until: the world is that of a server");
   make_first();

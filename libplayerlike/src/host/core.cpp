@@ -3,17 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <exception>
 #include <utility>
 
 #include "host/launch/busy_alarm.h"
+#include "host/launch/start_of_run.h"
 #include "host/stepping/virtual_clock.h"
 #include "host/window/window.h"
-#include "process/debugger.h"
 #include "process/end_of_program.h"
-#include "sim/core/error.h"
-#include "sim/core/file.h"
 #include "sim/core/number_text.h"
 #include "virtual_time/program_threads.h"
 
@@ -31,35 +28,6 @@ void require_duration(double sleep_s) {
                      "sleep takes a number of seconds in [0, 1e9]");
 }
 
-/// The simulation of a run at its beginning.
-/// @throws sim::ConfigError run/start if the state to begin with cannot be read or belongs to
-///     another world.
-sim::Simulation started(sim::WorldDescription world, const RunSettings& settings,
-                        const sim::LogHook& log) {
-  check_drivers(world);
-  check_interfaces(world);
-  settings.apply_to(world);
-  sim::Simulation simulation(std::move(world), log);
-  if (settings.start_state.empty()) return simulation;
-  constexpr std::size_t kMostState = std::size_t{1} << 30U;
-  const auto refuse = [&settings](const std::string& found) {
-    throw sim::ConfigError(std::vector<sim::ConfigIssue>{{"run/start", settings.start_state, "",
-                                                          "a state of this world", found,
-                                                          "playpen run --from writes such files"}});
-  };
-  std::string bytes;
-  if (const auto error =
-          sim::read_whole_file(settings.start_state, {.most_bytes = kMostState}, bytes)) {
-    refuse(error->found);
-  }
-  try {
-    simulation.restore({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  } catch (const sim::SnapshotError& e) {
-    refuse(e.what());
-  }
-  return simulation;
-}
-
 }  // namespace
 
 // --- Construction and the mutex
@@ -70,7 +38,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       warn_([this](const std::string& text) {
         if (log_) log_(sim::LogLevel::kWarning, text);
       }),
-      simulation_(started(std::move(world), settings_, log_)),
+      simulation_(simulation_at_start(std::move(world), settings_, log_)),
       robots_(robots_for(settings_.grading.rules.may_use, describe_robots(simulation_))),
       permissions_(settings_.grading.rules.may_use, robots_),
       step_ns_(simulation_.world().simulation.step_ns),
@@ -495,15 +463,6 @@ bool Host::Core::advance(Lock& lock) {
     if (stop_ns_ && now_ns() >= *stop_ns_) make_stop();
   }
   return release_waiters();
-}
-
-void Host::Core::make_stop() {
-  stop_ns_.reset();
-  if (settings_.stop->then == RunStop::Then::kView) {
-    if (window_) pace_.set_paused(true);
-  } else if (tracer_of(0) != 0) {
-    static_cast<void>(raise(SIGTRAP));  // the debugger takes it
-  }
 }
 
 void Host::Core::note_losses() {

@@ -137,7 +137,13 @@ void read_rules(Variables& variables, TaskRules& rules) {
   });
 }
 
-void read_stop(Variables& variables, std::optional<RunStop>& stop) {
+/// Reads at which state a run begins, and at which time it stops. @pre The grading is known.
+void read_start_and_stop(Variables& variables, RunSettings& settings) {
+  settings.start_state = environment("PLAYPEN_START");
+  if (!settings.start_state.empty() && !settings.grading.nonce.empty()) {
+    variables.refuse("PLAYPEN_START", "no state: a run that is graded begins at the beginning");
+  }
+  std::optional<RunStop>& stop = settings.stop;
   variables.read("PLAYPEN_UNTIL", kStopTimeExpected, [&stop](const std::string& text) {
     return parse_stop_time(text, stop.emplace().time_s);
   });
@@ -412,11 +418,7 @@ RunSettings RunSettings::from_environment() {
                  into<int>(settings.robot_port, parse_robot_port));
   variables.read("PLAYPEN_PLAYER_PORT", kTcpPortExpected,
                  into<int>(settings.player_port, parse_tcp_port));
-  settings.start_state = environment("PLAYPEN_START");
-  if (!settings.start_state.empty() && !settings.grading.nonce.empty()) {
-    variables.refuse("PLAYPEN_START", "no state: a run that is graded begins at the beginning");
-  }
-  read_stop(variables, settings.stop);
+  read_start_and_stop(variables, settings);
   settings.take_over = is_set("PLAYPEN_TAKE_OVER");
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
