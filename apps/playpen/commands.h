@@ -10,6 +10,7 @@
 #include "isolation.h"
 #include "playerlike/host/run_settings.h"
 #include "playerlike/server/server_settings.h"
+#include "run_start.h"
 #include "sim/core/log.h"
 #include "sim/render/render.h"
 
@@ -21,9 +22,16 @@ inline constexpr int kOk = 0;             ///< all went well
 inline constexpr int kProgramFailed = 1;  ///< the client program failed
 inline constexpr int kBadInput = 2;       ///< unusable arguments or world
 
+/// What happens at a moment of a run.
+struct RunUntil {
+  double time_s = 0.0;  ///< simulated time, 0..1e9; the first step at or after it counts
+  enum class Then { kDebug, kView, kSave } then = Then::kSave;
+};
+
 /// Arguments of `playpen run`.
 struct RunRequest {
-  std::string world;  ///< as the user wrote it, see find_world()
+  std::string world;  ///< as the user wrote it, see find_world(); with `from`, "" is that run's
+  std::optional<RunMoment> from;  ///< the world begins as it was at this moment
   playerlike::RunSettings settings;
   bool quiet = false;
   bool view = false;        ///< in a window, in real time unless the settings say otherwise
@@ -31,6 +39,7 @@ struct RunRequest {
   bool debug = false;       ///< in gdb
   std::string replay_file;  ///< .html; "": no replay is written
   double replay_megabytes = 5.0;
+  std::optional<RunUntil> until;
   IsolationSettings isolation;
   std::vector<std::string> command;  ///< program and arguments
   /// the call of `playpen run` up to "--", as the user wrote it, for advice

@@ -49,6 +49,14 @@ sim::CanvasDescription without_cells(sim::CanvasDescription canvas) {
   return canvas;
 }
 
+/// The world of a run at its beginning. A restored state may have changed its obstacles.
+sim::WorldDescription start_world(const RunSettings& settings, const sim::Simulation& simulation) {
+  if (settings.start_state.empty()) return simulation.world();
+  sim::WorldDescription world = sim::load_world(simulation.world().file);
+  settings.apply_to(world);
+  return world;
+}
+
 RecordingHead head_of(const RunSettings& settings, const sim::Simulation& simulation,
                       bool has_program_log) {
   const sim::WorldDescription& world = simulation.world();
@@ -66,7 +74,7 @@ RecordingHead head_of(const RunSettings& settings, const sim::Simulation& simula
       head.world_text = std::move(text);
     }
   }
-  head.world_hash = hash_of_world(world);
+  head.world_hash = hash_of_world(start_world(settings, simulation));
   head.seed = world.simulation.seed;
   head.realism = sim::to_string(world.simulation.realism);
   head.view_mode = sim::to_string(world.canvas.view_mode);
@@ -93,7 +101,9 @@ RecordingWriter::RecordingWriter(const RunSettings& settings, sim::Simulation& s
   out_ << head << std::flush;
   if (!out_) throw std::runtime_error("cannot write " + file_);
   written_ = head.size();
-  next_hash_ns_ = kHashPeriod_ns;
+  next_look_ns_ = next_layers_ns_ = simulation.now_ns();
+  next_hash_ns_ = simulation.now_ns() + kHashPeriod_ns;
+  if (!settings.start_state.empty()) note_state();
   simulation_.watch_commands([this](sim::Simulation::DeviceId device, const sim::Command& command) {
     note_command(device, command);
   });
