@@ -83,12 +83,12 @@ build playpen par_exploration_solution_nearest
 echo "     $build/bin/playpen"
 
 headline "3/5  A robot explores an arena that it does not know"
-results=(film.mp4 scene.png canvas.png layers/occupancy.pgm layers/occupancy.yaml report.json
-  trajectory.csv)
+results=(film.mp4 replay.html scene.png canvas.png layers/occupancy.pgm layers/occupancy.yaml
+  report.json trajectory.csv)
 # Those of an earlier run must not pass for this one's.
 (cd "$out" && rm -f "${results[@]}")
 "$build/bin/playpen" run worlds/tasks/par_exploration.json --record "$out/film.mp4" \
-  --record-speed 2.5 --out "$out" -- "$build/bin/par_exploration_solution_nearest" ||
+  --record-speed 2.5 --html "$out/replay.html" --out "$out" -- "$build/bin/par_exploration_solution_nearest" ||
   fail "the run ended with status $?; its messages are above"
 
 for file in "${results[@]}"; do
@@ -98,6 +98,7 @@ done
 echo
 headline "Look at"
 echo "  $root/$out/film.mp4         how it went, 2.5 times as fast"
+echo "  $root/$out/replay.html      the same for a browser: any moment, scan, drawing and command"
 echo "  $root/$out/scene.png        the arena, the robot, and what it knows at the end"
 echo "  $root/$out/canvas.png       what it knows, alone; layers/ has each layer"
 echo "  $root/$out/layers/occupancy.yaml   its map, for ROS's map_server"

@@ -108,16 +108,16 @@ std::vector<course::Submission> baselines_of(const ClassRequest& request,
   return baselines;
 }
 
-/// Draws the plots of the report, unless the grading was interrupted.
+/// Draws the plots of the report and writes its replays, unless the grading was interrupted.
 /// @return whether all are drawn, as far as they can be.
 bool draw_plots(const course::ClassResult& result, const course::ClassSettings& settings,
-                ClassProgressLine& line) {
+                bool replays, ClassProgressLine& line) {
   if (!result.complete) {
     remove_stale_plots(result, settings.output_folder);
     return false;
   }
   const bool drawn = draw_class_plots(
-      result, settings.output_folder, settings.jobs,
+      result, settings.output_folder, settings.jobs, replays,
       [&line](std::size_t ended, std::size_t all) { line.show_plots(ended, all); });
   line.clear();
   return drawn;
@@ -172,7 +172,7 @@ int grade_class(const ClassRequest& request) {
   if (result.complete && !request.individual)
     course::compare_submissions(result, request.output_folder);
   course::write_results(result, request.output_folder);
-  const bool drawn = draw_plots(result, settings, line);
+  const bool drawn = draw_plots(result, settings, request.replays, line);
   course::write_html_report(result, request.output_folder);
   std::cout << course::class_table(result, terminal_columns(STDOUT_FILENO));
   if (!result.complete || !drawn) {

@@ -50,6 +50,10 @@ void add_class(CommandLine& line) {
   add_isolation(line, command, request->isolation);
   command.add_flag("--individual", request->individual,
                    "Start poses, blocks and seeds of each person's own, derived from the id");
+  command.add_flag(
+      "--replays", request->replays,
+      "Write the replays of the best and the worst run of each submission, linked from "
+      "its page");
   command.add_flag("--must-pass", request->must_pass,
                    "Exit status 1 also if a run has not passed, for continuous integration");
   command.callback([request, &line, folder, one] {

@@ -2,6 +2,7 @@
 #include "class_plots.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -16,8 +17,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A plot of an honest run takes less than a second.
+// A plot or replay of an honest run takes less than a second.
 constexpr double kPlotTimeout_s = 30.0;
+
+// What a command makes of the results of a run.
+struct Product {
+  const char* file;     // in the folder of the run
+  const char* command;  // of this program
+  const char* option;   // that takes the file
+};
+constexpr std::array kProducts{Product{course::kPlotFile, "plot", "--out"},
+                               Product{course::kReplayFile, "replay", "--html"}};
+// Something that is to be made.
+struct Wanted {
+  fs::path folder;
+  const Product* product;
+};
 
 bool is_regular(const fs::path& file) {
   std::error_code error;
@@ -28,10 +43,10 @@ bool has_results(const fs::path& run) {
   return is_regular(run / "report.json") && is_regular(run / "trajectory.csv");
 }
 
-// Whether the plot of a run shows its results. A time in the future is not one at which a plot was
-// drawn.
-bool has_fresh_plot(const fs::path& run) {
-  const fs::path plot = run / course::kPlotFile;
+// Whether the plot or replay of a run shows its results. A time in the future is not one at which
+// it was made.
+bool has_fresh(const fs::path& run, const Product& product) {
+  const fs::path plot = run / product.file;
   if (!is_regular(plot) || !has_results(run)) return false;
   std::error_code error;
   const fs::file_time_type drawn = fs::last_write_time(plot, error);
@@ -49,22 +64,26 @@ fs::path folder_of(const fs::path& out, const course::SubmissionResult& submissi
   return fs::absolute(out / submission.folder / grade.task.name);
 }
 
-// The runs that need a plot.
-std::vector<fs::path> unplotted_runs(const course::ClassResult& result, const fs::path& out) {
-  std::vector<fs::path> folders;
+// What the pages lack.
+std::vector<Wanted> wanted_of(const course::ClassResult& result, const fs::path& out,
+                              bool replays) {
+  std::vector<Wanted> wanted;
   for (const course::SubmissionResult& submission : result.submissions) {
     for (const grade::Grade& grade : submission.grades) {
       for (const grade::GradedRun* run : course::shown_runs(grade)) {
         const fs::path folder = folder_of(out, submission, grade) / run->folder;
-        // What cannot be removed is not replaced: a link would be followed.
-        std::error_code error;
-        const bool is_free = fs::symlink_status(folder / course::kPlotFile, error).type() ==
-                             fs::file_type::not_found;
-        if (is_free && has_results(folder)) folders.push_back(folder);
+        for (const Product& product : kProducts) {
+          if (&product == &kProducts.back() && !replays) continue;
+          // What cannot be removed is not replaced: a link would be followed.
+          std::error_code error;
+          const bool is_free =
+              fs::symlink_status(folder / product.file, error).type() == fs::file_type::not_found;
+          if (is_free && has_results(folder)) wanted.push_back({folder, &product});
+        }
       }
     }
   }
-  return folders;
+  return wanted;
 }
 
 }  // namespace
@@ -74,24 +93,27 @@ void remove_stale_plots(const course::ClassResult& result, const fs::path& out) 
     for (const grade::Grade& grade : submission.grades) {
       for (const grade::GradedRun& run : grade.runs) {
         const fs::path folder = folder_of(out, submission, grade) / run.folder;
-        std::error_code ignored;
-        if (!has_fresh_plot(folder)) fs::remove_all(folder / course::kPlotFile, ignored);
+        for (const Product& product : kProducts) {
+          std::error_code ignored;
+          if (!has_fresh(folder, product)) fs::remove_all(folder / product.file, ignored);
+        }
       }
     }
   }
 }
 
 bool draw_class_plots(const course::ClassResult& result, const fs::path& out, int jobs,
+                      bool replays,
                       const std::function<void(std::size_t, std::size_t)>& on_progress) {
   remove_stale_plots(result, out);
-  const std::vector<fs::path> folders = unplotted_runs(result, out);
-  if (folders.empty()) return true;
+  const std::vector<Wanted> wanted = wanted_of(result, out, replays);
+  if (wanted.empty()) return true;
   const std::string command = fs::read_symlink("/proc/self/exe").string();
   std::vector<playerlike::ProgramJob> processes;
-  for (const fs::path& folder : folders) {
+  for (const auto& [folder, product] : wanted) {
     playerlike::ProgramJob process;
-    process.command = {command, "plot", folder.string(), "--out",
-                       (folder / course::kPlotFile).string()};
+    process.command = {command, product->command, folder.string(), product->option,
+                       (folder / product->file).string()};
     process.output_file = "/dev/null";
     processes.push_back(std::move(process));
   }
@@ -99,15 +121,15 @@ bool draw_class_plots(const course::ClassResult& result, const fs::path& out, in
   limits.at_once = jobs;
   limits.timeout_s = kPlotTimeout_s;
   std::size_t ended = 0;
-  if (on_progress) on_progress(ended, folders.size());
+  if (on_progress) on_progress(ended, wanted.size());
   const std::vector<playerlike::JobEnd> ends = playerlike::run_programs(
       processes, limits, {}, [&](std::size_t index, const playerlike::JobEnd& end) {
         if (end.kind != playerlike::JobEnd::Kind::kEnded || !end.program.success()) {
           std::error_code ignored;
-          const std::string plot = (folders[index] / course::kPlotFile).string();
-          fs::remove(sim::part_file_name(plot), ignored);
+          const fs::path file = wanted[index].folder / wanted[index].product->file;
+          fs::remove(sim::part_file_name(file.string()), ignored);
         }
-        if (on_progress) on_progress(++ended, folders.size());
+        if (on_progress) on_progress(++ended, wanted.size());
       });
   return std::all_of(ends.begin(), ends.end(), [](const playerlike::JobEnd& end) {
     return end.kind != playerlike::JobEnd::Kind::kInterrupted &&

@@ -10,6 +10,7 @@
 #include "isolation.h"
 #include "playerlike/host/run_settings.h"
 #include "playerlike/server/server_settings.h"
+#include "run_start.h"
 #include "sim/core/log.h"
 #include "sim/render/render.h"
 
@@ -21,14 +22,24 @@ inline constexpr int kOk = 0;             ///< all went well
 inline constexpr int kProgramFailed = 1;  ///< the client program failed
 inline constexpr int kBadInput = 2;       ///< unusable arguments or world
 
+/// What happens at a moment of a run.
+struct RunUntil {
+  double time_s = 0.0;  ///< simulated time, 0..1e9; the first step at or after it counts
+  enum class Then { kDebug, kView, kSave } then = Then::kSave;
+};
+
 /// Arguments of `playpen run`.
 struct RunRequest {
-  std::string world;  ///< as the user wrote it, see find_world()
+  std::string world;  ///< as the user wrote it, see find_world(); with `from`, "" is that run's
+  std::optional<RunMoment> from;  ///< the world begins as it was at this moment
   playerlike::RunSettings settings;
   bool quiet = false;
   bool view = false;        ///< in a window, in real time unless the settings say otherwise
   bool real_sleep = false;  ///< the program's sleeps take wall time, not simulated time
   bool debug = false;       ///< in gdb
+  std::string replay_file;  ///< .html; "": no replay is written
+  double replay_megabytes = 5.0;
+  std::optional<RunUntil> until;
   IsolationSettings isolation;
   std::vector<std::string> command;  ///< program and arguments
   /// the call of `playpen run` up to "--", as the user wrote it, for advice
@@ -45,6 +56,8 @@ struct GradeRequest {
   std::optional<sim::Realism> realism;  ///< empty: that of each world
   std::string output_folder;            ///< "": out/grade/TASK
   std::string json_file;                ///< "": grade.json in the output folder
+  bool replays = false;                 ///< whether each run gets its replay, course::kReplayFile
+  double replay_megabytes = 5.0;        ///< size of a replay
   IsolationSettings isolation;
   std::vector<std::string> command;  ///< program and arguments
   std::string invocation;            ///< how the user calls playpen, for advice
@@ -64,6 +77,7 @@ struct ClassRequest {
   std::string id;                      ///< of the person of `submission`; "": its name
   std::vector<std::string> baselines;  ///< folders and archives of programs that everybody knows
   bool individual = false;             ///< whether each person has conditions of their own
+  bool replays = false;                ///< whether the runs on the pages get their replays
   bool must_pass = false;              ///< whether a run that does not pass is a failure
   std::string roster_file;             ///< "": none
   std::string output_folder;
@@ -215,5 +229,27 @@ struct WhyRequest {
 /// @throws std::runtime_error naming the folder that does not contain a run with a recording, the
 ///         robot that there is not, or the file that cannot be written.
 [[nodiscard]] int explain(const WhyRequest& request);
+
+/// Writes the replay of a run.
+/// @param folder  of its results.
+/// @param file    .html; "": course::kReplayFile in that folder.
+/// @return the file. @throws as make_replay().
+std::string write_replay(const std::string& folder, const std::string& file, double most_megabytes);
+
+/// Arguments of `playpen replay`.
+struct ReplayRequest {
+  std::string first;             ///< folder of results of a run or of a grade
+  std::string second;            ///< folder of a run to show with it; "": none
+  std::string file;              ///< .html; "": course::kReplayFile in the folder of the first run
+  std::optional<double> time_s;  ///< at which the printed address opens the page
+  std::string robot;             ///< that it chooses; "": none
+  double most_megabytes = 5.0;   ///< size of the page
+};
+
+/// Writes the replay of a run, of two runs in one page, or of each run of a grade.
+/// @return kOk.
+/// @throws std::runtime_error naming the folder that does not contain a run with a recording, or
+///         the file that cannot be written.
+[[nodiscard]] int make_replay(const ReplayRequest& request);
 
 }  // namespace playpen

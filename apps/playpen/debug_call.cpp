@@ -37,7 +37,7 @@ std::string find_gdb() {
 }
 
 std::vector<std::string> debug_call(const std::string& gdb, const std::vector<std::string>& program,
-                                    playerlike::EnvironmentChanges& environment) {
+                                    playerlike::EnvironmentChanges& environment, bool runs) {
   std::vector<std::string> call = {gdb, "-q"};
   for (const char* name : kForProgramOnly) {
     const auto found = environment.find(name);
@@ -47,7 +47,10 @@ std::vector<std::string> debug_call(const std::string& gdb, const std::vector<st
                                                    : std::string("unset environment ") + name});
     environment.erase(found);
   }
-  if (const auto file = gdb_commands_file()) call.insert(call.end(), {"-x", file->string()});
+  const auto file = gdb_commands_file();
+  if (file) call.insert(call.end(), {"-x", file->string()});
+  if (runs) call.insert(call.end(), {"-ex", "run"});
+  if (runs && file) call.insert(call.end(), {"-ex", "playpen-time", "-ex", "playpen-frame"});
   call.emplace_back("--args");
   call.insert(call.end(), program.begin(), program.end());
   return call;

@@ -22,10 +22,12 @@ namespace playpen {
 /// The command that starts gdb on a program, with Playpen's commands, at gdb's prompt.
 /// @param gdb          its path.
 /// @param program      the program and its arguments; not empty.
+/// @param runs         whether gdb starts the program and shows the time when it stands.
 /// @param environment  of the run. What must reach the program only, such as libraries to preload,
 ///                     moves from here into gdb's settings.
 [[nodiscard]] std::vector<std::string> debug_call(const std::string& gdb,
                                                   const std::vector<std::string>& program,
-                                                  playerlike::EnvironmentChanges& environment);
+                                                  playerlike::EnvironmentChanges& environment,
+                                                  bool runs = false);
 
 }  // namespace playpen

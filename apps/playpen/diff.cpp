@@ -10,8 +10,10 @@
 
 #include "commands.h"
 #include "diff/difference_text.h"
+#include "diff/recorded_difference.h"
 #include "diff/run_difference.h"
 #include "diff_page.h"
+#include "playerlike/host/rerun.h"
 #include "plot_data.h"
 #include "plot_parts.h"
 #include "sim/simulation/world_hash.h"
@@ -82,6 +84,17 @@ diff::ComparedRun compared(const RunData& run) {
   return result;
 }
 
+// The first command and the first reading that differ, or why they are not known.
+std::string recorded_text(const FolderPair& pair) {
+  try {
+    playerlike::Rerun first(pair.first);
+    playerlike::Rerun second(pair.second);
+    return diff::text_of(diff::recorded_difference(first, second));
+  } catch (const playerlike::RecordingError& e) {
+    return std::string("commands and readings are not compared: ") + e.what() + '\n';
+  }
+}
+
 void draw_difference(const std::vector<RunData>& runs, const diff::RunDifference& difference,
                      const std::string& file) {
   if (!runs.front().world) {
@@ -109,6 +122,7 @@ int compare_runs(const DiffRequest& request) {
     std::cout << (&pair == pairs.data() ? "" : "\n") << "run 1: " << pair.first
               << "\nrun 2: " << pair.second << '\n'
               << diff::text_of(difference, first, second);
+    if (difference.trajectories_differ()) std::cout << recorded_text(pair);
     const bool differs = difference.any();
     if (drawn.empty() || (differs && differing == 0)) {
       drawn = std::move(runs);

@@ -113,6 +113,16 @@ class Advice {
   const grade::GradeSettings& settings_;
 };
 
+/// Writes the replay of each run that has results.
+void write_replays(const grade::Grade& result, const std::string& out, double most_megabytes) {
+  for (const grade::GradedRun& run : result.runs) {
+    const fs::path folder = fs::path(out) / run.folder;
+    std::error_code error;
+    if (!fs::is_regular_file(folder / "report.json", error)) continue;
+    std::cout << "replay: " << write_replay(folder.string(), "", most_megabytes) << '\n';
+  }
+}
+
 }  // namespace
 
 int grade_program(GradeRequest request) {
@@ -153,6 +163,7 @@ int grade_program(GradeRequest request) {
                                      .advice = Advice(request, settings)});
   grade::write_text_file(file, grade::json_text(result));
   std::cout << "details: " << file.string() << '\n';
+  if (request.replays) write_replays(result, settings.output_folder, request.replay_megabytes);
   return result.passed() == result.runs.size() ? kOk : kProgramFailed;
 }
 

@@ -31,6 +31,9 @@ void add_grade(CommandLine& line) {
   CLI::Option* const json =
       command.add_option("--json", request->json_file, "The grade as JSON [<out>/grade.json]");
   line.takes(json->type_name("FILE"), ValueKind::Kind::kFile);
+  command.add_flag("--html", request->replays,
+                   "Write the replay of each run as a page, replay.html in its folder");
+  add_replay_size(command, request->replay_megabytes);
   command.callback([request, &line] {
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
     request->command = line.program;

@@ -1,5 +1,6 @@
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-"""Commands of gdb for programs whose world Playpen simulates: playpen-time and playpen-robots.
+"""Commands of gdb for programs whose world Playpen simulates: playpen-time, playpen-robots and
+playpen-frame.
 
 `playpen run --debug` loads this file. In another gdb, `source FILE` does. The commands read the
 memory in which the host keeps the state of its run (libplayerlike/src/host/results/kept_layout.h).
@@ -16,6 +17,7 @@ SIZE = 128 << 20
 HEADER = struct.Struct("<QIIiIQqI4xQQI4xQQQ")
 STEP = struct.Struct("<Qqdd")
 ROBOT_SIZE = 160
+NAMESPACES = ("playerlike::", "sim::", "PlayerCc::", "std::")  # of functions below a user's code
 PHASES = (
     "no simulation yet",
     "the run goes on",
@@ -137,6 +139,37 @@ Page: playpen doc debugging"""
                   f"{turn:13.3f}  {'yes' if stalled else 'no'}")
 
 
+class Frame(gdb.Command):
+    """Select the innermost frame of your own code: the call of Playpen in which the program stands.
+
+It passes over functions of Playpen and of libraries without source files here.
+Page: playpen doc debugging"""
+
+    def __init__(self):
+        super().__init__("playpen-frame", gdb.COMMAND_USER)
+
+    def invoke(self, argument, from_tty):
+        require_no_argument(argument, "playpen-frame")
+        try:
+            frame = gdb.newest_frame()
+        except gdb.error:
+            raise gdb.GdbError("the program does not run")
+        while frame is not None and not self.is_users(frame):
+            frame = frame.older()
+        if frame is None:
+            raise gdb.GdbError("this thread runs no code that was compiled with -g")
+        frame.select()
+        gdb.execute("frame")
+
+    @staticmethod
+    def is_users(frame):
+        symtab = frame.find_sal().symtab
+        library = os.path.basename(gdb.solib_name(frame.pc()) or "")
+        return (symtab is not None and os.path.isfile(symtab.fullname())
+                and not library.startswith("libplaypen")
+                and not (frame.name() or "").startswith(NAMESPACES))
+
+
 def keep_state():
     """Without `playpen run`: provides the memory for the state of the run."""
     if variable_for_program("PLAYPEN_STATE") or gdb.selected_inferior().pid:
@@ -149,6 +182,7 @@ def keep_state():
 
 Time()
 Robots()
+Frame()
 keep_state()
-print("Simulated time stands still at breakpoints. playpen-time and playpen-robots show the run; "
-      "'run' starts it.")
+print("Simulated time stands still at breakpoints. playpen-time, playpen-robots and playpen-frame "
+      "show the run; 'run' starts it.")

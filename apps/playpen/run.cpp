@@ -21,7 +21,9 @@
 #include "playerlike/server/server.h"
 #include "preload.h"
 #include "run_outputs.h"
+#include "run_start.h"
 #include "shipped.h"
+#include "sim/core/number_text.h"
 #include "viewer_process.h"
 
 namespace playpen {
@@ -155,6 +157,37 @@ class ServedWorld {
   std::optional<playerlike::Server> server_;
 };
 
+/// @throws std::runtime_error if the run is over before the time of --until, or begins after it.
+/// @param start_s  simulated time at which the run begins [s].
+void require_time_of_until(const RunRequest& request, const sim::WorldDescription& world,
+                           double start_s) {
+  if (!request.until) return;
+  const auto refuse = [&request](const std::string& reason) {
+    throw std::runtime_error("--until " + sim::shortest_text(request.until->time_s) + ": " +
+                             reason);
+  };
+  if (request.until->time_s < start_s) {
+    refuse("the run begins later, at " + sim::shortest_text(start_s) + " s (--from)");
+  }
+  const auto& duration_ns = world.simulation.duration_ns;
+  if (!request.settings.stop || !duration_ns) return;
+  const double end_s = sim::to_seconds(*duration_ns);
+  if (end_s <= request.until->time_s) {
+    refuse("the run is over at " + sim::shortest_text(end_s) + " s (--duration)");
+  }
+}
+
+bool stops_in_gdb(const RunRequest& request) {
+  return request.until && request.until->then == RunUntil::Then::kDebug;
+}
+
+/// Says how to go on from the end of a run of --then save.
+void tell_start(const RunRequest& request) {
+  if (!request.until || request.until->then != RunUntil::Then::kSave || request.quiet) return;
+  std::cout << "from here: playpen run --from " << request.settings.output_folder << '@'
+            << sim::shortest_text(request.until->time_s) << " --out DIR -- PROGRAM\n";
+}
+
 }  // namespace
 
 bool names_server(const std::string& world) {
@@ -185,9 +218,12 @@ int run_at_server(const RunRequest& request) {
 }
 
 int run(RunRequest request) {
-  const std::string world_file = find_world(request.world);
+  std::optional<StartState> start;
+  if (request.from) start.emplace(*request.from, request.world, request.settings);
+  const std::string world_file = start ? start->world_file() : find_world(request.world);
   sim::WorldDescription world = load_found_world(world_file);
   request.settings.apply_to(world);  // reports settings that do not match the world before the run
+  require_time_of_until(request, world, start ? start->time_s() : 0.0);
   request.command.front() = playerlike::find_program(request.command.front());
   const std::string gdb = request.debug ? find_gdb() : std::string();
   playerlike::RunSettings& settings = request.settings;
@@ -199,6 +235,10 @@ int run(RunRequest request) {
   if (request.view) pace_for_view(settings, world);
   settings.progress = !request.quiet && !request.debug;  // it would mix with gdb's prompt
   settings.quiet_end = true;
+  if (request.from) {
+    choose_output_folder(settings, world_file);
+    refuse_same_folder(*request.from, settings.output_folder);
+  }
   prepare_outputs(settings, world_file);
   if (!request.quiet && !settings.duration_s && !world.simulation.duration_ns) {
     std::cerr << "playpen: the world sets no duration, so the run ends when the program does "
@@ -246,12 +286,18 @@ int run(RunRequest request) {
   std::vector<std::string> command = isolated.launcher(
       virtual_time ? virtual_time->file() : std::string(), {settings.output_folder, world_file});
   command.insert(command.end(), request.command.begin(), request.command.end());
-  if (request.debug) command = debug_call(gdb, command, environment);
+  if (request.debug) command = debug_call(gdb, command, environment, stops_in_gdb(request));
   const playerlike::ProgramEnd end = playerlike::run_program(command, environment, watch);
 
   viewer.reset();  // the window has nothing left to show
 
+  if (!request.replay_file.empty() && has_report(settings)) {
+    const std::string page =
+        write_replay(settings.output_folder, request.replay_file, request.replay_megabytes);
+    if (!request.quiet) std::cerr << "playpen: replay: " << page << '\n';
+  }
   const int status = verdict(request, world, end, completed);
+  if (status == kOk) tell_start(request);
   return desk.conflict().empty() ? status : kProgramFailed;
 }
 

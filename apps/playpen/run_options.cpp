@@ -46,6 +46,12 @@ void add_real_robots(CLI::App& command, playerlike::RunSettings& settings) {
 
 /// @throws CLI::ParseError if an option was given that a server decides about.
 void refuse_settings_of_server(const CLI::App& command) {
+  for (const char* name : {"--from", "--until", "--then"}) {
+    if (command.get_option(name)->count() == 0) continue;
+    throw CLI::ValidationError(name,
+                               "the world is that of a server: only a run whose world this command "
+                               "starts can begin or stop at a time");
+  }
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || option->get_positional() || name == "--real-sleep" ||
@@ -58,11 +64,76 @@ void refuse_settings_of_server(const CLI::App& command) {
   }
 }
 
+/// @throws CLI::ParseError if an option was given that a recorded run decides about.
+void refuse_settings_of_recording(const CLI::App& command) {
+  for (const char* name : {"--seed", "--realism", "--view-mode", "--interface", "--port",
+                           "--clients", "--real", "--take-over"}) {
+    if (command.get_option(name)->count() == 0) continue;
+    throw CLI::ValidationError(name, "with --from, the recorded run decides about this");
+  }
+}
+
 /// @throws CLI::ParseError if a program is to be isolated.
 void refuse_isolated_debugging(const IsolationSettings& isolation) {
   if (isolation.level == Isolation::kOff) return;
   throw CLI::ValidationError("--debug",
                              "a debugger cannot reach an isolated program: leave out --isolated");
+}
+
+/// Adds --until and --then.
+void add_until(CommandLine& line, CLI::App& command, std::optional<RunUntil>& until) {
+  const auto asked = [&until]() -> RunUntil& { return until ? *until : until.emplace(RunUntil{}); };
+  CLI::Option* const time =
+      add_parsed(command, "--until", "Simulated time at which --then happens, after full speed",
+                 "S", playerlike::kStopTimeExpected, [asked](const std::string& text) {
+                   return playerlike::parse_stop_time(text, asked().time_s);
+                 });
+  CLI::Option* const then =
+      add_parsed(command, "--then",
+                 "At --until: debug (stop in gdb), view (pause in a window) or save (end the run, "
+                 "for --from)",
+                 "WHAT", "debug, view or save", [asked](const std::string& text) {
+                   using Then = RunUntil::Then;
+                   if (text == "debug") asked().then = Then::kDebug;
+                   if (text == "view") asked().then = Then::kView;
+                   if (text == "save") asked().then = Then::kSave;
+                   return text == "debug" || text == "view" || text == "save";
+                 });
+  line.takes(then, {"debug", "view", "save"});
+  time->needs(then);
+  then->needs(time);
+}
+
+/// Makes the settings of the run what --until and --then mean.
+/// @throws CLI::ParseError if other options contradict.
+void apply_until(RunRequest& request) {
+  if (!request.until) return;
+  playerlike::RunSettings& settings = request.settings;
+  const double time_s = request.until->time_s;
+  if (request.until->then == RunUntil::Then::kSave) {
+    if (settings.duration_s) {
+      throw CLI::ValidationError("--then save",
+                                 "the run ends at the time of --until: leave out --duration");
+    }
+    if (time_s <= 0.0) throw CLI::ValidationError("--then save", "--until must be above 0");
+    settings.duration_s = time_s;
+    return;
+  }
+  if (settings.time_mode == sim::TimeMode::kPaced) {
+    throw CLI::ValidationError("--until",
+                               "the run has full speed until then: leave out --time, or write "
+                               "--time lockstep");
+  }
+  settings.time_mode = sim::TimeMode::kLockstep;
+  const bool views = request.until->then == RunUntil::Then::kView;
+  if (!views && settings.clients.value_or(1) > 1) {
+    throw CLI::ValidationError("--then debug",
+                               "with --clients, the world is not in the program's process, so that "
+                               "its debugger cannot stop there");
+  }
+  settings.stop = {time_s,
+                   views ? playerlike::RunStop::Then::kView : playerlike::RunStop::Then::kDebug};
+  (views ? request.view : request.debug) = true;
 }
 
 }  // namespace
@@ -232,8 +303,14 @@ void add_run(CommandLine& line) {
       "'playpen list worlds' shows the names of worlds. For the world of a server,\n"
       "write its address: tcp://HOST[:PORT], unix:PATH or player://HOST[:PORT].\n"
       "Exit status: 0 success, 1 the program failed, 2 bad input.");
-  add_world(line, command, request->world);
+  const CLI::Option* const world = add_world(line, command, request->world)->required(false);
   add_run_settings(line, command, request->settings, "the world's, else lockstep");
+  add_parsed(command, "--from",
+             "Begin with the world as it was in the finished run with the results OUT after S "
+             "simulated seconds",
+             "OUT@S", kRunMomentExpected, [request](const std::string& text) {
+               return parse_run_moment(text, request->from.emplace());
+             });
   add_parsed(command, "--clients", "Hold time until N clients have joined [the world's]", "N",
              playerlike::kClientsExpected, [request](const std::string& text) {
                int clients = 0;
@@ -253,11 +330,23 @@ void add_run(CommandLine& line) {
   add_isolation(line, command, request->isolation);
   command.add_flag("--debug", request->debug,
                    "Start the program in gdb; simulated time stands still at its breakpoints");
+  line.takes(add_parsed(command, "--html", "Write the replay of the run as a page [none]", "FILE",
+                        "a file ending in .html",
+                        [request](const std::string& text) {
+                          request->replay_file = text;
+                          return is_page_name(text);
+                        }),
+             ValueKind::Kind::kFile);
+  add_replay_size(command, request->replay_megabytes);
+  add_until(line, command, request->until);
   command.add_flag("--quiet", request->quiet, "No progress, no summary");
-  command.callback([request, &line, &command] {
+  command.callback([request, &line, &command, world] {
+    if (world->count() == 0 && !request->from) throw CLI::RequiredError("world");
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
     request->command = line.program;
+    apply_until(*request);
     if (request->debug) refuse_isolated_debugging(request->isolation);
+    if (request->from) refuse_settings_of_recording(command);
     if (names_server(request->world)) {
       refuse_settings_of_server(command);
       line.status = run_at_server(*request);

@@ -60,4 +60,10 @@ void add_port(CLI::App& command, const std::string& name, const std::string& des
 /// Adds the argument for the world's name, see find_world().
 CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world);
 
+/// Whether a page can have this name: it ends in .html.
+[[nodiscard]] bool is_page_name(const std::string& name);
+
+/// Adds the option --replay-size. @param most_megabytes  must outlive the command.
+CLI::Option* add_replay_size(CLI::App& command, double& most_megabytes);
+
 }  // namespace playpen

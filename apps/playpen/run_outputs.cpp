@@ -39,10 +39,14 @@ void make_writable(const std::string& folder) {
 
 }  // namespace
 
-void prepare_outputs(playerlike::RunSettings& settings, const std::string& world_file) {
+void choose_output_folder(playerlike::RunSettings& settings, const std::string& world_file) {
   if (settings.output_folder.empty()) {
     settings.output_folder = "out/" + grade::world_name(world_file);
   }
+}
+
+void prepare_outputs(playerlike::RunSettings& settings, const std::string& world_file) {
+  choose_output_folder(settings, world_file);
   make_writable(settings.output_folder);
   std::error_code error;
   playerlike::remove_results(settings.output_folder);

@@ -9,7 +9,11 @@
 /// Time mode and results of a run, shared by `run` and `serve`.
 namespace playpen {
 
-/// Sets the output folder if the settings have none, creates it, and removes the results of earlier
+/// Sets the output folder if the settings have none: out/NAME OF THE WORLD.
+/// @param world_file  "": the default world.
+void choose_output_folder(playerlike::RunSettings& settings, const std::string& world_file);
+
+/// Chooses the output folder, creates it, and removes the results of earlier
 /// runs from it, so that later content belongs to this run.
 /// @param world_file  "": the default world.
 /// @throws std::runtime_error that names the folder or file that can't be prepared.

@@ -45,16 +45,15 @@ std::size_t robot_of(const RunData& run, const std::string& name) {
   return commanded == robots.end() ? 0 : static_cast<std::size_t>(commanded - robots.begin());
 }
 
-why::RunFacts facts_of(const RunData& run, std::size_t robot) {
+why::RunFacts facts_of(const RunData& run, std::size_t robot,
+                       const sim::SimulationDescription& settings) {
   why::RunFacts facts;
   for (const sim::GoalMark& goal : run.goals) {
     if (goal.robot != static_cast<int>(robot) || !goal.newest) continue;
     facts.goal = goal.place;
     facts.goal_reached = goal.reached;
   }
-  if (run.world && run.world->simulation.duration_ns) {
-    facts.duration_s = sim::to_seconds(*run.world->simulation.duration_ns);
-  }
+  if (settings.duration_ns) facts.duration_s = sim::to_seconds(*settings.duration_ns);
   if (const auto& ended = run.report.ended) {
     facts.ended_by_program = ended->by == playerlike::RunEnd::By::kProgram;
     if (ended->by == playerlike::RunEnd::By::kSignal) facts.signal = ended->signal;
@@ -112,7 +111,8 @@ void explain_run(const std::string& folder, const WhyRequest& request, std::size
                              ", but its report has");
   }
   const why::Story story = why::story_of(rerun, *index);
-  const std::vector<why::Reason> reasons = why::reasons_of(story, facts_of(run, robot));
+  const std::vector<why::Reason> reasons =
+      why::reasons_of(story, facts_of(run, robot, rerun.simulation().world().simulation));
   std::cout << "run: " << folder << "\nrobot " << name << ": ";
   if (run.passed) {
     std::cout << (*run.passed ? "passed" : "failed");

@@ -28,8 +28,8 @@ void add_why(CommandLine& line) {
       "Makes the run again from its recording and looks for reasons: what the robot hit\n"
       "first, since when a beam had shown it and what the program commanded then; reads\n"
       "and commands that failed to come; commands beyond the robot's limits; traps, the\n"
-      "goal, stalls, turning on the spot. The most likely reason comes first. Of a grade,\n"
-      "each failed run is explained. For example:\n"
+      "goal, stalls, turning on the spot. The most likely reason comes first. Of a\n"
+      "grade, each failed run is explained. For example:\n"
       "  playpen why out/run\n"
       "  playpen why out/grade --robot r1\n"
       "Exit status: 0 explained, 2 bad input.");

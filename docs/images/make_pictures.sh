@@ -8,9 +8,9 @@ set -euo pipefail
 given=${1:+$(realpath "$1")}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 cd "$root"
-for tool in convert import Xvfb xdotool; do
+for tool in convert import Xvfb xdotool chromium; do
   if ! command -v "$tool" >/dev/null; then
-    echo "$0: $tool is missing (packages imagemagick, xvfb, xdotool)" >&2
+    echo "$0: $tool is missing (packages imagemagick, xvfb, xdotool, chromium)" >&2
     exit 1
   fi
 done
@@ -96,6 +96,18 @@ take localization/snapshots/scene_000001.500s.png localization
 run worlds/tasks/par_exploration.json exploration --snapshot-every 4 -- \
   "$bin/par_exploration_solution_nearest"
 take exploration/snapshots/scene_000024.000s.png exploration
+"$bin/playpen" replay "$out/exploration" >"$out/replay.txt"
+# page FRAGMENT NAME WIDTH,HEIGHT OPTION...: a picture of the replay at a time.
+page() {
+  local fragment=$1 name=$2 size=$3
+  shift 3
+  chromium --headless --no-sandbox --hide-scrollbars --virtual-time-budget=5000 --window-size="$size" "$@" \
+    --screenshot="$out/$name.png" "file://$root/$out/exploration/replay.html#$fragment" \
+    2>"$out/$name.log"
+  take "$name.png" "$name"
+}
+page 't=31.4&robot=r1' replay 1200,760
+page 't=31.4&robot=r1' replay_phone 390,1100 --blink-settings=preferredColorScheme=0
 run worlds/tasks/par_exploration.json exploration_map --snapshot-every 64 --view-mode full-screen -- \
   "$bin/par_exploration_solution_nearest"
 take exploration_map/snapshots/scene_000064.000s.png exploration_map

@@ -66,7 +66,7 @@ mkdir -p -- "$HOME/walk"
 
 headline "The demo, and start_here to its end"
 "$here/pages.sh" --clone "$clone" --home "$HOME" "$clone/docs/start_here.md"
-(cd "$clone/out/demo" && has film.mp4 scene.png canvas.png layers/occupancy.pgm report.json)
+(cd "$clone/out/demo" && has film.mp4 replay.html scene.png canvas.png layers/occupancy.pgm report.json)
 (cd "$HOME/start_here" && has out/par_intro/scene.png out/my_world/report.json my_world.png \
   out/mine/trajectory.csv)
 playpen=$HOME/playpen/bin/playpen

@@ -181,6 +181,12 @@ TEST_F(Class, Plots_DrawnOnceAndAgainIfStale) {
   const auto before = drawn();
   EXPECT_THAT(grade().err, Not(HasSubstr("plots:")));
   EXPECT_EQ(drawn(), before);
+  constexpr const char* kReplayed = "href=\"drive/room_seed1/replay.html\"";
+  EXPECT_THAT(page(), Not(HasSubstr(kReplayed)));
+  ASSERT_EQ(grade("out", {"--replays"}).status, 0);
+  EXPECT_THAT(page(), HasSubstr(kReplayed));
+  EXPECT_THAT(read_bytes(run / "replay.html"), StartsWith("<!DOCTYPE html>"));
+  EXPECT_EQ(drawn(), before);
 
   // Older than the results of its run, as after a run that was run again; or a link.
   fs::last_write_time(run / "plot.png", fs::last_write_time(run / "report.json"));

@@ -266,6 +266,26 @@ TEST_F(Debugger, QuitAtBreakpoint_ResultsUntilThen) {
   EXPECT_EQ(read_run().at("steps"), 210);
 }
 
+TEST_F(Debugger, UntilTime_StopsThere) {
+  const ProcessResult plain = run({}, {PROGRAM, "one"});
+  ASSERT_EQ(plain.status, 0) << plain.err;
+  const Files expected = files_of_run(out_);
+  const ProcessResult end = run({"--until", "3.105", "--then", "debug"}, {PROGRAM, "one"},
+                                "info symbol $pc\nprint round\ncontinue\n");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("simulated time 3.110 s, 311 steps; the run goes on"));
+  EXPECT_THAT(end.out, ContainsRegex("drive \\(.*debugged_program.cpp"));
+  EXPECT_THAT(end.out, HasSubstr("$1 = 31"));
+  expect_equal_files(files_of_run(out_), expected);
+}
+
+TEST_F(Debugger, ProgramEndsBeforeTime_GdbSaysSo) {
+  const ProcessResult end = run({"--until", "300", "--then", "debug"}, {PROGRAM, "one"}, "quit\n");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("exited normally"));
+  EXPECT_THAT(end.out, HasSubstr("the run is over; its results are written"));
+}
+
 TEST_F(Debugger, RealTime_SaidAtStart) {
   const ProcessResult end = run({"--debug", "--time", "10"}, {PROGRAM, "one"}, "quit\n");
   EXPECT_THAT(end.err, HasSubstr("time is real in this run, so it does not stand still"));

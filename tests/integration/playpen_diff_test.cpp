@@ -64,7 +64,10 @@ TEST(PlaypenDiff, TwoPrograms_DifferWithPlaceTimeAndPicture) {
       result.out,
       AllOf(HasSubstr("conditions: equal"), HasSubstr("first difference: at 0."), HasSubstr("1 mm"),
             HasSubstr("100 mm"), HasSubstr("10° of heading"), HasSubstr("greatest distance"),
-            HasSubstr("r1: path length [m]"), EndsWith("picture: " + (folder / "d.svg") + "\n")));
+            HasSubstr("r1: path length [m]"),
+            HasSubstr("first command that differs: at 0.200 s, r1.motion: twist v=0.3 omega="),
+            HasSubstr("first reading that differs: at 0.300 s, r1.laser ranges[0]: "),
+            EndsWith("picture: " + (folder / "d.svg") + "\n")));
   const std::string svg = read_bytes(folder / "d.svg");
   EXPECT_THAT(svg, AllOf(HasSubstr(">avoid: r1<"), HasSubstr(">wall: r1<"), HasSubstr(">1 mm<"),
                          HasSubstr(">10 mm<"), HasSubstr(">100 mm<"),

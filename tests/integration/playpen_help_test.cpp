@@ -32,9 +32,9 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::UnorderedElementsAre;
 
-const std::vector<std::string> kCommands = {"run",   "grade",  "serve",  "new",        "list",
-                                            "check", "render", "plot",   "diff",       "why",
-                                            "token", "doc",    "doctor", "completion", "help"};
+const std::vector<std::string> kCommands = {
+    "run",  "grade", "serve",  "new",   "list", "check",  "render",     "plot",
+    "diff", "why",   "replay", "token", "doc",  "doctor", "completion", "help"};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

@@ -16,6 +16,8 @@ namespace playpen::course {
 
 /// The name of a run's charts in its folder. The report shows them, but does not draw them.
 inline constexpr const char* kPlotFile = "plot.png";
+/// Name of the replay of a run in its folder.
+inline constexpr const char* kReplayFile = "replay.html";
 
 /// The runs of a grade whose pictures and charts a page shows: the best one and, if it is another
 /// one, the worst one. Empty if there are no runs.

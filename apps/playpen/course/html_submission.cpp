@@ -167,6 +167,13 @@ std::string picture_link(const std::string& url, const std::string& words) {
          "\"></a>";
 }
 
+// The link to the replay of a run, if it has one.
+std::string replay_link(const RunFiles& files, const GradedRun& run) {
+  if (!files.has(run, kReplayFile)) return "";
+  return "<p><a href=\"" + files.url(run, kReplayFile) + "\">Replay of " + name_of_run(run) +
+         "</a></p>";
+}
+
 // @param which  of the runs: "Best run".
 std::string caption_of(const GradedRun& run, const std::string& which) {
   return "<figcaption>" + which + ": " + name_of_run(run) + ", " +
@@ -178,7 +185,7 @@ std::string figure_of(const RunFiles& files, const GradedRun& run, const std::st
   if (!files.has(run, kPicture)) return "";
   return "<figure>" +
          picture_link(files.url(run, kPicture), "Where the robot drove in " + name_of_run(run)) +
-         caption_of(run, which) + "</figure>\n";
+         caption_of(run, which) + replay_link(files, run) + "</figure>\n";
 }
 
 // The charts of a run. In narrow windows they can be scrolled, so that their texts stay legible.

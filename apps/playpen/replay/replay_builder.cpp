@@ -228,7 +228,7 @@ void ReplayBuilder::add_frame(const sim::Simulation& simulation) {
   }
   add_obstacles(simulation);
   if (simulation.records_arena_events()) add_controller(simulation);
-  if (options_.watch_layers) add_layers(simulation.layers());
+  if (options_.watch_layers) add_layers(layers_ != nullptr ? *layers_ : simulation.layers());
 }
 
 void ReplayBuilder::add_obstacles(const sim::Simulation& simulation) {

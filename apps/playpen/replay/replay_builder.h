@@ -11,6 +11,7 @@
 
 #include "replay/happenings.h"
 #include "replay/replay_run.h"
+#include "sim/canvas/layers.h"
 #include "sim/devices/device.h"
 #include "sim/simulation/simulation.h"
 
@@ -51,6 +52,9 @@ class ReplayBuilder {
   void note_output(sim::SimTime time_ns, std::string_view text, bool is_error);
   /// Notes a goal that no waypoint device has.
   void note_goal(const GoalNote& goal);
+  /// Records these layers instead of the simulation's own, whenever a frame is due.
+  /// @param layers  must outlive this object, and have the size of the simulation's at first.
+  void watch_layers(const sim::LayerStack& layers) noexcept { layers_ = &layers; }
   /// Replaces the layers: they come from outside. Ends the recording of the simulation's own.
   /// @throws std::invalid_argument if a run of cells is empty or exceeds the canvas, or if the
   ///     times of a layer decrease.
@@ -71,6 +75,7 @@ class ReplayBuilder {
   void add_goals(const sim::Simulation& simulation);
 
   ReplayOptions options_;
+  const sim::LayerStack* layers_ = nullptr;  ///< that are watched; null: the simulation's
   ReplayRun run_;
   sim::SimTime period_ns_;                   ///< of frames
   std::vector<std::size_t> first_device_;    ///< of each robot: index in ReplayRun::devices

@@ -17,6 +17,7 @@ constexpr double kLeastGap_s = 0.5;    // without a read or command: too long ne
 constexpr double kStaleAge_s = 0.25;
 constexpr double kWindow_s = 1.5;  // in which commands before a contact are judged
 constexpr double kSlowTurn_radps = 0.3;
+constexpr int kManyChanges = 3;           // of the turn's direction in that time
 constexpr double kEarlyReaction_s = 0.8;  // earlier is not late
 
 /// What a scan says of a place.
@@ -149,7 +150,6 @@ Reaction reaction_before(const Story& story, const sim::Vec2& place, double from
 
 /// Whether the program turned to what it hit, or turned about and kept it ahead.
 bool turned_towards(const Reaction& reaction) {
-  constexpr int kManyChanges = 3;
   constexpr double kKeptAhead_rad = 0.35;
   const double whole = reaction.away + reaction.towards + reaction.straight;
   return reaction.towards > 0.5 * whole ||
@@ -192,6 +192,57 @@ double age_before(const Story& story, double time_s) {
   std::nth_element(ages.begin(), ages.begin() + static_cast<std::ptrdiff_t>(ages.size() / 2),
                    ages.end());
   return ages[ages.size() / 2];
+}
+
+/// The nearer side in a scan: 1 left, -1 right, 0: both are alike, or far away.
+int nearer_side(const Scan& scan) {
+  constexpr double kView_rad = std::numbers::pi / 3.0;
+  constexpr double kNear_m = 1.0;
+  constexpr double kAlike_m = 0.05;
+  double left_m = scan.range_max_m;
+  double right_m = scan.range_max_m;
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double angle_rad = scan.angle_min_rad + static_cast<double>(i) * scan.resolution_rad;
+    if (std::abs(angle_rad) > kView_rad) continue;
+    double& side_m = angle_rad > 0.0 ? left_m : right_m;
+    side_m = std::min(side_m, static_cast<double>(scan.ranges_m[i]));
+  }
+  if (std::min(left_m, right_m) > kNear_m || std::abs(left_m - right_m) < kAlike_m) return 0;
+  return left_m < right_m ? 1 : -1;
+}
+
+/// How long before its commands the scans were to which a program's turns fit: it turns away from
+/// the nearer side of the scan of that time more often than of the present one. 0: it does not.
+double lag_of_turns(const Story& story) {
+  constexpr std::size_t kMostScans = 20;
+  constexpr std::size_t kLeastLag = 3;
+  constexpr int kLeastTurns = 20;
+  constexpr double kGoodShare = 0.75;
+  constexpr double kBetter = 0.1;
+  std::vector<int> sides;
+  for (const Scan& scan : story.scans) sides.push_back(nearer_side(scan));
+  std::vector<int> fits(kMostScans + 1, 0);
+  std::vector<int> all(kMostScans + 1, 0);
+  std::size_t newest = 0;
+  for (const Told& told : story.told) {
+    while (newest + 1 < sides.size() && story.scans[newest + 1].time_s <= told.time_s) ++newest;
+    if (std::abs(told.twist.omega_radps) < kTurn_radps) continue;
+    for (std::size_t lag = 0; lag <= std::min(kMostScans, newest); ++lag) {
+      const int side = sides.empty() ? 0 : sides[newest - lag];
+      if (side == 0) continue;
+      ++all[lag];
+      if ((side > 0) == (told.twist.omega_radps < 0.0)) ++fits[lag];
+    }
+  }
+  const auto share = [&](std::size_t lag) {
+    return all[lag] < kLeastTurns ? 0.0 : static_cast<double>(fits[lag]) / all[lag];
+  };
+  std::size_t best = 0;
+  for (std::size_t lag = 1; lag <= kMostScans; ++lag) {
+    if (share(lag) > share(best)) best = lag;
+  }
+  if (best < kLeastLag || share(best) < kGoodShare || share(best) < share(0) + kBetter) return 0.0;
+  return static_cast<double>(best) * (story.scans[1].time_s - story.scans[0].time_s);
 }
 
 std::string sight_sentence(const Story& story, const SightOfContact& sight, double time_s) {
@@ -246,6 +297,15 @@ void judge(const Story& story, const SightOfContact& sight, double time_s, const
                             " and the program turned towards it (" + twist_text(reaction.last) +
                             "): is a sign wrong, or left and right of the scan exchanged? Beam 0 "
                             "is the rightmost.");
+  } else if (const double lag_s = lag_of_turns(story); lag_s > 0.0) {
+    say(kind::kStale, "Its turns fit what the laser had shown about " + seconds_text(lag_s) +
+                          " before them, not what it showed then: does the program work on old "
+                          "data?");
+  } else if (reaction.changes >= kManyChanges) {
+    say(kind::kOscillation, "In the last " + seconds_text(kWindow_s) +
+                                " it turned left and right in turn and moved on: what one reading "
+                                "asks for, the next reverses. " +
+                                commanded + " at last.");
   } else if (reaction.slowly_away > kEarlyReaction_s) {
     say(kind::kSlowTurn, "It turned away, but so slowly that it made no difference (" +
                              sim::rounded_text(std::abs(reaction.last.omega_radps), 2) +

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/launch/busy_alarm.h"
+#include "host/launch/start_of_run.h"
 #include "host/stepping/virtual_clock.h"
 #include "host/window/window.h"
 #include "process/end_of_program.h"
@@ -37,9 +38,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       warn_([this](const std::string& text) {
         if (log_) log_(sim::LogLevel::kWarning, text);
       }),
-      simulation_((check_drivers(world), check_interfaces(world), settings_.apply_to(world),
-                   std::move(world)),
-                  log_),
+      simulation_(simulation_at_start(std::move(world), settings_, log_)),
       robots_(robots_for(settings_.grading.rules.may_use, describe_robots(simulation_))),
       permissions_(settings_.grading.rules.may_use, robots_),
       step_ns_(simulation_.world().simulation.step_ns),
@@ -59,7 +58,9 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
           settings_, simulation_, [this] { return time_locked(); }, warn_, inputs_.commands,
           mirror_.get()),
       clock_(std::make_unique<VirtualClock>(*this)),
-      mode_chosen_(simulation_.world().simulation.time_mode_given) {}
+      mode_chosen_(simulation_.world().simulation.time_mode_given) {
+  if (settings_.stop) stop_ns_ = sim::from_seconds(settings_.stop->time_s);
+}
 
 Host::Core::~Core() { stop(); }
 
@@ -67,6 +68,9 @@ void Host::Core::start() {
   if (settings_.view_socket) window_ = std::make_unique<Window>(*this, *settings_.view_socket);
   const Lock lock = lock_with_priority();  // the window's thread may be running already
   if (window_) pace_.watch_from(sim::from_seconds(settings_.film_from_s));
+  if (window_ && settings_.stop && settings_.stop->then == RunStop::Then::kView) {
+    pace_.watch_from(sim::from_seconds(settings_.stop->time_s));
+  }
   if (simulation_.world().simulation.time_mode != sim::TimeMode::kPaced) return;
   pace_.follow_wall_clock();
   pacer_ = std::thread([this] { pace(); });
@@ -456,6 +460,7 @@ bool Host::Core::advance(Lock& lock) {
     }
   } else {
     results_.keep(now);
+    if (stop_ns_ && now_ns() >= *stop_ns_) make_stop();
   }
   return release_waiters();
 }

@@ -185,6 +185,8 @@ class Host::Core {
   /// Tells the user of a program that runs without `playpen run` that its run has no end.
   void tell_of_endless_run(WallClock::time_point now);
   void prefer_real_time(const std::string& reason);
+  /// Makes the stop of the settings, after a step.
+  void make_stop();
 
   /// Waits until the client has data (if wants_data), until simulated time wake_ns (if set) or
   /// until the end of the run.
@@ -262,7 +264,8 @@ class Host::Core {
   std::mutex& mutex_;                             ///< its own, or that of Turns
   mutable std::atomic<int> priority_waiters_{0};  ///< threads in lock_with_priority()
   std::condition_variable changed_;
-  std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's time; needs no mutex
+  std::atomic<sim::SimTime> now_ns_{
+      simulation_.now_ns()};  ///< the simulation's time; needs no mutex
   std::atomic<std::uint64_t> canvas_generation_{0};
   ClientFiles client_files_;
   SavedStates saved_states_;
@@ -275,7 +278,7 @@ class Host::Core {
   Inputs inputs_;
   Alarms alarms_;
   StalledTimeWarning stalled_time_warning_;
-  Progress progress_;
+  Progress progress_{simulation_.now_ns()};
   Results results_;
   std::unique_ptr<VirtualClock> clock_;
   std::unique_ptr<Window> window_;
@@ -283,7 +286,8 @@ class Host::Core {
   std::thread ender_;      ///< see end_run_elsewhere()
   std::mutex copy_mutex_;  ///< for copies in pieces, one at a time; locked before the mutex
 
-  bool watches_program_ = false;  ///< the program in whose process this is
+  std::optional<sim::SimTime> stop_ns_;  ///< when the stop of the settings is due, until then
+  bool watches_program_ = false;         ///< the program in whose process this is
   bool tells_of_endless_run_ = false;
   bool had_client_ = false;
   bool mode_chosen_ = false;  ///< the world or a setting has set the time mode

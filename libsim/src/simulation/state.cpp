@@ -256,10 +256,11 @@ Simulation SnapshotReader::read(std::span<const std::uint8_t> snapshot) const {
   const SnapshotHeader header = checked_header(snapshot, start_, hash_);
   auto made = std::make_unique<Simulation::Impl>(start_, log_, true);
   made->known_start_hash = hash_;
-  made->bodies_bytes = header.state;  // and the canvas
   StateArchive state(snapshot.subspan(sizeof header, header.state));
   made->archive(state);
   state.expect(state.left() == 0, "no more bytes of state");
+  made->bodies_bytes =
+      header.state - std::min<std::uint64_t>(header.state, made->layers.archived_bytes(false));
   StateArchive pictures(snapshot.subspan(sizeof header + header.state));
   made->archive_pictures(pictures);
   made->layers.archive_others(pictures);

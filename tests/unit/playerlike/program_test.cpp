@@ -51,7 +51,8 @@ TEST(RunEnvironment, UnsetVariables_Removed) {
           Pair("PLAYPEN_REALISM", std::nullopt), Pair("PLAYPEN_REAL", std::nullopt),
           Pair("PLAYPEN_PLAYER_PORT", std::nullopt), Pair("PLAYPEN_TAKE_OVER", std::nullopt),
           Pair("PLAYPEN_TASK", std::nullopt), Pair("PLAYPEN_PORT", std::nullopt),
-          Pair("PLAYPEN_DESK", std::nullopt)));
+          Pair("PLAYPEN_DESK", std::nullopt), Pair("PLAYPEN_START", std::nullopt),
+          Pair("PLAYPEN_UNTIL", std::nullopt), Pair("PLAYPEN_THEN", std::nullopt)));
 }
 
 TEST(RunEnvironment, Paths_MadeAbsolute) {
@@ -91,6 +92,22 @@ class ScopedEnvironment {
   EnvironmentChanges old_;
 };
 
+TEST(RunEnvironment, InvalidStartAndStop_Named) {
+  const auto read = [] { static_cast<void>(RunSettings::from_environment()); };
+  {
+    const ScopedEnvironment environment({{"PLAYPEN_UNTIL", "soon"}, {"PLAYPEN_THEN", "fly"}});
+    EXPECT_THAT(read, ThrowsMessage<sim::ConfigError>(
+                          AllOf(HasSubstr("PLAYPEN_UNTIL"), HasSubstr("a number of seconds"),
+                                HasSubstr("PLAYPEN_THEN"), HasSubstr("\"fly\""))));
+  }
+  {
+    const ScopedEnvironment environment({{"PLAYPEN_THEN", "view"}});
+    EXPECT_THAT(read, ThrowsMessage<sim::ConfigError>(HasSubstr("PLAYPEN_UNTIL beside it")));
+  }
+  const ScopedEnvironment environment({{"PLAYPEN_START", "/tmp/state"}, {"PLAYPEN_GRADE", "17"}});
+  EXPECT_THAT(read, ThrowsMessage<sim::ConfigError>(HasSubstr("begins at the beginning")));
+}
+
 TEST(RunEnvironment, RoundTrips) {
   RunSettings settings;
   settings.seed = 18446744073709551615U;  // 2^64 - 1: a double could not hold it
@@ -108,6 +125,8 @@ TEST(RunEnvironment, RoundTrips) {
   settings.quiet_end = true;
   settings.virtual_time = true;
   settings.clients = 12;
+  settings.start_state = "/tmp/state";
+  settings.stop = {31.05, RunStop::Then::kView};
   settings.robot_port = 7000;
   settings.interfaces = {{"", "ranger", 0, "sonar"}, {"r.1", "position2d", 1, "pose"}};
   const ScopedEnvironment environment(run_environment("/world.json", settings));
@@ -118,6 +137,10 @@ TEST(RunEnvironment, RoundTrips) {
   EXPECT_EQ(read.time_factor, settings.time_factor);
   EXPECT_EQ(read.output_folder, settings.output_folder);
   EXPECT_EQ(read.film, settings.film);
+  EXPECT_EQ(read.start_state, settings.start_state);
+  ASSERT_TRUE(read.stop);
+  EXPECT_EQ(read.stop->time_s, settings.stop->time_s);
+  EXPECT_EQ(read.stop->then, settings.stop->then);
   EXPECT_EQ(read.film_fps, settings.film_fps);
   EXPECT_EQ(read.film_speed, settings.film_speed);
   EXPECT_EQ(read.snapshot_period_s, settings.snapshot_period_s);

@@ -69,6 +69,26 @@ TEST(Recorder, Film_MayBeginLater) {
   EXPECT_EQ(files_in(folder / "film").size(), 4U);
 }
 
+TEST(Recorder, RunFromTheMiddle_FilmBeginsThere) {
+  const TemporaryFolder folder;
+  RunSettings settings;
+  settings.output_folder = folder / "out";
+  settings.film = folder / "film";
+  settings.snapshot_period_s = 0.1;
+  sim::Simulation simulation(small_world());
+  for (int step = 0; step < 500; ++step) simulation.step();
+  fs::create_directories(settings.output_folder);
+  Recorder recorder(settings, simulation);
+  for (int step = 0; step < 20; ++step) {
+    simulation.step();
+    recorder.observe(simulation);
+  }
+  recorder.close_film();
+  // At 5, 5.04, ... 5.2 s.
+  EXPECT_EQ(files_in(folder / "film").size(), 6U);
+  EXPECT_EQ(files_in(folder / "out/snapshots").size(), 3U);
+}
+
 TEST(Recorder, FilmAfterEnd_Reported) {
   const TemporaryFolder folder;
   RunSettings settings;

@@ -4,16 +4,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "host/results/recording_writer.h"
+#include "playerlike/host/host.h"
 #include "protocol/codec.h"
 #include "random_fields.h"
+#include "sim/core/error.h"
 #include "sim/core/time.h"
 #include "sim/devices/builtin.h"
 #include "sim/simulation/simulation.h"
@@ -24,6 +28,7 @@ namespace {
 
 using test_support::read_bytes;
 using test_support::TemporaryFolder;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -297,6 +302,122 @@ TEST_F(RerunTest, DamagedBytes_NeverMoreThanError) {
     }
   }
   EXPECT_GT(refused, 20);
+}
+
+// --- Runs that begin in the state of another one
+
+class StartedRunTest : public RerunTest {
+ protected:
+  /// Records 3 s and writes the state after one second, with which the settings then begin.
+  /// @return hashes as record().
+  std::vector<std::uint64_t> record_first() {
+    auto hashes = record(300, [this](sim::Simulation& run, int step) {
+      drive(run, step);
+      if (step == 50) {
+        EXPECT_EQ(run.set_obstacle_state("gate", sim::ObstacleState::kRetracted), std::nullopt);
+        run.layers().set_cells(sim::kBaseLayer, {2, 3, 1, 1}, std::vector(1, kRed));
+        static_cast<void>(run.layers().add(sim::LayerKind::kGrey, {.name = "map"}, 6665));
+      }
+    });
+    Rerun first = rerun();
+    EXPECT_TRUE(first.advance_to(kStart_ns));
+    const sim::Snapshot state = first.state();
+    settings_.start_state = second_.write("state", std::string(state.begin(), state.end()));
+    settings_.output_folder = second_.path().string();
+    return hashes;
+  }
+  [[nodiscard]] sim::Simulation restored() const {
+    sim::Simulation run = simulation();
+    run.restore(Bytes(read_bytes(settings_.start_state)).all);
+    return run;
+  }
+  struct Bytes {
+    template <typename Text>
+    explicit Bytes(const Text& text) : all(text.begin(), text.end()) {}
+    std::vector<std::uint8_t> all;
+  };
+
+  static constexpr sim::SimTime kStart_ns = sim::kNanosecondsPerSecond;
+  const sim::CellValue kRed = sim::CellValue::of(sim::Colour{255, 0, 0, 255});
+  TemporaryFolder second_;
+};
+
+TEST_F(StartedRunTest, SameCommands_SameRun) {
+  const auto hashes = record_first();
+  sim::Simulation run = restored();
+  RecordingWriter writer(settings_, run);
+  for (int step = 100; step < 300; ++step) {
+    drive(run, step);
+    run.step();
+    EXPECT_EQ(writer.observe(), std::nullopt);
+    ASSERT_EQ(run.state_parts().hash_without_canvas(), hashes[static_cast<std::size_t>(step)]);
+  }
+}
+
+TEST_F(StartedRunTest, State_HasBaseCanvasOnly) {
+  static_cast<void>(record_first());
+  const sim::Simulation run = restored();
+  EXPECT_EQ(run.now_ns(), kStart_ns);
+  EXPECT_EQ(run.steps(), 100U);
+  EXPECT_EQ(run.layers().layers().size(), 1U);
+  EXPECT_EQ(run.layers().cell(sim::kBaseLayer, 2, 3), kRed);
+}
+
+TEST_F(StartedRunTest, RecordedAgain_CanBeMadeAgain) {
+  static_cast<void>(record_first());
+  std::uint64_t hash = 0;
+  {
+    sim::Simulation run = restored();
+    RecordingWriter writer(settings_, run);
+    for (int step = 0; step < 1500; ++step) {  // more than one hash is recorded
+      drive(run, step);
+      run.step();
+      EXPECT_EQ(writer.observe(), std::nullopt);
+    }
+    EXPECT_EQ(writer.close(), std::nullopt);
+    hash = run.state_parts().hash_without_canvas();
+  }
+  Rerun again(settings_.output_folder);
+  EXPECT_EQ(again.simulation().now_ns(), kStart_ns);
+  EXPECT_EQ(again.world_file(), world_);
+  EXPECT_EQ(again.settings().seed, 3U);
+  while (again.step()) {
+  }
+  EXPECT_TRUE(again.complete());
+  EXPECT_EQ(again.simulation().now_ns(), 16 * sim::kNanosecondsPerSecond);
+  sim::Simulation copy = again.simulation().fork();
+  EXPECT_EQ(copy.state_parts().hash_without_canvas(), hash);
+  EXPECT_EQ(again.layers().cell(sim::kBaseLayer, 2, 3), kRed);
+}
+
+TEST_F(StartedRunTest, Host_BeginsAtItsTime) {
+  static_cast<void>(record_first());
+  const auto host = Host::create(sim::load_world(world_), settings_);
+  EXPECT_EQ(host->now_ns(), kStart_ns);
+  host->set_step_credit(25);
+  while (host->advance(std::chrono::seconds(1))) {
+  }
+  EXPECT_EQ(host->time().steps, 125U);
+  host->finish();
+  const auto bytes = read_bytes(second_ / "trajectory.csv");
+  std::vector<std::string> times;
+  std::istringstream rows(std::string(bytes.begin(), bytes.end()));
+  for (std::string row; std::getline(rows, row);) {
+    if (row.find(",r1,") != std::string::npos) times.push_back(row.substr(0, 5));
+  }
+  EXPECT_EQ(times, (std::vector<std::string>{"1.000", "1.100", "1.200"}));
+}
+
+TEST_F(StartedRunTest, UnusableState_Refused) {
+  static_cast<void>(record_first());
+  const auto create = [this] {
+    static_cast<void>(Host::create(sim::load_world(world_), settings_));
+  };
+  settings_.seed = 4;
+  EXPECT_THAT(create, ThrowsMessage<sim::ConfigError>(
+                          AllOf(HasSubstr("run/start"), HasSubstr("seed 4"), HasSubstr("seed 3"))));
+  settings_.start_state = second_ / "none";
+  EXPECT_THAT(create, ThrowsMessage<sim::ConfigError>(HasSubstr("no file of that name")));
 }
 
 TEST(CellChanges, AnyChanges_AppliedExactly) {

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
+#include <thread>
 
 #include "fake_viewer.h"
 #include "patience.h"
@@ -358,6 +359,20 @@ TEST_F(WatchedLockstep, PauseAndSpeed_Work) {
   viewer.press(' ');
   drive(2);
   EXPECT_GT(host->now_ns(), paused_ns);
+}
+
+TEST_F(WatchedLockstep, StopAtTime_PausedAfterFullSpeed) {
+  RunSettings settings;
+  settings.view_socket = viewer.socket_for_run();
+  settings.stop = {600.0, RunStop::Then::kView};
+  start(std::move(settings));
+  viewer.hello();
+  std::thread program([this] { drive(6010); });  // ten minutes and one second
+  static_cast<void>(shown_with("paused"));
+  EXPECT_EQ(host->now_ns(), 600 * sim::kNanosecondsPerSecond);
+  viewer.press(' ');
+  program.join();
+  EXPECT_GT(host->now_ns(), 600 * sim::kNanosecondsPerSecond);
 }
 
 TEST_F(WatchedLockstep, ClosedWindow_FullSpeed) {

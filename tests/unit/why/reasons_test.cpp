@@ -23,6 +23,7 @@
 namespace playpen::why {
 namespace {
 
+using test_support::read_bytes;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;
 
@@ -163,6 +164,18 @@ TEST_F(Reasons, RadiansForDegrees_SlowTurn) {
 TEST_F(Reasons, OldReadings_Stale) {
   EXPECT_EQ(first_kind(Avoider{.limit_m = 0.08}, 10.0, 1, sim::from_seconds(0.8)), kind::kStale);
   EXPECT_THAT(first_text(), HasSubstr("0.8 s old"));
+}
+
+TEST_F(Reasons, OldScansKeptByProgram_Stale) {
+  folder_.write("world.json", read_bytes(PLAYPEN_SOURCE_DIR "/worlds/tasks/par_intro.json"));
+  const Program late = [old = std::vector<std::optional<sim::Twist>>()](
+                           const Round& round) mutable -> std::optional<sim::Twist> {
+    constexpr std::size_t kLate = 10;
+    old.push_back(Avoider{.limit_m = 0.35}(round));
+    return old[old.size() > kLate ? old.size() - 1 - kLate : 0];
+  };
+  EXPECT_EQ(first_kind(late, 60.0), kind::kStale);
+  EXPECT_THAT(first_text(), HasSubstr("fit what the laser had shown about "));
 }
 
 TEST_F(Reasons, ReadsSeldom_NoRead) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "playerlike/host/run_settings.h"
 #include "sim/canvas/layers.h"
 #include "sim/simulation/simulation.h"
 
@@ -77,6 +78,14 @@ class Rerun {
   [[nodiscard]] std::uint64_t printed_bytes() const noexcept;
   /// Path of the file with what the program printed; "": it is not known.
   [[nodiscard]] const std::string& program_log() const noexcept;
+  /// Path of the world's file; "": the default world.
+  [[nodiscard]] const std::string& world_file() const noexcept;
+  /// The settings of the run that belong to its world: seed, duration, realism, view mode,
+  /// interfaces and port. The duration is that of the world if the run had no other.
+  [[nodiscard]] const RunSettings& settings() const noexcept;
+  /// The present state, for Simulation::restore(). Its base layer is that of layers(), and it has
+  /// no other layers.
+  [[nodiscard]] sim::Snapshot state() const;
   /// Whether the recording contains the end of the run: it does not if the program was killed, or
   /// wrote more than fits.
   [[nodiscard]] bool complete() const noexcept;

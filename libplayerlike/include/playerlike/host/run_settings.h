@@ -53,6 +53,16 @@ struct InterfaceChoice {
   return options;
 }
 
+/// What happens at a simulated time of a run in lockstep, before the step that follows.
+struct RunStop {
+  enum class Then {
+    kDebug,  ///< the program stops in its debugger, if it has one
+    kView,   ///< the window pauses the run; until then the run has full speed
+  };
+  double time_s = 0.0;  ///< 0..1e9; the first step at or after it counts
+  Then then = Then::kDebug;
+};
+
 /// Settings of a run: overrides of the world file, and the destination of the results.
 struct RunSettings {
   std::optional<std::uint64_t> seed;
@@ -100,6 +110,10 @@ struct RunSettings {
   /// File of a KeptRun; "": none. The host writes data there that the starting process needs if the
   /// program dies.
   std::string kept_run;
+  /// File with a snapshot of the world (sim::Snapshot) in which the run begins, with the snapshot's
+  /// clock; "": the run begins at the beginning.
+  std::string start_state;
+  std::optional<RunStop> stop;
   /// Wall time after which the lockstep no longer waits for a silent client, and processor time
   /// after which a program gets a warning that it lets no simulated time pass [s].
   double silence_limit_s = 5.0;
@@ -115,6 +129,7 @@ struct RunSettings {
   /// (ground, mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
   /// descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
   /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_TASK,
+  /// PLAYPEN_START (a snapshot's file), PLAYPEN_UNTIL (seconds) with PLAYPEN_THEN (debug or view),
   /// PLAYPEN_TAKE_OVER, PLAYPEN_INTERFACES and PLAYPEN_REAL (choices, separated by commas).
   /// @throws sim::ConfigError naming the variable, the expected value and the actual value.
   [[nodiscard]] static RunSettings from_environment();
@@ -171,6 +186,8 @@ void apply_interface_choices(sim::WorldDescription& world,
 [[nodiscard]] bool parse_film_speed(const std::string& text, double& speed);
 /// Parses the simulated time at which a film begins, 0..1e9. @return whether the text is valid.
 [[nodiscard]] bool parse_film_start(const std::string& text, double& from_s);
+/// Parses the simulated time of a RunStop, 0..1e9. @return whether the text is valid.
+[[nodiscard]] bool parse_stop_time(const std::string& text, double& time_s);
 /// Parses the size of a film: "640x480", or the longer side, "640". Each side is 64..4096 pixels.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_film_size(const std::string& text, sim::render::RenderOptions& options);
@@ -212,6 +229,8 @@ inline constexpr const char* kFilmFpsExpected = "a number of frames a second fro
 inline constexpr const char* kFilmSpeedExpected = "a number from 0.01 to 1000";
 /// Description of the values that parse_film_start() accepts, for messages.
 inline constexpr const char* kFilmStartExpected = "a number of seconds from 0 to 1e9";
+/// Description of the values that parse_stop_time() accepts, for messages.
+inline constexpr const char* kStopTimeExpected = "a number of seconds from 0 to 1e9";
 /// Description of the values that parse_film_size() accepts, for messages.
 inline constexpr const char* kFilmSizeExpected =
     "WIDTHxHEIGHT or the longer side, in pixels from 64 to 4096, such as 640x480";

@@ -348,6 +348,13 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   changes["PLAYPEN_VIRTUAL_TIME"] =
       settings.virtual_time ? std::optional<std::string>("1") : std::nullopt;
   changes["PLAYPEN_STATE"] = path_or_nothing(settings.kept_run);
+  changes["PLAYPEN_START"] = path_or_nothing(settings.start_state);
+  changes["PLAYPEN_UNTIL"] =
+      settings.stop ? std::optional(sim::shortest_text(settings.stop->time_s)) : std::nullopt;
+  changes["PLAYPEN_THEN"] =
+      settings.stop ? std::optional<std::string>(
+                          settings.stop->then == RunStop::Then::kView ? "view" : "debug")
+                    : std::nullopt;
   changes["PLAYPEN_DESK"] = std::nullopt;
   changes["PLAYPEN_RUN"] = settings.quiet_end ? std::optional<std::string>("1") : std::nullopt;
   return changes;

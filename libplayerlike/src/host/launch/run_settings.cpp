@@ -137,6 +137,24 @@ void read_rules(Variables& variables, TaskRules& rules) {
   });
 }
 
+/// Reads at which state a run begins, and at which time it stops. @pre The grading is known.
+void read_start_and_stop(Variables& variables, RunSettings& settings) {
+  settings.start_state = environment("PLAYPEN_START");
+  if (!settings.start_state.empty() && !settings.grading.nonce.empty()) {
+    variables.refuse("PLAYPEN_START", "no state: a run that is graded begins at the beginning");
+  }
+  std::optional<RunStop>& stop = settings.stop;
+  variables.read("PLAYPEN_UNTIL", kStopTimeExpected, [&stop](const std::string& text) {
+    return parse_stop_time(text, stop.emplace().time_s);
+  });
+  variables.read("PLAYPEN_THEN", "\"debug\" or \"view\", with PLAYPEN_UNTIL beside it",
+                 [&stop](const std::string& text) {
+                   if (!stop || (text != "debug" && text != "view")) return false;
+                   stop->then = text == "view" ? RunStop::Then::kView : RunStop::Then::kDebug;
+                   return true;
+                 });
+}
+
 // Reads choices that are separated by commas.
 template <typename Choice>
 void read_choices(Variables& variables, const char* name, const char* expected,
@@ -206,6 +224,10 @@ bool parse_film_speed(const std::string& text, double& speed) {
 
 bool parse_film_start(const std::string& text, double& from_s) {
   return parse_within(text, 0.0, kLongest_s, from_s);
+}
+
+bool parse_stop_time(const std::string& text, double& time_s) {
+  return parse_within(text, 0.0, kLongest_s, time_s);
 }
 
 bool parse_film_size(const std::string& text, sim::render::RenderOptions& options) {
@@ -396,6 +418,7 @@ RunSettings RunSettings::from_environment() {
                  into<int>(settings.robot_port, parse_robot_port));
   variables.read("PLAYPEN_PLAYER_PORT", kTcpPortExpected,
                  into<int>(settings.player_port, parse_tcp_port));
+  read_start_and_stop(variables, settings);
   settings.take_over = is_set("PLAYPEN_TAKE_OVER");
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // The part of Host::Core that watches the program: whether it lets time advance, and for how long.
 #include <chrono>
+#include <csignal>
 #include <utility>
 
 #include "host/core.h"
@@ -12,7 +13,7 @@
 namespace playerlike {
 
 void Host::Core::set_busy_alarm() {
-  if (!paced() && !stands_still() && simulation_.now_ns() == 0) stalled_time_warning_.set_alarm();
+  if (!paced() && !stands_still() && !progress_.first_step()) stalled_time_warning_.set_alarm();
 }
 
 void Host::Core::check_silence() {
@@ -23,6 +24,15 @@ void Host::Core::check_silence() {
   // Silence matters only if clients wait for lockstep time that could advance.
   if (paced() || stands_still()) return;
   if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(now, due);
+}
+
+void Host::Core::make_stop() {
+  stop_ns_.reset();
+  if (settings_.stop->then == RunStop::Then::kView) {
+    if (window_) pace_.set_paused(true);
+  } else if (tracer_of(0) != 0) {
+    static_cast<void>(raise(SIGTRAP));  // the debugger takes it
+  }
 }
 
 bool Host::Core::is_debugged(Client& client) {
@@ -75,7 +85,7 @@ void Host::Core::note_program_ends(int status) {
   results_.program_status = status;
   stalled_time_warning_.dismiss_alarm();
   // A program that ends with an error status needs no advice.
-  if (!paced() && !ended_ && simulation_.now_ns() == 0 && status == 0)
+  if (!paced() && !ended_ && !progress_.first_step() && status == 0)
     stalled_time_warning_.note_end();
 }
 

@@ -29,6 +29,7 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
       commands_(commands),
       active_(!settings.output_folder.empty() || !settings.film.empty()) {
   const fs::path folder(settings.output_folder);
+  next_row_ns_ = simulation.now_ns();
   if (!settings.output_folder.empty()) {
     trajectory_file_ = (folder / "trajectory.csv").string();
     trajectory_.open(trajectory_file_, std::ios::trunc);
@@ -40,7 +41,8 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
   std::unique_ptr<sim::render::FilmWriter> film;
   if (!settings.film.empty()) {
     film = std::make_unique<sim::render::FilmWriter>(settings.film, settings.film_fps);
-    film_clock_ = Clock(settings.film_speed / settings.film_fps, settings.film_from_s);
+    film_clock_ = Clock(settings.film_speed / settings.film_fps,
+                        std::max(settings.film_from_s, sim::to_seconds(simulation.now_ns())));
     film_begin_s_ = settings.film_from_s;
   }
   if (settings.snapshot_period_s && !settings.output_folder.empty()) {

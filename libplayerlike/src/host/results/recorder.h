@@ -25,8 +25,9 @@ namespace playerlike {
 /// in snapshots/. The thread that steps calls it after each step; another thread draws and writes
 /// film and pictures.
 ///
-/// Frame k of a film shows the scene at film_from_s + k * film_speed / film_fps simulated seconds,
-/// or after the next step if that time lies between two steps. So a run of D seconds has
+/// Frame k of a film shows the scene at from + k * film_speed / film_fps simulated seconds,
+/// or after the next step if that time lies between two steps; "from" is film_from_s, or the time
+/// at which the run begins if that is later. So a run of D seconds has
 /// floor((D - from) * fps / speed) + 1 frames. Pictures are taken at multiples of snapshot_period_s
 /// in the same way, but at most one per step.
 class Recorder {

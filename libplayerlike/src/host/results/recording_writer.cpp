@@ -43,6 +43,20 @@ bool concerns_other_robots(const sim::Command& command) {
          std::holds_alternative<sim::SayCommand>(command);
 }
 
+/// A canvas of the same kind that takes no memory.
+sim::CanvasDescription without_cells(sim::CanvasDescription canvas) {
+  canvas.width = canvas.height = 1;
+  return canvas;
+}
+
+/// The world of a run at its beginning. A restored state may have changed its obstacles.
+sim::WorldDescription start_world(const RunSettings& settings, const sim::Simulation& simulation) {
+  if (settings.start_state.empty()) return simulation.world();
+  sim::WorldDescription world = sim::load_world(simulation.world().file);
+  settings.apply_to(world);
+  return world;
+}
+
 RecordingHead head_of(const RunSettings& settings, const sim::Simulation& simulation,
                       bool has_program_log) {
   const sim::WorldDescription& world = simulation.world();
@@ -60,7 +74,7 @@ RecordingHead head_of(const RunSettings& settings, const sim::Simulation& simula
       head.world_text = std::move(text);
     }
   }
-  head.world_hash = hash_of_world(world);
+  head.world_hash = hash_of_world(start_world(settings, simulation));
   head.seed = world.simulation.seed;
   head.realism = sim::to_string(world.simulation.realism);
   head.view_mode = sim::to_string(world.canvas.view_mode);
@@ -81,13 +95,15 @@ RecordingWriter::RecordingWriter(const RunSettings& settings, sim::Simulation& s
       file_((fs::path(settings.output_folder) / kRecordingFile).string()),
       watches_output_(prints_into(settings.output_folder)),
       interventions_(simulation.interventions()),
-      layers_(simulation.layers().description()) {
+      layers_(without_cells(simulation.layers().description())) {
   out_.open(file_, std::ios::trunc | std::ios::binary);
   const std::string head = text_of_head(head_of(settings, simulation, watches_output_)) + '\n';
   out_ << head << std::flush;
   if (!out_) throw std::runtime_error("cannot write " + file_);
   written_ = head.size();
-  next_hash_ns_ = kHashPeriod_ns;
+  next_look_ns_ = next_layers_ns_ = simulation.now_ns();
+  next_hash_ns_ = simulation.now_ns() + kHashPeriod_ns;
+  if (!settings.start_state.empty()) note_state();
   simulation_.watch_commands([this](sim::Simulation::DeviceId device, const sim::Command& command) {
     note_command(device, command);
   });
@@ -160,9 +176,8 @@ void RecordingWriter::note_reads() {
 void RecordingWriter::note_state() {
   interventions_ = simulation_.interventions();
   begin_item(RecordedItem::kState);
-  sim::CanvasDescription blank = simulation_.layers().description();
-  blank.width = blank.height = 1;  // the layers are recorded otherwise
-  sim::LayerStack layers(blank);
+  // The layers are recorded otherwise.
+  sim::LayerStack layers(without_cells(simulation_.layers().description()));
   sim::Snapshot snapshot = simulation_.state_parts().snapshot(layers);
   items_(snapshot);
 }

@@ -23,7 +23,8 @@ namespace playerlike {
 class RecordingWriter {
  public:
   /// Begins a recording in the run's output folder, before the first step.
-  /// @param simulation  must outlive this object; its commands are watched from now on.
+  /// @param simulation  must outlive this object; its commands are watched from now on. If the
+  ///     settings name a state, this is the simulation in that state.
   /// @throws std::runtime_error if the file cannot be created.
   RecordingWriter(const RunSettings& settings, sim::Simulation& simulation);
   RecordingWriter(const RecordingWriter&) = delete;

@@ -50,13 +50,13 @@ RecordingHead checked_head(const std::string& file, const std::string& text) {
   return head;
 }
 
-/// The world of a recording, with the settings of its run.
-sim::WorldDescription world_of(const std::string& file, const RecordingHead& head) {
+/// The world of a recording, with the settings of its run, which are written into `settings`.
+sim::WorldDescription world_of(const std::string& file, const RecordingHead& head,
+                               RunSettings& settings) {
   sim::WorldDescription world;
   try {
     world = head.world_text ? sim::load_world_text(*head.world_text, head.world_file)
                             : sim::load_world(head.world_file);
-    RunSettings settings;
     settings.seed = head.seed;
     settings.duration_s = head.duration_s;
     settings.realism = sim::parse_realism(head.realism);
@@ -92,7 +92,7 @@ struct Rerun::Impl {
     head = checked_head(file, content.substr(0, line));
     items.emplace(std::span(reinterpret_cast<const std::uint8_t*>(content.data()), content.size())
                       .subspan(std::min(line + 1, content.size())));
-    simulation.emplace(world_of(file, head));
+    simulation.emplace(world_of(file, head, settings));
     check_world(file, head, simulation->world());
     layers.emplace(simulation->layers().description());
     if (head.has_program_log) program_log = (fs::path(folder) / kProgramLog).string();
@@ -187,6 +187,12 @@ struct Rerun::Impl {
     ++layer_changes;
   }
 
+  /// A recording notes steps at least as often as it is written.
+  [[nodiscard]] std::uint32_t most_steps() const {
+    const sim::SimTime step_ns = simulation->world().simulation.step_ns;
+    return static_cast<std::uint32_t>(kRecordingPeriod_ns / step_ns) + 2;
+  }
+
   void read_hash() {
     std::uint64_t hash = 0;
     (*items)(hash);
@@ -203,6 +209,27 @@ struct Rerun::Impl {
     simulation->restore(snapshot);
   }
 
+  /// Reads the state in which the run began, if it was not the beginning of its world.
+  void read_start() {
+    while (next() == RecordedItem::kState) {
+      read_state();
+      kind.reset();
+    }
+  }
+
+  sim::Snapshot state() const {
+    const sim::LayerStack& recorded = layers->stack();
+    // Large layers are not recorded, but the simulation has the trails of pens.
+    const bool own =
+        layer_changes == 0 && simulation->layers().cell_count() == recorded.cell_count();
+    const sim::LayerStack& from = own ? simulation->layers() : recorded;
+    sim::LayerStack base(from.description());
+    base.set_cells(sim::kBaseLayer, {0, 0, from.width(), from.height()},
+                   from.cells(sim::kBaseLayer));
+    base.set_style(sim::kBaseLayer, from.style(sim::kBaseLayer));
+    return simulation->state_parts().snapshot(base);
+  }
+
   /// Reads the items before the next steps. @return whether there are any steps.
   bool read_before_step() {
     commands.clear();
@@ -211,7 +238,8 @@ struct Rerun::Impl {
         read_command();
       } else if (kind == RecordedItem::kSteps) {
         (*items)(steps_left);
-        items->expect(steps_left > 0, "at least one step");
+        items->expect(steps_left > 0 && steps_left <= most_steps(),
+                      "the steps of a tenth of a second");
         kind.reset();
         return true;
       } else if (!read_after_step()) {
@@ -274,6 +302,7 @@ struct Rerun::Impl {
   const std::string file;
   const std::string content;
   RecordingHead head;
+  RunSettings settings;
   std::optional<sim::StateArchive> items;
   std::optional<sim::Simulation> simulation;
   std::optional<RecordedLayers> layers;
@@ -290,7 +319,9 @@ struct Rerun::Impl {
   bool complete = false;
 };
 
-Rerun::Rerun(const std::string& folder) : impl_(std::make_unique<Impl>(folder)) {}
+Rerun::Rerun(const std::string& folder) : impl_(std::make_unique<Impl>(folder)) {
+  impl_->reading([this] { impl_->read_start(); });
+}
 Rerun::Rerun(Rerun&&) noexcept = default;
 Rerun& Rerun::operator=(Rerun&&) noexcept = default;
 Rerun::~Rerun() = default;
@@ -314,6 +345,9 @@ const sim::LayerStack& Rerun::layers() const noexcept { return impl_->layers->st
 std::uint64_t Rerun::layer_changes() const noexcept { return impl_->layer_changes; }
 std::uint64_t Rerun::printed_bytes() const noexcept { return impl_->printed; }
 const std::string& Rerun::program_log() const noexcept { return impl_->program_log; }
+const std::string& Rerun::world_file() const noexcept { return impl_->head.world_file; }
+const RunSettings& Rerun::settings() const noexcept { return impl_->settings; }
+sim::Snapshot Rerun::state() const { return impl_->state(); }
 bool Rerun::complete() const noexcept { return impl_->complete; }
 
 }  // namespace playerlike

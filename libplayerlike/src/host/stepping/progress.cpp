@@ -32,7 +32,7 @@ void Progress::add_times(TimeStatistics& time, bool ended) const {
   const WallClock::duration passed = (ended ? last_step_ : WallClock::now()) - *first_step_;
   time.wall_time_s = std::chrono::duration<double>(passed).count();
   if (time.wall_time_s > 0.0) {
-    time.real_time_factor = sim::to_seconds(time.sim_time_ns) / time.wall_time_s;
+    time.real_time_factor = sim::to_seconds(time.sim_time_ns - start_ns_) / time.wall_time_s;
   }
 }
 

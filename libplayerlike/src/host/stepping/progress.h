@@ -13,6 +13,9 @@ namespace playerlike {
 /// guarded by the host's mutex.
 class Progress {
  public:
+  /// @param start_ns  simulated time at which the run begins.
+  explicit Progress(sim::SimTime start_ns = 0) : start_ns_(start_ns) {}
+
   /// A step begins. @return whether it is the first.
   bool note_step(WallClock::time_point now);
   /// When the first step began; nullopt before.
@@ -31,6 +34,7 @@ class Progress {
   [[nodiscard]] static std::string line(const TimeStatistics& time);
 
  private:
+  sim::SimTime start_ns_;
   std::optional<WallClock::time_point> first_step_;
   WallClock::time_point last_step_;
   WallClock::time_point last_shown_;
