@@ -7,7 +7,7 @@ const fs = require("fs");
 const path = require("path");
 const {load, run, folder, names} = require("./load.js");
 
-const {Views, Scene} = load();
+const {Views, Scene, Robots} = load();
 const close = (a, b) => assert.ok(Math.abs(a - b) < 1e-9, a + " is not " + b);
 
 function viewOf(width, height) {
@@ -31,6 +31,31 @@ run({
     const [x, y] = view.world(17, 91);
     close(view.px(x), 17);
     close(view.py(y), 91);
+  },
+  trailsKeepTheirCorners() {
+    const plain = (points) => JSON.parse(JSON.stringify(points));
+    const along = [0, 1, 2, 3, 4].map((x) => [x, 0.01 * x * x]);
+    assert.deepStrictEqual(plain(Robots.simplified([...along, [4, 5], [4, 9]])),
+      [[0, 0], [4, 0.16], [4, 9]]);
+    // Forward and back on the same line.
+    assert.deepStrictEqual(plain(Robots.simplified([[0, 0], [5, 0], [9, 0], [4, 0], [1, 0]])),
+      [[0, 0], [9, 0], [1, 0]]);
+    assert.deepStrictEqual(plain(Robots.simplified([[3, 3]])), [[3, 3], [3, 3]]);
+    assert.deepStrictEqual(plain(Robots.simplified([[3, 3], [3, 3.1], [3, 3]])), [[3, 3], [3, 3]]);
+  },
+  trailsStayWithinHalfAPixel() {
+    const spiral = [];
+    for (let i = 0; i < 2000; ++i) spiral.push([0.1 * i * Math.cos(i / 30), 0.1 * i * Math.sin(i / 30)]);
+    const kept = Robots.simplified(spiral);
+    assert.ok(kept.length < 900, kept.length + " points");
+    const away = ([x, y]) => Math.min(...kept.slice(1).map(([bx, by], i) => {
+      const [ax, ay] = kept[i];
+      const length = Math.hypot(bx - ax, by - ay) || 1;
+      const share = Math.min(Math.max(((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length ** 2, 0), 1);
+      return Math.hypot(x - ax - share * (bx - ax), y - ay - share * (by - ay));
+    }));
+    const most = Math.max(...spiral.map(away));
+    assert.ok(most < 0.5, most + " px");
   },
   zoomKeepsThePlaceUnderThePointer() {
     const view = viewOf(300, 200);

@@ -7,6 +7,7 @@ const Robots = (function () {
   const {colour, mix, luma, withAlpha, pathOf, fill, stroke, shadow, place} = Scene;
   const kMostFans = 20; // with more, fans are short
   const kShades = 24; // of a trail
+  const kTolerance = 0.25; // of a trail [px]
   const kArm = "#c6cdd8";
 
   function disc(ctx, [x, y], radius, style, opacity = 1) {
@@ -133,20 +134,40 @@ const Robots = (function () {
     });
   }
 
+  // A path without the points that lie less than kTolerance beside a straight line from the one that
+  // was kept last (K. Reumann and A. Witkam, "Optimizing curve segmentation in computer graphics",
+  // 1974). Strokes of many short lines take long.
+  function simplified(places) {
+    const kept = [places[0]];
+    let [dx, dy] = [0, 0]; // of the line; 0: not known yet
+    for (let i = 1; i < places.length; ++i) {
+      const [x, y] = kept[kept.length - 1];
+      const [ax, ay] = places[i];
+      const backward = (ax - places[i - 1][0]) * dx + (ay - places[i - 1][1]) * dy < 0;
+      if (backward || Math.abs((ax - x) * dy - (ay - y) * dx) > kTolerance) {
+        kept.push(places[i - 1]);
+        [dx, dy] = [0, 0];
+      }
+      if (dx === 0 && dy === 0) {
+        const from = kept[kept.length - 1];
+        const away = Math.hypot(ax - from[0], ay - from[1]);
+        if (away > kTolerance) [dx, dy] = [(ax - from[0]) / away, (ay - from[1]) / away];
+      }
+    }
+    kept.push(places[places.length - 1]);
+    return kept;
+  }
+
   // The path of a robot until t, fading with age; of the last `length` seconds only.
   function drawTrail(ctx, view, robot, t, length, opacity = 1) {
     const last = robot.frames.before(t);
     if (last < 0) return;
-    const points = [];
-    const add = (x, y) => {
-      const p = [view.px(x), view.py(y)];
-      const before = points[points.length - 1];
-      if (!before || Math.abs(p[0] - before[0]) + Math.abs(p[1] - before[1]) > 0.7) points.push(p);
-    };
     const first = Math.max(robot.frames.before(t - length), 0);
-    for (let i = first; i <= last; ++i) add(robot.x.at(i), robot.y.at(i));
+    const places = [];
+    for (let i = first; i <= last; ++i) places.push([view.px(robot.x.at(i)), view.py(robot.y.at(i))]);
     const now = robot.at(t);
-    points.push([view.px(now.x), view.py(now.y)]);
+    places.push([view.px(now.x), view.py(now.y)]);
+    const points = simplified(places);
     let total = 0;
     for (let i = 1; i < points.length; ++i) {
       total += Math.hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);
@@ -287,6 +308,6 @@ const Robots = (function () {
     line(ctx, [onBody([0, 0]), onBody([front, 0])], dark, view.line(2), 0.7);
   }
 
-  return {disc, ring, line, markedRadius, scansAt, drawFans, drawCones, drawSurfaces, drawTrail,
-    drawRobot, drawGhost};
+  return {disc, ring, line, markedRadius, scansAt, drawFans, drawCones, drawSurfaces, simplified,
+    drawTrail, drawRobot, drawGhost};
 })();
