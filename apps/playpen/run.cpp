@@ -109,11 +109,18 @@ int verdict(const RunRequest& request, const sim::WorldDescription& world,
 }
 
 /// Writes the replay of the run if it is wanted and there are results.
-void write_replay_of(const RunRequest& request) {
-  if (request.replay_file.empty() || !has_report(request.settings)) return;
-  const std::string page =
-      write_replay(request.settings.output_folder, request.replay_file, request.replay_megabytes);
-  if (!request.quiet) std::cerr << "playpen: replay: " << page << '\n';
+/// @return whether it is there if it is wanted.
+bool write_replay_of(const RunRequest& request) {
+  if (request.replay_file.empty() || !has_report(request.settings)) return true;
+  try {
+    const std::string page =
+        write_replay(request.settings.output_folder, request.replay_file, request.replay_megabytes);
+    if (!request.quiet) std::cerr << "playpen: replay: " << page << '\n';
+    return true;
+  } catch (const std::exception& e) {
+    std::cerr << "playpen: there is no replay: " << e.what() << '\n';
+    return false;
+  }
 }
 
 /// The world of a run with several programs: this process serves it.
@@ -299,10 +306,10 @@ int run(RunRequest request) {
 
   viewer.reset();  // the window has nothing left to show
 
-  write_replay_of(request);
+  const bool replayed = write_replay_of(request);
   const int status = verdict(request, world, end, completed);
   if (status == kOk) tell_start(request);
-  return desk.conflict().empty() ? status : kProgramFailed;
+  return desk.conflict().empty() && replayed ? status : kProgramFailed;
 }
 
 }  // namespace playpen

@@ -151,6 +151,11 @@ TEST(PlaypenReplay, OutputIntoProgramLog_HasTimes) {
 TEST(PlaypenReplay, Unusable_NamedWithReason) {
   const TemporaryFolder folder;
   const std::string out = folder / "out";
+  const ProcessResult unwritable =
+      playpen({"run", "par_intro", "--duration", "1", "--quiet", "--out", out, "--html",
+               folder / "none/page.html", "--", AVOID_PROGRAM});
+  EXPECT_EQ(unwritable.status, 1);
+  EXPECT_THAT(unwritable.err, HasSubstr("playpen: there is no replay: "));
   run_program("par_intro", out, AVOID_PROGRAM, {"--duration", "2"});
   EXPECT_THAT(playpen({"replay", folder / "none"}).err, HasSubstr("found no folder '"));
   EXPECT_THAT(playpen({"replay", out, "--html", "page.txt"}).err,
