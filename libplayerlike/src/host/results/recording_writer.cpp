@@ -78,6 +78,7 @@ RecordingHead head_of(const RunSettings& settings, const sim::Simulation& simula
     head.interfaces.push_back(choice.text());
   }
   head.robot_port = settings.robot_port;
+  head.clients = settings.clients;
   head.has_program_log = has_program_log;
   return head;
 }
