@@ -17,6 +17,7 @@
 #include "sim/core/number_text.h"
 #include "sim/devices/builtin.h"
 #include "sim/world/realism.h"
+#include "sim/world/view_mode.h"
 
 namespace playerlike {
 namespace {
