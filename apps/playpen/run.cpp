@@ -172,7 +172,12 @@ class ServedWorld {
   std::optional<playerlike::Server> server_;
 };
 
-/// @throws std::runtime_error if the run is over before the time of --until, or begins after it.
+bool stops_in_gdb(const RunRequest& request) {
+  return request.until && request.until->then == RunUntil::Then::kDebug;
+}
+
+/// @throws std::runtime_error if the run is over before the time of --until, or begins after it,
+///     or if gdb cannot stop there.
 /// @param start_s  simulated time at which the run begins [s].
 void require_time_of_until(const RunRequest& request, const sim::WorldDescription& world,
                            double start_s) {
@@ -184,16 +189,17 @@ void require_time_of_until(const RunRequest& request, const sim::WorldDescriptio
   if (request.until->time_s < start_s) {
     refuse("the run begins later, at " + sim::shortest_text(start_s) + " s (--from)");
   }
+  if (stops_in_gdb(request) && request.settings.clients.value_or(1) > 1) {
+    refuse(
+        "with --clients, the world is not in the program's process, so that its debugger cannot "
+        "stop there");
+  }
   const auto& duration_ns = world.simulation.duration_ns;
   if (!request.settings.stop || !duration_ns) return;
   const double end_s = sim::to_seconds(*duration_ns);
   if (end_s <= request.until->time_s) {
     refuse("the run is over at " + sim::shortest_text(end_s) + " s (--duration)");
   }
-}
-
-bool stops_in_gdb(const RunRequest& request) {
-  return request.until && request.until->then == RunUntil::Then::kDebug;
 }
 
 /// Says how to go on from the end of a run of --then save.

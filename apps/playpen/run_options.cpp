@@ -126,11 +126,6 @@ void apply_until(RunRequest& request) {
   }
   settings.time_mode = sim::TimeMode::kLockstep;
   const bool views = request.until->then == RunUntil::Then::kView;
-  if (!views && settings.clients.value_or(1) > 1) {
-    throw CLI::ValidationError("--then debug",
-                               "with --clients, the world is not in the program's process, so that "
-                               "its debugger cannot stop there");
-  }
   settings.stop = {time_s,
                    views ? playerlike::RunStop::Then::kView : playerlike::RunStop::Then::kDebug};
   (views ? request.view : request.debug) = true;

@@ -124,6 +124,7 @@ StartState::StartState(const RunMoment& moment, const std::string& named_world,
   settings.view_mode = recorded.view_mode;
   settings.interfaces = recorded.interfaces;
   settings.robot_port = recorded.robot_port;
+  settings.clients = recorded.clients;
   settings.start_state = (folder_ / kStateFile).string();
   const sim::Snapshot state = run.state();
   std::ofstream file(settings.start_state, std::ios::binary);

@@ -86,6 +86,26 @@ TEST_F(RunStart, SameStart_SameRunAlsoIsolated) {
   EXPECT_EQ(rows(other), rows(second_));
 }
 
+TEST_F(RunStart, SeveralPrograms_SameGate) {
+  const std::string two = std::string(PROGRAM) + " one 6665 & " + PROGRAM + " one 6666 & wait";
+  const std::string world = folder_.write("two.json", R"({"arena": {"size": [4, 4]}, "robots": [
+    {"name": "r1", "pose": {"x": 1, "y": 1}}, {"name": "r2", "pose": {"x": 1, "y": 3}}]})");
+  const auto both = [&two](const Words& options, const std::string& out) {
+    Words call = {"run", "--quiet", "--out", out, "--time", "lockstep"};
+    call.insert(call.end(), options.begin(), options.end());
+    call.insert(call.end(), {"--", "sh", "-c", two});
+    return test_support::playpen(call);
+  };
+  const ProcessResult before = both({world, "--clients", "2"}, first_);
+  ASSERT_EQ(before.status, 0) << before.err;
+  const ProcessResult end = both({"--from", first_ + "@3"}, second_);
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_THAT(rows(second_).at(1), HasSubstr("3.000,r1,"));
+  EXPECT_THAT(rows(second_).back(), HasSubstr("9.000,r2,"));
+  expect_refused({"--from", first_ + "@3", "--until", "4", "--then", "debug"},
+                 "not in the program's process");
+}
+
 TEST_F(RunStart, UntilThenSave_EndsThere) {
   ASSERT_EQ(run({world_, "--until", "3.1", "--then", "save"}, first_).status, 0);
   EXPECT_THAT(rows(first_).back(), HasSubstr("3.100,r1,"));

@@ -255,7 +255,7 @@ TEST_F(RerunTest, WorldEdited_RunFromRecordedText) {
 }
 
 TEST_F(RerunTest, UnusableRecording_Refused) {
-  const auto refused = [this](const std::string& text) {
+  const auto refused = [](const std::string& text) {
     return ThrowsMessage<RecordingError>(HasSubstr(text));
   };
   EXPECT_THAT([this] { rerun(); },

@@ -81,7 +81,7 @@ class Rerun {
   /// Path of the world's file; "": the default world.
   [[nodiscard]] const std::string& world_file() const noexcept;
   /// The settings of the run that belong to its world: seed, duration, realism, view mode,
-  /// interfaces and port. The duration is that of the world if the run had no other.
+  /// interfaces, port and start gate. The duration is that of the world if the run had no other.
   [[nodiscard]] const RunSettings& settings() const noexcept;
   /// The present state, for Simulation::restore(). Its base layer is that of layers(), and it has
   /// no other layers.

@@ -19,7 +19,7 @@ MESSAGE(playerlike::RecordingHead, field<&T::format>("playpen_recording"),
         field<&T::world_hash>("world_hash"), field<&T::seed>("seed"), field<&T::realism>("realism"),
         field<&T::view_mode>("view_mode"), field<&T::duration_s>("duration", "s"),
         field<&T::interfaces>("interfaces"), field<&T::robot_port>("port"),
-        field<&T::has_program_log>("program_log"))
+        field<&T::clients>("clients"), field<&T::has_program_log>("program_log"))
 
 }  // namespace sim
 

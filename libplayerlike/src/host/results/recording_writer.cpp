@@ -17,6 +17,7 @@
 #include "sim/core/number_text.h"
 #include "sim/devices/builtin.h"
 #include "sim/world/realism.h"
+#include "sim/world/view_mode.h"
 
 namespace playerlike {
 namespace {
@@ -84,6 +85,7 @@ RecordingHead head_of(const RunSettings& settings, const sim::Simulation& simula
     head.interfaces.push_back(choice.text());
   }
   head.robot_port = settings.robot_port;
+  head.clients = settings.clients;
   head.has_program_log = has_program_log;
   return head;
 }

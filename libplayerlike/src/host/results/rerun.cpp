@@ -67,6 +67,7 @@ sim::WorldDescription world_of(const std::string& file, const RecordingHead& hea
       }
     }
     settings.robot_port = head.robot_port;
+    settings.clients = head.clients;  // snapshots tell worlds apart by it
     settings.apply_to(world);
   } catch (const std::exception& e) {
     refuse(file, "a recording of a world that can be read", e.what());
