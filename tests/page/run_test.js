@@ -126,12 +126,6 @@ run({
     assert.strictEqual(times.share(2, 9), 0);
     assert.strictEqual(times.share(1, 2), 0);
   },
-  growsWhileItIsFed() {
-    const times = timeline([]);
-    for (let i = 0; i < 100; ++i) times.append(i / 10);
-    assert.strictEqual(times.length, 100);
-    assert.strictEqual(times.before(5.04), 50);
-  },
   readsWhatIsNoNumber() {
     const numbers = new Runs.Numbers(Int32Array.from([-2147483648, 5]), 0.5);
     assert.ok(Number.isNaN(numbers.at(0)));

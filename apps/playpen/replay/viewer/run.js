@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A run: columns over time. All of them can grow, so a run may also be fed while it is shown.
+// A run: columns over time.
 // Times are in seconds, lengths in m, angles in rad.
 "use strict";
 
@@ -10,7 +10,7 @@ const Runs = (function () {
   const kNoNumber = -2147483648;
   const kJump = 0.3; // a robot that moves so much farther than at twice its speed was placed [m]
 
-  // Numbers in a typed array that grows, times a unit.
+  // Numbers in a typed array, times a unit.
   class Numbers {
     constructor(values, unit = 1) {
       this.values = values;
@@ -21,15 +21,6 @@ const Runs = (function () {
     at(i) {
       const value = this.values[i];
       return value === kNoNumber ? NaN : value * this.unit;
-    }
-
-    append(value) {
-      if (this.length === this.values.length) {
-        const grown = new this.values.constructor(Math.max(16, 2 * this.length));
-        grown.set(this.values);
-        this.values = grown;
-      }
-      this.values[this.length++] = Math.round(value / this.unit);
     }
   }
 
