@@ -75,6 +75,11 @@ const Runs = (function () {
     }
   }
 
+  function posesOf(json, column) {
+    return {x: new Numbers(column(json.x), kPlace), y: new Numbers(column(json.y), kPlace),
+      a: new Numbers(column(json.a), kAngle)};
+  }
+
   // A robot over the frames of its run.
   class Robot {
     constructor(json, frames, column, log) {
@@ -86,9 +91,7 @@ const Runs = (function () {
       this.bumpers = json.bumpers;
       this.lights = json.lights;
       this.frames = frames;
-      this.x = new Numbers(column(json.x), kPlace);
-      this.y = new Numbers(column(json.y), kPlace);
-      this.a = new Numbers(column(json.a), kAngle);
+      Object.assign(this, posesOf(json.poses, column));
       this.v = new Numbers(column(json.v), kPlace);
       this.side = new Numbers(column(json.side), kPlace);
       this.w = new Numbers(column(json.w), kAngle);
@@ -179,11 +182,8 @@ const Runs = (function () {
         for (let i = 0; i < counts.length; ++i) begins[i + 1] = begins[i] + counts[i];
         return {name: one.name, unit: one.unit, begins, numbers: new Numbers(column(one.v), one.scale)};
       });
-      this.beams = json.beams ? Object.assign({}, json.beams, {
-        x: new Numbers(column(json.beams.x), kPlace),
-        y: new Numbers(column(json.beams.y), kPlace),
-        a: new Numbers(column(json.beams.a), kAngle),
-      }) : null;
+      this.beams = json.beams
+        ? Object.assign({}, json.beams, posesOf(json.beams.poses, column)) : null;
     }
 
     // The numbers of a list in reading i.
@@ -337,5 +337,5 @@ const Runs = (function () {
     return loops;
   }
 
-  return {Numbers, Timeline, ChangeLog, Robot, Obstacle, Device, Run};
+  return {Numbers, Timeline, ChangeLog, Robot, Obstacle, Device, Run, colourOf};
 })();
