@@ -244,6 +244,7 @@ struct ReplayRequest {
   std::optional<double> time_s;  ///< at which the printed address opens the page
   std::string robot;             ///< that it chooses; "": none
   double most_megabytes = 5.0;   ///< size of the page
+  std::string mcap_file;         ///< .mcap, which is written instead of a page; "": none
 };
 
 /// Writes the replay of a run, of two runs in one page, or of each run of a grade.

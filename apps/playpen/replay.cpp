@@ -14,6 +14,7 @@
 #include "playerlike/host/rerun.h"
 #include "plot_data.h"
 #include "replay/replay_page.h"
+#include "replay/run_mcap.h"
 #include "replay/run_replay.h"
 #include "sim/core/number_text.h"
 
@@ -99,6 +100,18 @@ std::string write_replay(const std::string& folder, const std::string& file,
 }
 
 int make_replay(const ReplayRequest& request) {
+  if (!request.mcap_file.empty()) {
+    std::vector<std::string> skipped;
+    const std::vector<std::string> runs = run_folders(request.first, skipped);
+    if (runs.size() > 1) {
+      throw std::runtime_error("--mcap: expected one run, found " + std::to_string(runs.size()) +
+                               " runs in '" + request.first + "'; name the folder of one");
+    }
+    playerlike::Rerun rerun(runs.front());
+    replay::write_mcap(rerun, request.mcap_file);
+    std::cout << "MCAP file: " << request.mcap_file << '\n';
+    return kOk;
+  }
   const std::vector<std::string> folders = folders_of(request);
   if (request.second.empty()) {
     for (const std::string& folder : folders) {

@@ -45,6 +45,17 @@ void add_replay(CommandLine& line) {
   command.add_option("--robot", request->robot, "Robot that the printed address chooses [none]")
       ->type_name("NAME");
   add_replay_size(command, request->most_megabytes);
+  CLI::Option* const mcap =
+      add_parsed(command, "--mcap", "Write the run as an MCAP file instead of a page", "FILE",
+                 "a file ending in .mcap", [request](const std::string& text) {
+                   request->mcap_file = text;
+                   return text.size() > 5 && text.ends_with(".mcap");
+                 });
+  line.takes(mcap, ValueKind::Kind::kFile);
+  for (const char* of_page : {"--html", "--at", "--robot", "--replay-size"}) {
+    mcap->excludes(command.get_option(of_page));
+  }
+  mcap->excludes(second);
   command.footer(
       "Makes the run again from its recording and writes one HTML file, which needs no\n"
       "network and no other file: robots, scans, layers, commands, readings, events and\n"
@@ -52,6 +63,7 @@ void add_replay(CommandLine& line) {
       "  playpen replay out/run\n"
       "  playpen replay out/before out/after --html compared.html\n"
       "  playpen replay out/run --at 31.4 --robot r1\n"
+      "  playpen replay out/run --mcap run.mcap\n"
       "Exit status: 0 written, 2 bad input.");
   command.callback([request, &line] { line.status = make_replay(*request); });
 }

@@ -108,6 +108,14 @@ int verdict(const RunRequest& request, const sim::WorldDescription& world,
   return kOk;
 }
 
+/// Writes the replay of the run if it is wanted and there are results.
+void write_replay_of(const RunRequest& request) {
+  if (request.replay_file.empty() || !has_report(request.settings)) return;
+  const std::string page =
+      write_replay(request.settings.output_folder, request.replay_file, request.replay_megabytes);
+  if (!request.quiet) std::cerr << "playpen: replay: " << page << '\n';
+}
+
 /// The world of a run with several programs: this process serves it.
 class ServedWorld {
  public:
@@ -291,11 +299,7 @@ int run(RunRequest request) {
 
   viewer.reset();  // the window has nothing left to show
 
-  if (!request.replay_file.empty() && has_report(settings)) {
-    const std::string page =
-        write_replay(settings.output_folder, request.replay_file, request.replay_megabytes);
-    if (!request.quiet) std::cerr << "playpen: replay: " << page << '\n';
-  }
+  write_replay_of(request);
   const int status = verdict(request, world, end, completed);
   if (status == kOk) tell_start(request);
   return desk.conflict().empty() ? status : kProgramFailed;

@@ -106,16 +106,18 @@ class LiveWindow : public testing::Test {
     if (waited_in_vain) GTEST_SKIP() << "a test before waited in vain: this one might as well";
   }
 
-  void open(const std::string& world_text = two_robots()) {
+  void open(const std::string& world_text = two_robots(),
+            const std::vector<std::string>& view = {"--view"}) {
     const std::string world = folder.write("window.json", world_text);
     const ProcessOptions options{
         // Toolkits leak on purpose; leak checks of sanitizer builds are off for them.
         .environment = {{"DISPLAY", server->name()}, {"ASAN_OPTIONS", "detect_leaks=0"}},
         .folder = folder.path().string()};
-    run = std::make_unique<Process>(
-        std::vector<std::string>{PLAYPEN_COMMAND, "run", world, "--view", "--out", "out",
-                                 "--duration", "3600", "--", WINDOW_PROGRAM},
-        options);
+    std::vector<std::string> call = {PLAYPEN_COMMAND, "run",        world, "--out",
+                                     "out",           "--duration", "3600"};
+    call.insert(call.end(), view.begin(), view.end());
+    call.insert(call.end(), {"--", WINDOW_PROGRAM});
+    run = std::make_unique<Process>(call, options);
     wait_until("the window is there", [&] {
       window = display.find("Playpen: window").value_or(None);
       return window != None;
@@ -321,6 +323,13 @@ TEST_F(LiveWindow, Keys_SpacePausesAndSSavesPicture) {
   wait_until("time goes on", [&] { return !paused() && !(picture() == shown); });
   press("q");
   finished_run();
+}
+
+TEST_F(LiveWindow, UntilTime_PausesThere) {
+  open(two_robots(), {"--until", "600", "--then", "view"});  // ten minutes at full speed
+  wait_until("the run pauses", [&] { return paused(); });
+  press("q");
+  EXPECT_EQ(finished_run().at("run").at("sim_time"), 600.0);
 }
 
 TEST_F(LiveWindow, CtrlArrows_ChangeViewMode) {

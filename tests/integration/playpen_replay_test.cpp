@@ -98,6 +98,9 @@ TEST(PlaypenReplay, ExplorationWithItsDrawings_SameAgainAndSmall) {
   const std::string text = read_bytes(page);
   EXPECT_LT(text.size(), kMostReplay);
   EXPECT_THAT(text, AllOf(StartsWith("<!DOCTYPE html>"), HasSubstr("Content-Security-Policy")));
+  EXPECT_EQ(playpen({"replay", out, "--mcap", folder / "run.mcap"}).out,
+            "MCAP file: " + (folder / "run.mcap") + "\n");
+  EXPECT_THAT(read_bytes(folder / "run.mcap"), StartsWith("\x89MCAP0\r\n"));
   const ProcessResult again = playpen({"replay", out, "--at", "3.5", "--robot", "r1"});
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(again.out, "replay: " + out + "/replay.html\nopen it: file://" + out +
@@ -154,6 +157,10 @@ TEST(PlaypenReplay, Unusable_NamedWithReason) {
               HasSubstr("must be a file ending in .html, but is 'page.txt'"));
   EXPECT_THAT(playpen({"replay", out, "--replay-size", "0"}).err,
               HasSubstr("must be a number of megabytes in [0.2, 1000], but is '0'"));
+  EXPECT_THAT(playpen({"replay", out, "--mcap", "run.txt"}).err,
+              HasSubstr("must be a file ending in .mcap, but is 'run.txt'"));
+  EXPECT_THAT(playpen({"replay", out, "--mcap", "run.mcap", "--at", "1"}).err,
+              HasSubstr("--mcap excludes --at"));
   EXPECT_THAT(playpen({"replay", out, "--at", "-1"}).err, HasSubstr("--at: must be a number of"));
   EXPECT_THAT(playpen({"why", out, "--robot", "r9"}).err,
               HasSubstr("--robot: expected a robot of the run (r1), found 'r9'"));

@@ -95,16 +95,18 @@ class ScopedEnvironment {
 TEST(RunEnvironment, InvalidStartAndStop_Named) {
   const auto read = [] { static_cast<void>(RunSettings::from_environment()); };
   {
-    const ScopedEnvironment environment({{"PLAYPEN_UNTIL", "soon"}, {"PLAYPEN_THEN", "fly"}});
+    const ScopedEnvironment environment(
+        EnvironmentChanges{{"PLAYPEN_UNTIL", "soon"}, {"PLAYPEN_THEN", "fly"}});
     EXPECT_THAT(read, ThrowsMessage<sim::ConfigError>(
                           AllOf(HasSubstr("PLAYPEN_UNTIL"), HasSubstr("a number of seconds"),
                                 HasSubstr("PLAYPEN_THEN"), HasSubstr("\"fly\""))));
   }
   {
-    const ScopedEnvironment environment({{"PLAYPEN_THEN", "view"}});
+    const ScopedEnvironment environment(EnvironmentChanges{{"PLAYPEN_THEN", "view"}});
     EXPECT_THAT(read, ThrowsMessage<sim::ConfigError>(HasSubstr("PLAYPEN_UNTIL beside it")));
   }
-  const ScopedEnvironment environment({{"PLAYPEN_START", "/tmp/state"}, {"PLAYPEN_GRADE", "17"}});
+  const ScopedEnvironment environment(
+      EnvironmentChanges{{"PLAYPEN_START", "/tmp/state"}, {"PLAYPEN_GRADE", "17"}});
   EXPECT_THAT(read, ThrowsMessage<sim::ConfigError>(HasSubstr("begins at the beginning")));
 }
 

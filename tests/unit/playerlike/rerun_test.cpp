@@ -122,6 +122,22 @@ TEST_F(RerunTest, CommandsAndInterventions_SameStateAfterEachStep) {
   EXPECT_TRUE(again.complete());
 }
 
+// How many clients a run waits for is no part of its recording.
+TEST_F(RerunTest, StartGateOfRun_StatesCanBeRead) {
+  settings_.clients = 2;
+  const auto hashes = record(200, [](sim::Simulation& run, int step) {
+    drive(run, step);
+    if (step == 100) {
+      EXPECT_EQ(run.place_object("r2", {0.4, 1.5, 0.5}), std::nullopt);
+    }
+  });
+  Rerun again = rerun();
+  while (again.step()) {
+  }
+  sim::Simulation copy = again.simulation().fork();
+  EXPECT_EQ(copy.state_parts().hash_without_canvas(), hashes.back());
+}
+
 TEST_F(RerunTest, RepeatedCommand_TakesFewBytes) {
   const auto act = [](sim::Simulation& run, int) {
     const int motors = run.find_device(0, "motion").value();

@@ -69,6 +69,7 @@ struct RecordingHead {
   std::optional<double> duration_s;
   std::vector<std::string> interfaces;  ///< InterfaceChoice::text()
   std::optional<int> robot_port;
+  std::optional<int> clients;    ///< start gate, if it is not the world's
   bool has_program_log = false;  ///< what the program prints goes into kProgramLog
 };
 inline constexpr int kRecordingFormat = 1;
