@@ -1,9 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The layers of a replay: those of the simulation, watched frame by frame, or given from outside.
+// The layers of a replay: watched frame by frame.
 #include <algorithm>
 #include <cstring>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
 #include "replay/replay_builder.h"
@@ -46,7 +45,7 @@ void ReplayBuilder::add_layers(const sim::LayerStack& layers) {
   const sim::CanvasDescription size = layers.description();
   if (size.width != canvas_.width || size.height != canvas_.height) {
     begin_layers(size);
-    if (!options_.watch_layers) return;
+    if (layers_ended_) return;
   }
   const std::vector<sim::LayerInfo> infos = layers.layers();
   const std::vector<std::uint8_t> blank(4 * layers.cell_count(), 0);
@@ -97,35 +96,7 @@ void ReplayBuilder::begin_layers(const sim::CanvasDescription& canvas) {
   if (++canvas_changes_ <= kMostChanges) return;
   run_.notes.push_back("The canvas changed its size more than " + std::to_string(kMostChanges) +
                        " times; drawings after that are left out.");
-  options_.watch_layers = false;
-}
-
-void ReplayBuilder::set_layers(std::vector<LayerLog> layers) {
-  for (const LayerLog& layer : layers) {
-    const auto side = [](int own, int of_canvas) {
-      return static_cast<std::uint64_t>(own > 0 ? own : of_canvas);
-    };
-    const std::uint64_t cells =
-        side(layer.width, run_.canvas.width) * side(layer.height, run_.canvas.height);
-    if (!std::ranges::is_sorted(layer.changes, {}, &LayerChange::time_ns)) {
-      throw std::invalid_argument("the changes of the layer '" + layer.name +
-                                  "' must be in the order of time");
-    }
-    for (const LayerChange& change : layer.changes) {
-      for (const CellRun& run : change.runs) {
-        if (run.count > 0 && std::uint64_t{run.first} + run.count <= cells) continue;
-        throw std::invalid_argument("the layer '" + layer.name + "' has a run of " +
-                                    std::to_string(run.count) + " cells from cell " +
-                                    std::to_string(run.first) +
-                                    "; expected 1 or more cells within " + std::to_string(cells));
-      }
-    }
-  }
-  options_.watch_layers = false;
-  layer_ids_.clear();
-  cells_.clear();
-  raw_cells_.clear();
-  run_.layers = std::move(layers);
+  layers_ended_ = true;
 }
 
 }  // namespace playpen::replay

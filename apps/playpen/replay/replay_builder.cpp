@@ -18,6 +18,7 @@
 namespace playpen::replay {
 namespace {
 
+constexpr sim::SimTime kFramePeriod_ns = sim::kNanosecondsPerSecond / 20;
 constexpr std::size_t kMostSeries = 64;  // of a device
 constexpr std::int64_t kGreatestRange = 65535;
 
@@ -159,10 +160,6 @@ std::optional<std::size_t> ChangeLog::common_length() const {
 
 ReplayBuilder::ReplayBuilder(const sim::Simulation& simulation, ReplayOptions options)
     : options_(std::move(options)) {
-  if (!(options_.frame_rate_hz > 0.0 && options_.frame_rate_hz <= 1e6)) {
-    throw std::invalid_argument("the frame rate of a replay must be above 0 Hz and at most 1e6 Hz");
-  }
-  period_ns_ = sim::from_seconds(1.0 / options_.frame_rate_hz);
   const sim::WorldDescription& world = simulation.world();
   run_.name = options_.name.empty() ? world.name : options_.name;
   run_.world = world.name;
@@ -208,7 +205,7 @@ void ReplayBuilder::observe(const sim::Simulation& simulation) {
   add_goals(simulation);
   // A frame is due at the first step at or after each multiple of the period, and at the end.
   const bool due =
-      run_.frames_ns.empty() || now_ns / period_ns_ > run_.frames_ns.back() / period_ns_;
+      run_.frames_ns.empty() || now_ns / kFramePeriod_ns > run_.frames_ns.back() / kFramePeriod_ns;
   if (due || simulation.finished()) add_frame(simulation);
   observed_ = true;
   last_ns_ = now_ns;
@@ -228,7 +225,7 @@ void ReplayBuilder::add_frame(const sim::Simulation& simulation) {
   }
   add_obstacles(simulation);
   if (simulation.records_arena_events()) add_controller(simulation);
-  if (options_.watch_layers) add_layers(layers_ != nullptr ? *layers_ : simulation.layers());
+  if (!layers_ended_) add_layers(layers_ != nullptr ? *layers_ : simulation.layers());
 }
 
 void ReplayBuilder::add_obstacles(const sim::Simulation& simulation) {

@@ -19,10 +19,7 @@ namespace playpen::replay {
 
 /// What a ReplayBuilder records.
 struct ReplayOptions {
-  std::string name = {};        ///< of the run, for people; "": the world's
-  double frame_rate_hz = 20.0;  ///< poses per simulated second, > 0
-  bool watch_layers = true;     ///< records the visible layers of the simulation itself; false:
-                                ///< only those of set_layers()
+  std::string name = {};                    ///< of the run, for people; "": the world's
   std::size_t most_commands = 50000;        ///< further ones are left out, and a note says so
   std::size_t most_output_bytes = 1 << 20;  ///< of printed text, likewise
 };
@@ -34,7 +31,6 @@ struct ReplayOptions {
 class ReplayBuilder {
  public:
   /// Records the world, the robots and the devices as they are now, but no frame yet.
-  /// @throws std::invalid_argument if the options are out of range.
   explicit ReplayBuilder(const sim::Simulation& simulation, ReplayOptions options = {});
 
   /// Records what has changed since the last call: the readings of the last step, contacts, events
@@ -55,10 +51,6 @@ class ReplayBuilder {
   /// Records these layers instead of the simulation's own, whenever a frame is due.
   /// @param layers  must outlive this object, and have the size of the simulation's at first.
   void watch_layers(const sim::LayerStack& layers) noexcept { layers_ = &layers; }
-  /// Replaces the layers: they come from outside. Ends the recording of the simulation's own.
-  /// @throws std::invalid_argument if a run of cells is empty or exceeds the canvas, or if the
-  ///     times of a layer decrease.
-  void set_layers(std::vector<LayerLog> layers);
 
   /// Ends the recording with the present state as the last frame. The builder is empty then.
   /// @throws std::invalid_argument as observe().
@@ -77,7 +69,6 @@ class ReplayBuilder {
   ReplayOptions options_;
   const sim::LayerStack* layers_ = nullptr;  ///< that are watched; null: the simulation's
   ReplayRun run_;
-  sim::SimTime period_ns_;                   ///< of frames
   std::vector<std::size_t> first_device_;    ///< of each robot: index in ReplayRun::devices
   std::vector<sim::Vec2> goal_of_;           ///< of each robot: its newest goal, if it has one
   std::vector<std::ptrdiff_t> newest_goal_;  ///< of each robot; -1: none
@@ -89,6 +80,7 @@ class ReplayBuilder {
   HappeningsWatch happenings_;
   sim::CanvasDescription canvas_;  ///< as it is now
   int canvas_changes_ = 0;         ///< how often its size has changed
+  bool layers_ended_ = false;      ///< because of too many changes
   std::size_t first_layer_ = 0;    ///< index in ReplayRun::layers of those of the present size
   std::vector<sim::LayerId> layer_ids_;               ///< of these layers
   std::vector<std::vector<std::uint8_t>> cells_;      ///< their pictures at the last frame

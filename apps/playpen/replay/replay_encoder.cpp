@@ -120,6 +120,13 @@ class RunEncoder {
     return columns_.add(values);
   }
 
+  json poses(const std::vector<sim::Pose>& all, const std::vector<std::size_t>& kept) {
+    const auto place = [](double metres) { return quantised(metres, kPlaceUnit_m); };
+    return {{"x", column(all, kept, [&](const sim::Pose& p) { return place(p.x_m); })},
+            {"y", column(all, kept, [&](const sim::Pose& p) { return place(p.y_m); })},
+            {"a", headings(all, kept)}};
+  }
+
   json of(const ChangeLog& log) {
     std::vector<std::int64_t> at;
     for (const sim::SimTime time_ns : log.times_ns()) at.push_back(time_ns / kMicrosecond_ns);
@@ -193,11 +200,7 @@ class RunEncoder {
         {"superstructures", polygons_json(start.superstructures)},
         {"bumpers", bumpers},
         {"lights", lights},
-        {"x", column(robot.X_WB, frames_,
-                     [](const sim::Pose& p) { return quantised(p.x_m, kPlaceUnit_m); })},
-        {"y", column(robot.X_WB, frames_,
-                     [](const sim::Pose& p) { return quantised(p.y_m, kPlaceUnit_m); })},
-        {"a", headings(robot.X_WB, frames_)},
+        {"poses", poses(robot.X_WB, frames_)},
         {"v", column(robot.twists, frames_,
                      [](const sim::Twist& t) { return quantised(t.v_mps, kPlaceUnit_m); })},
         {"side",
@@ -252,17 +255,12 @@ class RunEncoder {
     for (const sim::Pose& X_BS : device.beams->X_BS) {
       mounts.push_back({X_BS.x_m, X_BS.y_m, X_BS.yaw_rad});
     }
-    out["beams"] = {
-        {"mounts", mounts},
-        {"first", device.beams->angle_min_rad},
-        {"step", device.beams->resolution_rad * static_cast<double>(beams)},
-        {"cone", device.beams->field_of_view_rad},
-        {"most", device.beams->range_max_m},
-        {"x", column(device.X_WB, kept,
-                     [](const sim::Pose& p) { return quantised(p.x_m, kPlaceUnit_m); })},
-        {"y", column(device.X_WB, kept,
-                     [](const sim::Pose& p) { return quantised(p.y_m, kPlaceUnit_m); })},
-        {"a", headings(device.X_WB, kept)}};
+    out["beams"] = {{"mounts", mounts},
+                    {"first", device.beams->angle_min_rad},
+                    {"step", device.beams->resolution_rad * static_cast<double>(beams)},
+                    {"cone", device.beams->field_of_view_rad},
+                    {"most", device.beams->range_max_m},
+                    {"poses", poses(device.X_WB, kept)}};
     return out;
   }
 
@@ -422,8 +420,8 @@ class RunEncoder {
                      {"visible", layer.visible},
                      {"priority", layer.priority},
                      {"grey", layer.is_grey},
-                     {"width", layer.width > 0 ? layer.width : run_.canvas.width},
-                     {"height", layer.height > 0 ? layer.height : run_.canvas.height},
+                     {"width", layer.width},
+                     {"height", layer.height},
                      {"t", columns_.add(at)},
                      {"runs", columns_.add(runs)},
                      {"first", columns_.add(first)},

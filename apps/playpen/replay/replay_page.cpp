@@ -39,10 +39,8 @@ std::string head_of(const std::string& title) {
 
 std::string html(const std::vector<ReplayRun>& runs, const PageOptions& options) {
   if (runs.empty()) throw std::invalid_argument("a replay needs at least one run");
-  std::string title = options.title;
-  for (const ReplayRun& run : runs) {
-    if (options.title.empty()) title += (title.empty() ? "" : " and ") + run.name;
-  }
+  std::string title;
+  for (const ReplayRun& run : runs) title += (title.empty() ? "" : " and ") + run.name;
   const std::string head = head_of(title);
   const std::string tail =
       "</script>\n<script>" + joined(kViewerScripts) + "</script>\n</body>\n</html>\n";

@@ -11,7 +11,6 @@ namespace playpen::replay {
 
 /// A replay as a page of its own.
 struct PageOptions {
-  std::string title = {};              ///< "": the runs' names
   std::size_t most_bytes = 5'000'000;  ///< of the page
 };
 

@@ -138,8 +138,8 @@ struct LayerLog {
   bool visible = true;
   int priority = 0;                  ///< higher priorities lie above lower ones
   bool is_grey = false;              ///< an occupancy grid: its legend says free, unknown, occupied
-  int width = 0;                     ///< columns; 0: those of ReplayRun::canvas
-  int height = 0;                    ///< rows; 0: those of ReplayRun::canvas
+  int width = 0;                     ///< columns
+  int height = 0;                    ///< rows
   std::vector<LayerChange> changes;  ///< in the order of time
 };
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "replay/run_mcap.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
@@ -21,6 +22,7 @@
 #include "playerlike/host/reading_json.h"
 #include "replay/happenings.h"
 #include "replay/mcap_writer.h"
+#include "replay/printed_lines.h"
 #include "sim/core/replace_file.h"
 #include "sim/core/time.h"
 #include "sim/core/utf8.h"
@@ -113,13 +115,13 @@ json pose_in_space(const sim::Pose& pose, double z_m) {
 /// Writes what a run does to its channels.
 class RunChannels {
  public:
-  RunChannels(const playerlike::Rerun& rerun, std::ostream& out) : writer_(out) {
+  RunChannels(const playerlike::Rerun& rerun, std::ostream& out)
+      : writer_(out), printed_(rerun.program_log()) {
     const sim::Simulation& run = rerun.simulation();
     for (int robot = 0; robot < run.robot_count(); ++robot) add_robot(run, robot);
     add_arena();
     if (rerun.program_log().empty()) return;
     log_ = channel("/program/log", "foxglove.Log", log_schema());
-    printed_file_.open(rerun.program_log(), std::ios::binary);
   }
 
   /// Writes the present state, what has happened since the last call, and the new readings.
@@ -130,12 +132,12 @@ class RunChannels {
     if (!poses_ns_ || now_ns_ / kPosePeriod_ns > *poses_ns_ / kPosePeriod_ns) add_poses(run);
     for (const sim::Simulation::DeviceId id : run.updated()) add_reading(run, id);
     add_happenings(run);
-    add_printed(rerun.printed_bytes());
+    add_printed(printed_.until(rerun.printed_bytes()));
   }
 
   void close(const playerlike::Rerun& rerun) {
     if (poses_ns_ != now_ns_) add_poses(rerun.simulation());
-    if (!line_.empty()) add_line();
+    add_printed(printed_.rest(rerun.printed_bytes()));
     writer_.close();
   }
 
@@ -293,22 +295,20 @@ class RunChannels {
     }
   }
 
-  void add_printed(std::uint64_t bytes) {
-    for (char letter = 0; printed_ < bytes && printed_file_.get(letter); ++printed_) {
-      if (letter == '\n') {
-        add_line();
-      } else {
-        line_ += letter;
-      }
+  void add_printed(std::string_view lines) {
+    for (std::size_t end = 0; !lines.empty();
+         lines.remove_prefix(std::min(end + 1, lines.size()))) {
+      end = std::min(lines.find('\n'), lines.size());
+      add_line(lines.substr(0, end));
     }
   }
 
-  void add_line() {
+  void add_line(std::string_view line) {
     constexpr int kInfo = 2;
     write(log_, now_ns_,
           {{"timestamp", time_json(now_ns_)},
            {"level", kInfo},
-           {"message", sim::escape_invalid_utf8(std::exchange(line_, {}))},
+           {"message", sim::escape_invalid_utf8(line)},
            {"name", "program"},
            {"file", ""},
            {"line", 0}});
@@ -321,9 +321,7 @@ class RunChannels {
   std::uint16_t collisions_ = 0;
   std::uint16_t log_ = 0;
   HappeningsWatch happenings_;
-  std::ifstream printed_file_;
-  std::uint64_t printed_ = 0;  ///< bytes read from it
-  std::string line_;           ///< the beginning of a line
+  PrintedLines printed_;
   sim::SimTime now_ns_ = 0;
   std::optional<sim::SimTime> poses_ns_;  ///< when they were written last
 };

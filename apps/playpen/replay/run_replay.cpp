@@ -1,49 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "replay/run_replay.h"
 
-#include <algorithm>
-#include <cstdint>
-#include <string_view>
-
+#include "replay/printed_lines.h"
 #include "replay/replay_builder.h"
-#include "sim/core/file.h"
 
 namespace playpen::replay {
-namespace {
-
-/// What a program printed, which becomes known with the steps.
-class PrintedLines {
- public:
-  explicit PrintedLines(const std::string& file) {
-    // Without the file, the replay has no lines.
-    if (!file.empty()) static_cast<void>(sim::read_whole_file(file, {}, text_));
-  }
-
-  /// Notes the lines that were complete when the program had printed so many bytes.
-  void note_until(std::uint64_t bytes, sim::SimTime time_ns, ReplayBuilder& builder) {
-    const std::size_t printed = std::min<std::size_t>(bytes, text_.size());
-    if (printed <= noted_) return;
-    const std::size_t line_end = text_.rfind('\n', printed - 1);
-    if (line_end == std::string::npos || line_end < noted_) return;
-    const std::string_view lines(text_.data() + noted_, line_end - noted_);
-    builder.note_output(time_ns, lines, /*is_error=*/false);
-    noted_ = line_end + 1;
-  }
-  /// Notes the rest.
-  void note_rest(sim::SimTime time_ns, ReplayBuilder& builder) {
-    if (noted_ < text_.size()) {
-      builder.note_output(time_ns, std::string_view(text_).substr(noted_), /*is_error=*/false);
-    }
-    noted_ = text_.size();
-  }
-
- private:
-  std::string text_;
-  std::size_t noted_ = 0;  ///< bytes, up to the end of a line
-};
-
-}  // namespace
-
 ReplayRun replay_of(playerlike::Rerun& rerun, const std::string& folder, const std::string& name,
                     const std::vector<GoalNote>& goals) {
   const sim::Simulation& run = rerun.simulation();
@@ -60,10 +21,10 @@ ReplayRun replay_of(playerlike::Rerun& rerun, const std::string& folder, const s
     for (const playerlike::RecordedCommand& command : rerun.commands()) {
       builder.note_command(before_ns, command.device, command.command);
     }
-    printed.note_until(rerun.printed_bytes(), run.now_ns(), builder);
+    builder.note_output(run.now_ns(), printed.until(rerun.printed_bytes()), /*is_error=*/false);
     builder.observe(run);
   }
-  printed.note_rest(run.now_ns(), builder);
+  builder.note_output(run.now_ns(), printed.rest(), /*is_error=*/false);
   return builder.finish(run);
 }
 

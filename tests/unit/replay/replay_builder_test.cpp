@@ -24,7 +24,6 @@ using playpen::replay::cell_runs;
 using playpen::replay::DeviceLog;
 using playpen::replay::encoded;
 using playpen::replay::html;
-using playpen::replay::LayerLog;
 using playpen::replay::ReplayBuilder;
 using playpen::replay::ReplayRun;
 using playpen::replay::text_of;
@@ -258,27 +257,8 @@ TEST(ReplayBuilder, CellRunsJoinEqualNeighbours) {
   EXPECT_THAT(cell_runs(now, now), testing::IsEmpty());
 }
 
-TEST(ReplayBuilder, LayersFromOutsideAreChecked) {
-  Simulation simulation = room();
-  ReplayBuilder builder(simulation);
-  LayerLog layer;
-  layer.name = "map";
-  layer.changes = {{0, {{199, 1, {}}}}};
-  EXPECT_NO_THROW(builder.set_layers({layer}));
-  layer.changes = {{0, {{199, 2, {}}}}};
-  EXPECT_THAT([&] { builder.set_layers({layer}); },
-              ThrowsMessage<std::invalid_argument>(
-                  AllOf(HasSubstr("'map'"), HasSubstr("2 cells from cell 199"), HasSubstr("200"))));
-  layer.changes = {{0, {{0, 0, {}}}}};
-  EXPECT_THROW(builder.set_layers({layer}), std::invalid_argument);
-  layer.changes = {{5, {}}, {4, {}}};
-  EXPECT_THAT([&] { builder.set_layers({layer}); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("order of time")));
-}
-
 TEST(ReplayBuilder, WrongUseIsRefused) {
   Simulation simulation = room();
-  EXPECT_THROW(ReplayBuilder(simulation, {.frame_rate_hz = 0.0}), std::invalid_argument);
   ReplayBuilder builder(simulation);
   EXPECT_THAT(
       [&] {

@@ -80,7 +80,7 @@ class RunMcap : public testing::Test {
     for (int step = 0; step < 103; ++step) {
       if (step == 5) static_cast<void>(run.apply({0, motors}, sim::TwistCommand{{0.5, 0.25, 0.0}}));
       if (step == 20) static_cast<void>(run.apply({0, speech}, sim::SayCommand{"\"hello\""}));
-      if (step == 31) std::printf("one\ntwo \xff\nthr");
+      if (step == 31) std::printf("one\n\ntwo \xff\nthr");
       run.step();
       EXPECT_EQ(writer.observe(), std::nullopt);
       poses_.push_back(run.body(0).X_WB);
@@ -172,12 +172,13 @@ TEST_F(RunMcap, CommandsAndEvents_EachInItsTopic) {
 
 TEST_F(RunMcap, PrintedLines_ToTenthOfSecond) {
   const auto lines = exported().of("/program/log");
-  ASSERT_EQ(lines.size(), 3U);
+  ASSERT_EQ(lines.size(), 4U);
   EXPECT_EQ(json::parse(lines[0].data).at("message"), "one");
-  EXPECT_EQ(json::parse(lines[1].data).at("message"), "two \\xff");
-  EXPECT_EQ(json::parse(lines[2].data).at("message"), "thr");
+  EXPECT_EQ(json::parse(lines[1].data).at("message"), "");
+  EXPECT_EQ(json::parse(lines[2].data).at("message"), "two \\xff");
+  EXPECT_EQ(json::parse(lines[3].data).at("message"), "thr");
   EXPECT_EQ(lines[0].log_ns, 400'000'000U);
-  EXPECT_EQ(lines[2].log_ns, 1'030'000'000U);  // its end never came
+  EXPECT_EQ(lines[3].log_ns, 1'030'000'000U);  // its end never came
 }
 
 TEST_F(RunMcap, LogTimes_NeverDecrease) {

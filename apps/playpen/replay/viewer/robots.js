@@ -53,30 +53,36 @@ const Robots = (function () {
     return gradient;
   }
 
+  // The fans of scans in pixels: {robot, origin, ends}, and the share that each has of the ink.
+  function fansOf(view, run, scans) {
+    const fans = [];
+    scans.forEach(({fan}, i) => {
+      if (fan === null) return;
+      fans.push({robot: run.robots[i], origin: view.point(fan.origin),
+        ends: fan.ends.map((p) => view.point(p))});
+    });
+    return {fans, strength: 1 / Math.pow(Math.max(fans.length, 1), 0.7)};
+  }
+
   function drawFans(ctx, view, run, scans) {
-    const count = scans.filter((scan) => scan.fan !== null).length;
-    const strength = 1 / Math.pow(Math.max(count, 1), 0.7);
-    scans.forEach((scan, i) => {
-      if (scan.fan === null) return;
-      const robot = run.robots[i];
-      const origin = view.point(scan.fan.origin);
-      let ends = scan.fan.ends.map((p) => view.point(p));
+    const {fans, strength} = fansOf(view, run, scans);
+    for (const {robot, origin, ends} of fans) {
       const length = (p) => Math.hypot(p[0] - origin[0], p[1] - origin[1]);
-      let reach = Math.max(1, ...ends.map(length));
-      if (count > kMostFans) {
-        reach = Math.max(5 * robot.radius * view.scale, 2 * markedRadius(view, robot));
-        ends = ends.map((p) => {
+      if (fans.length > kMostFans) {
+        const reach = Math.max(5 * robot.radius * view.scale, 2 * markedRadius(view, robot));
+        const near = ends.map((p) => {
           const share = Math.min(1, reach / Math.max(length(p), 1e-9));
           return [0, 1].map((k) => origin[k] + share * (p[k] - origin[k]));
         });
-        fill(ctx, pathOf([[origin, ...ends]]), fading(ctx, origin, reach, robot.colour, 0.42, 0));
-        return;
+        fill(ctx, pathOf([[origin, ...near]]), fading(ctx, origin, reach, robot.colour, 0.42, 0));
+        continue;
       }
+      const reach = Math.max(1, ...ends.map(length));
       fill(ctx, pathOf([[origin, ...ends]]),
         fading(ctx, origin, reach, robot.colour, 0.34 * strength, 0.13 * strength));
       line(ctx, [ends[0], origin, ends[ends.length - 1]], robot.colour, view.line(0.9, 0.7),
         0.6 * strength);
-    });
+    }
   }
 
   function drawCones(ctx, view, run, scans) {
@@ -110,12 +116,9 @@ const Robots = (function () {
 
   // The rims of fans where they meet surfaces.
   function drawSurfaces(ctx, view, run, scans) {
-    const count = scans.filter((scan) => scan.fan !== null).length;
-    const strength = 1 / Math.pow(Math.max(count, 1), 0.7);
-    scans.forEach((scan, i) => {
-      if (scan.fan === null || count > kMostFans) return;
-      const origin = view.point(scan.fan.origin);
-      const hits = scan.fan.ends.map((p) => view.point(p));
+    const {fans, strength} = fansOf(view, run, scans);
+    if (fans.length > kMostFans) return;
+    for (const {robot, origin, ends: hits} of fans) {
       const from = hits.map((p) => [p[0] - origin[0], p[1] - origin[1]]);
       const lengths = from.map(([x, y]) => Math.hypot(x, y));
       const farthest = Math.max(...lengths);
@@ -130,8 +133,8 @@ const Robots = (function () {
         path.moveTo(...hits[k - 1]);
         path.lineTo(...hits[k]);
       }
-      stroke(ctx, path, run.robots[i].colour, view.line(1.8, 1), 0.35 + 0.5 * strength);
-    });
+      stroke(ctx, path, robot.colour, view.line(1.8, 1), 0.35 + 0.5 * strength);
+    }
   }
 
   // A path without the points that lie less than kTolerance beside a straight line from the one that
@@ -277,8 +280,7 @@ const Robots = (function () {
     robot.lights.forEach((light, i) => {
       const center = onBody(light.place);
       const lit = look.lit[i] !== undefined && look.lit[i] !== -1;
-      const style = lit
-        ? "#" + (look.lit[i] >>> 8).toString(16).padStart(6, "0") : light.colour.slice(0, 7);
+      const style = lit ? Runs.colourOf(look.lit[i]) : light.colour.slice(0, 7);
       if (lit) disc(ctx, center, 7 * size, fading(ctx, center, 7 * size, style, 0.85, 0));
       disc(ctx, center, size + view.line(1, 0.6), colour("wheel"));
       disc(ctx, center, size, lit ? style : mix(style, colour("wheel"), 0.7));

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A run: columns over time. All of them can grow, so a run may also be fed while it is shown.
+// A run: columns over time.
 // Times are in seconds, lengths in m, angles in rad.
 "use strict";
 
@@ -10,7 +10,7 @@ const Runs = (function () {
   const kNoNumber = -2147483648;
   const kJump = 0.3; // a robot that moves so much farther than at twice its speed was placed [m]
 
-  // Numbers in a typed array that grows, times a unit.
+  // Numbers in a typed array, times a unit.
   class Numbers {
     constructor(values, unit = 1) {
       this.values = values;
@@ -21,15 +21,6 @@ const Runs = (function () {
     at(i) {
       const value = this.values[i];
       return value === kNoNumber ? NaN : value * this.unit;
-    }
-
-    append(value) {
-      if (this.length === this.values.length) {
-        const grown = new this.values.constructor(Math.max(16, 2 * this.length));
-        grown.set(this.values);
-        this.values = grown;
-      }
-      this.values[this.length++] = Math.round(value / this.unit);
     }
   }
 
@@ -84,6 +75,11 @@ const Runs = (function () {
     }
   }
 
+  function posesOf(json, column) {
+    return {x: new Numbers(column(json.x), kPlace), y: new Numbers(column(json.y), kPlace),
+      a: new Numbers(column(json.a), kAngle)};
+  }
+
   // A robot over the frames of its run.
   class Robot {
     constructor(json, frames, column, log) {
@@ -95,9 +91,7 @@ const Runs = (function () {
       this.bumpers = json.bumpers;
       this.lights = json.lights;
       this.frames = frames;
-      this.x = new Numbers(column(json.x), kPlace);
-      this.y = new Numbers(column(json.y), kPlace);
-      this.a = new Numbers(column(json.a), kAngle);
+      Object.assign(this, posesOf(json.poses, column));
       this.v = new Numbers(column(json.v), kPlace);
       this.side = new Numbers(column(json.side), kPlace);
       this.w = new Numbers(column(json.w), kAngle);
@@ -188,11 +182,8 @@ const Runs = (function () {
         for (let i = 0; i < counts.length; ++i) begins[i + 1] = begins[i] + counts[i];
         return {name: one.name, unit: one.unit, begins, numbers: new Numbers(column(one.v), one.scale)};
       });
-      this.beams = json.beams ? Object.assign({}, json.beams, {
-        x: new Numbers(column(json.beams.x), kPlace),
-        y: new Numbers(column(json.beams.y), kPlace),
-        a: new Numbers(column(json.beams.a), kAngle),
-      }) : null;
+      this.beams = json.beams
+        ? Object.assign({}, json.beams, posesOf(json.beams.poses, column)) : null;
     }
 
     // The numbers of a list in reading i.
@@ -346,5 +337,5 @@ const Runs = (function () {
     return loops;
   }
 
-  return {Numbers, Timeline, ChangeLog, Robot, Obstacle, Device, Run};
+  return {Numbers, Timeline, ChangeLog, Robot, Obstacle, Device, Run, colourOf};
 })();
