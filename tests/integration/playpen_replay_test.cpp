@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -51,7 +52,9 @@ void expect_same_trajectory(const std::string& folder) {
     std::vector<std::string> values;
     std::istringstream cells(row);
     for (std::string cell; std::getline(cells, cell, ',');) values.push_back(cell);
-    ASSERT_TRUE(rerun.advance_to(sim::from_seconds(std::stod(values.at(0)))));
+    double time_s = 0.0;  // std::stod() would read it in the language of the locale
+    std::from_chars(values.at(0).data(), values.at(0).data() + values.at(0).size(), time_s);
+    ASSERT_TRUE(rerun.advance_to(sim::from_seconds(time_s)));
     const sim::Simulation& run = rerun.simulation();
     const sim::BodyState& body = run.body(run.find_robot(values.at(1)).value());
     const sim::Pose& pose = body.X_WB;
