@@ -94,7 +94,7 @@ std::string write_replay(const std::string& folder, const std::string& file,
                          double most_megabytes) {
   std::vector<replay::ReplayRun> runs;
   runs.push_back(replay_of_folder(folder));
-  const std::string page = file.empty() ? (fs::path(folder) / course::kReplayFile).string() : file;
+  std::string page = file.empty() ? (fs::path(folder) / course::kReplayFile).string() : file;
   write_page_of(runs, page, most_megabytes);
   return page;
 }

@@ -80,8 +80,7 @@ std::string draw_moment(const std::string& folder, const WhyRequest& request,
     options.follow = robot;
     options.follow_width_m = kWholeArena_m;
   }
-  const std::string file =
-      request.file.empty() ? (fs::path(folder) / "why.png").string() : request.file;
+  std::string file = request.file.empty() ? (fs::path(folder) / "why.png").string() : request.file;
   sim::render::write_png(sim::render::draw_scene(scene, options), file);
   return file;
 }

@@ -80,9 +80,9 @@ class TurnWindow {
       if (last_radps * omega_radps < 0.0) changes_ += sign;
       last_radps = omega_radps;
     }
-    turned_rad_ += sign * sample.twist.omega_radps * kStep_s();
+    turned_rad_ += sign * sample.twist.omega_radps * step_s();
   }
-  [[nodiscard]] double kStep_s() const { return samples_[1].time_s - samples_[0].time_s; }
+  [[nodiscard]] double step_s() const { return samples_[1].time_s - samples_[0].time_s; }
 
   const std::vector<Sample>& samples_;
   std::size_t begin_ = 0;

@@ -30,7 +30,7 @@ constinit std::atomic<bool> rang{false};
 constinit std::atomic<sim::SimTime> last_step_ns{0};
 constinit std::atomic<sim::SimTime> seen_step_ns{-1};  // when the handler last ran
 constinit std::atomic<int> quiet_periods{0};
-constinit std::atomic<double> limit_s{0.0};
+constinit std::atomic<double> alarm_limit_s{0.0};
 
 constexpr int kQuietPeriods = 2;
 
@@ -77,7 +77,7 @@ void on_busy(int /*signal*/) {
   // A debugger steps slowly, and its user sees where the program is.
   if (text != nullptr && tracer_of(0) != 0) {
     quiet_periods = 0;
-    if (alarm_end.load() == nullptr) start_timer(limit_s, 0.0);
+    if (alarm_end.load() == nullptr) start_timer(alarm_limit_s, 0.0);
     errno = error;
     return;
   }
@@ -124,7 +124,7 @@ void set_busy_alarm(double cpu_s, const std::string& text) {
   if (timer_create(CLOCK_PROCESS_CPUTIME_ID, &event, &timer) != 0) return;
   alarm_end = nullptr;
   alarm_text = &kept(kPrefix + text + '\n');
-  limit_s = cpu_s;
+  alarm_limit_s = cpu_s;
   start_timer(cpu_s, 0.0);
   timer_runs = true;
 }

@@ -278,7 +278,7 @@ std::optional<std::string> RecordingWriter::close() {
   note_printed();
   note_layers();
   begin_item(RecordedItem::kEnd);
-  const auto problem = write();
+  auto problem = write();
   simulation_.watch_commands({});
   out_.close();
   return problem;
