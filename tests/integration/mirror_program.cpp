@@ -42,8 +42,8 @@ int main(int argc, char** argv) {
     client.Read();
     while (!position.IsFresh()) client.Read();
     const double start_x = position.GetXPos();
-    position.SetSpeed(0.2, 0.0);
     while (position.GetXPos() < start_x + 0.3) {
+      position.SetSpeed(0.2, 0.0);  // again, if the machine is so busy that the watchdog stops it
       client.Read();
       window.SetPixel(window.GetX(position.GetXPos()), window.GetY(position.GetYPos()), 0, 0, 255);
     }
