@@ -74,6 +74,10 @@ class Advice {
     if (const fs::path log = folder / "program.log"; fs::file_size(log, error) > 0 && !error) {
       lines.push_back("what the program printed: " + log.string());
     }
+    if (fs::exists(folder / "recording.bin", error) && fs::exists(folder / "report.json", error)) {
+      lines.push_back("why: " + shell_word(request_.invocation) + " why " +
+                      shell_word(folder.string()));
+    }
     const auto world =
         std::find_if(settings_.task.worlds.begin(), settings_.task.worlds.end(),
                      [&run](const auto& w) { return grade::world_name(w.file) == run.world; });

@@ -183,6 +183,7 @@ TEST_F(PlaypenGrade, FailedRun_KeepsResults) {
         graded.out,
         AllOf(HasSubstr("  picture: " + out_ + "/room_seed7/scene.png\n"),
               HasSubstr("  what the program printed: " + out_ + "/room_seed7/program.log\n"),
+              HasSubstr("  why: " PLAYPEN_COMMAND " why " + out_ + "/room_seed7\n"),
               HasSubstr("  repeat: " PLAYPEN_COMMAND " run " + world_ +
                         " --seed 7 --duration 5 -- " ENDS_PROGRAM " " + c.how + " 20\n")));
     EXPECT_EQ(graded.out.find("-- gdb -ex run --args " ENDS_PROGRAM) != std::string::npos,
