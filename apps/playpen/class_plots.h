@@ -10,8 +10,8 @@
 namespace playpen {
 
 /// Draws the charts of the runs that the pages of a class show (course::shown_runs()), as plot.png
-/// in the folder of each run, by one process of `playpen plot` per run; likewise their replays,
-/// course::kReplayFile, by `playpen replay`.
+/// in the folder of each run, by one process of `playpen plot` per run. `playpen replay`
+/// writes their replays in the same way, as course::kReplayFile.
 ///
 /// A plot that is newer than the report and the trajectory of its run is kept. Plots of other runs
 /// that are older are removed. A plot that cannot be drawn, or takes more than 30 s, is left out:

@@ -12,6 +12,7 @@
 #include "debugger_hint.h"
 #include "grade/text.h"
 #include "playerlike/host/program.h"
+#include "playerlike/host/rerun.h"
 #include "preload.h"
 #include "shipped.h"
 #include "sim/core/number_text.h"
@@ -71,10 +72,12 @@ class Advice {
     if (const fs::path picture = folder / "scene.png"; fs::exists(picture, error)) {
       lines.push_back("picture: " + picture.string());
     }
-    if (const fs::path log = folder / "program.log"; fs::file_size(log, error) > 0 && !error) {
+    if (const fs::path log = folder / playerlike::kProgramLog;
+        fs::file_size(log, error) > 0 && !error) {
       lines.push_back("what the program printed: " + log.string());
     }
-    if (fs::exists(folder / "recording.bin", error) && fs::exists(folder / "report.json", error)) {
+    if (fs::exists(folder / playerlike::kRecordingFile, error) &&
+        fs::exists(folder / "report.json", error)) {
       lines.push_back("why: " + shell_word(request_.invocation) + " why " +
                       shell_word(folder.string()));
     }

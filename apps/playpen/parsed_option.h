@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace playpen {
@@ -14,6 +15,11 @@ template <typename T>
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   return error == std::errc() && rest == end;
+}
+
+/// Whether a text is the name of a file with this ending, and not the ending alone.
+[[nodiscard]] inline bool is_file_name(const std::string& text, std::string_view ending) {
+  return text.size() > ending.size() && text.ends_with(ending);
 }
 
 /// Adds an option whose text `parse` turns into a setting; `parse` returns false for an invalid

@@ -50,7 +50,7 @@ void add_plot(CommandLine& line) {
       add_parsed(command, "--out", "Picture to write, .png or .svg [plot.png]", "FILE",
                  "a file ending in .png or .svg", [request](const std::string& text) {
                    request->file = text;
-                   return text.size() > 4 && (text.ends_with(".png") || text.ends_with(".svg"));
+                   return is_file_name(text, ".png") || is_file_name(text, ".svg");
                  });
   line.takes(out, ValueKind::Kind::kFile);
   command.footer(

@@ -8,7 +8,7 @@
 
 namespace playpen {
 
-bool is_page_name(const std::string& name) { return name.size() > 5 && name.ends_with(".html"); }
+bool is_page_name(const std::string& name) { return is_file_name(name, ".html"); }
 
 CLI::Option* add_replay_size(CLI::App& command, double& most_megabytes) {
   return add_parsed(command, "--replay-size",
@@ -49,7 +49,7 @@ void add_replay(CommandLine& line) {
       add_parsed(command, "--mcap", "Write the run as an MCAP file instead of a page", "FILE",
                  "a file ending in .mcap", [request](const std::string& text) {
                    request->mcap_file = text;
-                   return text.size() > 5 && text.ends_with(".mcap");
+                   return is_file_name(text, ".mcap");
                  });
   line.takes(mcap, ValueKind::Kind::kFile);
   for (const char* of_page : {"--html", "--at", "--robot", "--replay-size"}) {

@@ -21,7 +21,7 @@ void add_why(CommandLine& line) {
       add_parsed(command, "--out", "Picture of the decisive moment [FOLDER/why.png]", "FILE.png",
                  "a file ending in .png", [request](const std::string& text) {
                    request->file = text;
-                   return text.size() > 4 && text.ends_with(".png");
+                   return is_file_name(text, ".png");
                  });
   line.takes(out, ValueKind::Kind::kFile);
   command.footer(

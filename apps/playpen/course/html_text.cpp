@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "course/results.h"
+#include "grade/text.h"
 #include "sim/core/utf8.h"
 
 namespace playpen::course {
@@ -64,37 +65,15 @@ std::string shown_line(std::string_view line) {
 }  // namespace
 
 std::string html_escaped(const std::string& text) {
-  std::string escaped;
+  std::string shown;
   const std::string plain = plain_text(text);
   for (std::size_t i = 0; i < plain.size(); ++i) {
-    const char c = plain[i];
     // U+0080 to U+009F are control characters, too.
-    if (c == '\xC2' && static_cast<unsigned char>(plain[i + 1]) < 0xA0) {
-      escaped += '?';
-      ++i;
-      continue;
-    }
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += c;
-    }
+    const bool is_control = plain[i] == '\xC2' && static_cast<unsigned char>(plain[i + 1]) < 0xA0;
+    shown += is_control ? '?' : plain[i];
+    if (is_control) ++i;
   }
-  return escaped;
+  return grade::markup_escaped(shown);
 }
 
 std::string url_of(const fs::path& path) {

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "playerlike/host/rerun.h"
 #include "playerlike/host/results.h"
 #include "playerlike/host/run_settings.h"
 #include "sim/core/file.h"
@@ -73,7 +74,7 @@ playerlike::ProgramJob job_for(const GradeSettings& settings, const Task& task,
   job.environment = playerlike::run_environment(world.file, run);
   job.environment.insert(settings.environment.begin(), settings.environment.end());
   job.working_folder = settings.working_folder;
-  job.output_file = (folder / "program.log").string();
+  job.output_file = (folder / playerlike::kProgramLog).string();
   job.folder = folder.string();
   job.folder_limit = kMostOutput;
   return job;

@@ -24,6 +24,9 @@ namespace playpen::grade {
 /// The number of characters of a UTF-8 text.
 [[nodiscard]] std::size_t character_count(const std::string& text);
 
+/// A text with &, <, >, " and ' as references of HTML and XML.
+[[nodiscard]] std::string markup_escaped(std::string_view text);
+
 /// A value of a CSV file (RFC 4180), as plain_text(). An apostrophe precedes a text that
 /// spreadsheets would take for a formula.
 [[nodiscard]] std::string csv_value(const std::string& text);

@@ -54,7 +54,4 @@ inline constexpr std::int64_t kNoNumber = -(std::int64_t{1} << 31);
 /// @throws std::bad_alloc if there is no memory.
 [[nodiscard]] std::vector<std::uint8_t> deflated(std::string_view bytes);
 
-/// A text with `&`, `<`, `>`, `"` and `'` as character references.
-[[nodiscard]] std::string markup_escaped(std::string_view text);
-
 }  // namespace playpen::replay

@@ -21,7 +21,7 @@ namespace playpen::replay {
 struct ReplayOptions {
   std::string name = {};                    ///< of the run, for people; "": the world's
   std::size_t most_commands = 50000;        ///< further ones are left out, and a note says so
-  std::size_t most_output_bytes = 1 << 20;  ///< of printed text, likewise
+  std::size_t most_output_bytes = 1 << 20;  ///< of printed text; further text is left out
 };
 
 /// Records a run for a replay.

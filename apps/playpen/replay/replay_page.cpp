@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "grade/text.h"
 #include "replay/columns.h"
 #include "replay/replay_encoder.h"
 #include "replay/viewer_files.h"
@@ -30,7 +31,7 @@ std::string head_of(const std::string& title) {
          "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
          policy +
          "\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         markup_escaped(sim::escape_invalid_utf8(title)) + "</title>\n<style>" +
+         grade::markup_escaped(sim::escape_invalid_utf8(title)) + "</title>\n<style>" +
          std::string(kViewerStyle) + "</style>\n</head>\n<body>\n" + std::string(kViewerBody) +
          "<script type=\"application/octet-stream\" id=\"replay-data\">";
 }

@@ -27,7 +27,7 @@ namespace playpen::replay {
 /// If a world has such names that two topics are equal, the later ones get the ending "_". The file
 /// replaces an earlier one when it is complete. Equal runs give equal bytes.
 /// @throws std::runtime_error if the file cannot be written; no file is left then.
-/// @throws playerlike::RecordingError as Rerun::step(), likewise.
+/// @throws playerlike::RecordingError as Rerun::step(); no file is left then, either.
 void write_mcap(playerlike::Rerun& rerun, const std::string& file);
 
 }  // namespace playpen::replay

@@ -13,7 +13,8 @@ ReplayRun replay_of(playerlike::Rerun& rerun, const std::string& folder, const s
   ReplayBuilder builder(run, std::move(options));
   builder.watch_layers(rerun.layers());
   for (const GoalNote& goal : goals) builder.note_goal(goal);
-  PrintedLines printed(rerun.program_log().empty() ? folder + "/program.log" : rerun.program_log());
+  PrintedLines printed(rerun.program_log().empty() ? folder + '/' + playerlike::kProgramLog
+                                                   : rerun.program_log());
   builder.observe(run);
   for (;;) {
     const sim::SimTime before_ns = run.now_ns();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "replay/happenings.h"
 #include "sim/core/time.h"
 #include "sim/devices/laser.h"
 
@@ -60,7 +61,7 @@ Story story_of(playerlike::Rerun& rerun, int robot) {
   const std::optional<int> laser = laser_of(run, robot);
   if (laser) story.laser = run.device(robot, *laser).name();
   std::uint64_t scans = 0;
-  std::uint64_t event = 0;
+  replay::HappeningsWatch watch;
   story.samples.push_back(sample_of(run, robot));
   for (;;) {
     const double before_s = sim::to_seconds(run.now_ns());
@@ -76,14 +77,13 @@ Story story_of(playerlike::Rerun& rerun, int robot) {
         story.scans.push_back(scan_of(device));
       }
     }
-    for (const sim::ArenaEvent& e : run.arena_events().newest) {
-      if (e.number <= event) continue;
-      event = e.number;
+    const replay::HappeningsWatch::Happenings happenings = watch.look(run);
+    for (const sim::ArenaEvent& e : happenings.events) {
       if (e.who == story.robot || e.kind == sim::ArenaEventKind::kEnd) story.events.push_back(e);
     }
-  }
-  for (const sim::Collision& collision : run.collisions()) {
-    if (collision.robot == robot) story.collisions.push_back(collision);
+    for (const sim::Collision& collision : happenings.collisions) {
+      if (collision.robot == robot) story.collisions.push_back(collision);
+    }
   }
   story.complete = rerun.complete();
   return story;

@@ -10,12 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "grade/text.h"
+
 namespace {
 
+using playpen::grade::markup_escaped;
 using playpen::replay::Columns;
 using playpen::replay::deflated;
 using playpen::replay::kNoNumber;
-using playpen::replay::markup_escaped;
 using playpen::replay::quantised;
 
 std::vector<int> bytes_of(const std::vector<std::int64_t>& values, std::size_t lag = 1) {

@@ -14,6 +14,11 @@
 
 namespace playerlike {
 
+/// Name of a recording in the output folder of its run.
+inline constexpr const char* kRecordingFile = "recording.bin";
+/// Name of the file in the same folder that keeps what a program prints.
+inline constexpr const char* kProgramLog = "program.log";
+
 /// A run cannot be made again from its recording. what() is a sentence: "FILE: expected X, found
 /// Y", with the byte of the file where it is known.
 class RecordingError : public std::runtime_error {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "playerlike/host/rerun.h"
 #include "sim/canvas/layers.h"
 #include "sim/core/fields.h"
 #include "sim/core/state_archive.h"
@@ -21,10 +22,6 @@
 /// The file of a recording, see Recording: a line of JSON, the head; then items in binary form.
 namespace playerlike {
 
-/// Name of the file in a run's output folder.
-inline constexpr const char* kRecordingFile = "recording.bin";
-/// Name of the file in which `playpen grade` keeps what a program prints, in the same folder.
-inline constexpr const char* kProgramLog = "program.log";
 /// A recording ends when it has so many bytes.
 inline constexpr std::size_t kMostRecording = std::size_t{64} << 20U;
 /// Period of the times at which a recording notes what the program has printed; until then, it is
