@@ -106,11 +106,12 @@ SIM = arrows({
 PLAYERLIKE = arrows({
     "messages": "libplayerinterface",
     "view": "",
+    "page": "",
     "process": "messages",
     "protocol": "messages libplayerinterface",
     "session": "messages libplayerinterface",
     "virtual_time": "process",
-    "host": "messages process protocol session view virtual_time",
+    "host": "messages process protocol session view page virtual_time",
     "remote": "messages process protocol session virtual_time",
     "connect": "messages process session virtual_time host remote",
     "server": "messages process protocol session virtual_time host wire proxies libplayerinterface",
@@ -145,11 +146,12 @@ PLAYERLIKE = arrows({
     "par_exploration_changing": "imr-h libCCMorse par_exploration",
     "par_chase": "imr-h libCCMorse par_common",
     "par_localization": "imr-h libCCMorse par_common",
-    "playpen": "messages process host connect server playpen/grade playpen/course playpen/batch",
+    "playpen": "messages process host connect server page playpen/grade playpen/course playpen/batch",
     "playpen/grade": "messages host",
     "playpen/course": "messages host playpen/grade",
     "playpen/batch": "messages host playpen/grade",
     "playpen/view": "view",
+    "playpen/page": "page server",
 })
 
 # Includes that belong in a few places only: (start of the include, start of the paths that may have
@@ -219,7 +221,7 @@ def playerlike_folder(path):
     place = path[m.end():] if (m := PLAYERLIKE_PREFIX.match(path)) else path
     if place.startswith("player-"):
         return "player-"
-    if path.startswith("apps/") and (m := re.match(r"playpen/(batch|course|grade|view)(?=/)", place)):
+    if path.startswith("apps/") and (m := re.match(r"playpen/(batch|course|grade|page|view)(?=/)", place)):
         return m[0]
     if (m := re.match(r"(batch|course|grade)/", place)):
         return "playpen/" + m[1]
