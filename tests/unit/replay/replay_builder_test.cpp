@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "replay/replay_builder.h"
+#include "playerlike/replay/replay_builder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "replay/columns.h"
-#include "replay/field_values.h"
-#include "replay/replay_encoder.h"
+#include "playerlike/replay/columns.h"
+#include "playerlike/replay/field_values.h"
+#include "playerlike/replay/replay_encoder.h"
 #include "replay/replay_page.h"
 #include "sim/core/base64.h"
 #include "sim/simulation/simulation.h"
@@ -20,14 +20,14 @@
 namespace {
 
 using nlohmann::json;
-using playpen::replay::cell_runs;
-using playpen::replay::DeviceLog;
-using playpen::replay::encoded;
+using playerlike::replay::cell_runs;
+using playerlike::replay::DeviceLog;
+using playerlike::replay::encoded;
+using playerlike::replay::ReplayBuilder;
+using playerlike::replay::ReplayRun;
+using playerlike::replay::text_of;
+using playerlike::replay::Thinning;
 using playpen::replay::html;
-using playpen::replay::ReplayBuilder;
-using playpen::replay::ReplayRun;
-using playpen::replay::text_of;
-using playpen::replay::Thinning;
 using sim::Simulation;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -323,7 +323,7 @@ TEST(ReplayPage, LargePagesAreThinned) {
 TEST(ReplayPage, PageTooLargeInAnyCase_SaysSo) {
   const ReplayRun run = driven(1.0);
   const std::string said =
-      encoded({run}, playpen::replay::thinning_steps().back(),
+      encoded({run}, playerlike::replay::thinning_steps().back(),
               "Nothing more can be left out, so it is still larger than the limit of 0.02 MB.");
   EXPECT_THAT(said, HasSubstr("no drawings. Nothing more can be left out"));
   EXPECT_THAT(html({run}, {.most_bytes = 20'000}),
