@@ -22,8 +22,9 @@ const Clocks = (function () {
 
     seek(t) {
       this.t = Math.min(Math.max(t, this.begin), this.end);
+      const followed = this.following;
       this.following = this.live && this.t >= this.end;
-      if (this.live) this.playing = this.following || this.playing;
+      if (this.following !== followed) this.playing = this.following;
       this.changed();
     }
 

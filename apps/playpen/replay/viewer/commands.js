@@ -30,6 +30,7 @@ const Commands = (function () {
     constructor(page, send) {
       Object.assign(this, page, {send});
       this.command = false; // may command
+      this.connected = false;
       this.chosenAt = -Infinity;
       this.placing = null; // {robot, x, y, a, from, down}
       this.keys = new Joystick.Keys();
@@ -67,13 +68,22 @@ const Commands = (function () {
 
     setRights({command}) {
       this.command = command;
-      if (!command) this.release();
+      this.show();
+    }
+
+    setConnected(connected) {
+      if (this.connected === connected) return;
+      this.connected = connected;
+      if (!connected) {
+        this.release();
+        if (this.placing !== null) this.stopPlacing();
+      }
       this.show();
     }
 
     // Whether commands make sense: they are about what is now.
     isOn() {
-      return this.command && this.state.clock !== null && this.state.clock.following;
+      return this.command && this.connected && this.state.clock !== null && this.state.clock.following;
     }
 
     // The robot that is driven and placed: the selected one, or the only one; -1: none.
@@ -90,13 +100,14 @@ const Commands = (function () {
       if (live === null || !this.command) return;
       byId("pad").classList.toggle("idle", this.robot() < 0);
       const pause = byId("pause");
+      for (const name of ["pause", "factor"]) byId(name).disabled = !this.connected;
       Panels.setText(pause, live.paused ? "► Continue" : "❚❚ Pause");
       byId("factor-box").hidden = !live.can.speed;
       if (performance.now() - this.chosenAt > kSettle) {
         byId("factor").value = live.factor === null ? "full" : String(live.factor);
       }
       const place = byId("place");
-      place.disabled = live.can.place !== true;
+      place.disabled = live.can.place !== true || !this.connected;
       place.title = live.can.place === true ? "Click in the picture; drag for the heading"
         : String(live.can.place);
       Panels.setText(place, this.placing === null ? "Place robot" : "Cancel placing");

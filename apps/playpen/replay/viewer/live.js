@@ -94,7 +94,6 @@ const Live = (function () {
 
     closed() {
       this.rights = null;
-      this.on.rights({command: false});
       if (this.end !== null) return;
       const wait = kWaits[Math.min(this.tries++, kWaits.length - 1)];
       this.on.state("lost", this.tries > 1 ? "no connection, trying again every " + wait + " s"

@@ -443,7 +443,8 @@ const Page = (function () {
     state.desk = new Commands.Desk({state, changed, say: showMessage},
       (command) => state.link.send(command));
     state.link = new Live.Link(() => new WebSocket(address), () => token,
-      {whole, part, rights: showRights, answer: showMessage, state: showLink}, window);
+      {whole, part, rights: (rights) => state.desk.setRights(rights), answer: showMessage,
+        state: showLink}, window);
     window.addEventListener("hashchange", () => {
       if (!window.location.hash.includes("token=")) return;
       token = Live.takeToken(window);
@@ -494,16 +495,13 @@ const Page = (function () {
     if (state.live.over) showLink("over", "the run is over");
   }
 
-  function showRights(rights) {
-    state.desk.setRights(rights);
-  }
-
   // @param name  of a state of Live.Link
   function showLink(name, text) {
-    const {live, link, clock} = state;
+    const {live, clock, desk} = state;
     const node = byId("link");
+    desk.setConnected(name === "live");
     node.className = name;
-    const rights = state.desk.command ? "commanding" : "watching";
+    const rights = desk.command ? "commanding" : "watching";
     const now = live !== null && live.paused ? "paused" : "live";
     setText(node, name === "live" ? now + " · " + rights : text);
     if (clock === null) {
@@ -512,13 +510,15 @@ const Page = (function () {
     }
     if (name === "over" && clock.live) {
       state.runs[0].ended = true;
-      state.desk.setRights({command: false});
+      desk.setRights({command: false});
       clock.setLive(false);
       makeHappenings();
       drawScrubber();
     }
-    if (link !== null && name !== "live") state.options.steered = [];
-    changed();
+    if (name !== "live") {
+      state.options.steered = [];
+      changed();
+    }
   }
 
   function showHead(thinned) {

@@ -302,9 +302,8 @@ const Robots = (function () {
   function drawSteered(ctx, view, robot, t) {
     const X = robot.at(t);
     const [x, y] = view.point([X.x, X.y]);
-    const away = 0.71 * (markedRadius(view, robot) + 13 * view.unit);
     const size = Math.max(11 * view.unit, 8);
-    const center = [x + away, y - away];
+    const center = [x + markedRadius(view, robot) + 20 * view.unit + size, y];
     disc(ctx, center, size, colour("light"));
     ring(ctx, center, size, view.line(1.6), mix(robot.colour, colour("ink"), 0.3));
     const arrows = [[1, 0], [0, 1], [-1, 0], [0, -1]].map(([c, s]) => [[0.78, 0], [0.32, 0.36], [0.32, -0.36]]
