@@ -390,7 +390,7 @@ const Runs = (function () {
       for (const name of ["collisions", "events", "spoken", "goals", "texts"]) {
         this[name] = json[name].map(timed);
       }
-      this.dropped = {goals: 0, texts: 0};
+      this.dropped = {goals: json.goals_from || 0, texts: json.texts_from || 0};
       this.traps = json.traps;
       this.trapStates = log(json.trap_states);
       this.timers = json.timers;
