@@ -34,7 +34,8 @@ function replay() {
     lists: [{name: "ranges", unit: "m", scale: 1e-3, n: numbers(150, (i) => i % 4),
       v: numbers(225, (i) => 1000 + i)}],
     beams: {mounts: [[0.1, 0, 0]], first: -1, step: 0.5, cone: 0, most: [4], poses: poses(2)}};
-  const motion = {robot: 0, name: "motion", type: "motion", t: times([]), series: [], lists: []};
+  const motion = (of) => ({robot: of, name: "motion", type: "motion", t: times([]), series: [],
+    lists: []});
   const head = {format: 1, thinned: "", palette: {}, runs: [{name: "one", world: "room", notes: [],
     end: micro(kFrames * kFrame), canvas: {cell: 0.1, origin: [0, 0]},
     arena: {walls: {n: file.add([3]), solid: file.add([1]), xy: file.add([0, 0, 1, 0, 0, 1])}},
@@ -44,14 +45,14 @@ function replay() {
     obstacles: [{name: "block", shape: "box", outline: [], size: [1, 1], height: 160, dynamic: true,
       log: log([0, 1000, 1020], [[0, 0, 0, 1, 1, 0, 1, -1, -1], [0, 0, 0, 1, 1, 80, 2, -1, 0xffffff00],
         [0, 0, 0, 1, 1, 160, 0, -1, -1]])}],
-    devices: [laser, motion],
+    devices: [laser, motion(0), motion(1)],
     collisions: [{t: micro(900), robot: 0, partner: "border", place: [0, 0]}],
     events: range(40, (i) => ({t: micro(100 * i), kind: "placed", what: "", who: "", text: "event " + i})),
     spoken: [{t: micro(2500), robot: 0, text: "hello"}],
     goals: [{t: 0, robot: 0, place: [1, 1], reached: micro(3000)},
       {t: micro(3100), robot: 0, place: [2, 2], reached: null}],
     texts: [{t: micro(10), gone: micro(2000), text: "open", place: [0, 0], colour: "#000000"}],
-    commands: {t: times(every(1)), device: numbers(kFrames, () => 1), text: numbers(kFrames, (i) => i % 7),
+    commands: {t: times(every(1)), device: numbers(kFrames, (i) => (i % 3 === 0 ? 2 : 1)), text: numbers(kFrames, (i) => i % 7),
       texts: range(7, (i) => "go " + i)},
     output: range(50, (i) => [micro(77 * i), "line " + i, i % 2]),
     layers: [{name: "map", colour: "#000000", visible: true, priority: 0, grey: false, width: 4, height: 3,
@@ -73,7 +74,8 @@ function shown(one, t) {
       : device.series.map(({numbers}) => numbers.at(device.times.before(t))),
     device.lists.map((list) => device.list(list, Math.max(device.times.before(t), 0)))]),
     one.commandsBefore(0, t, 8), one.outputBefore(t, 5), one.countdownsAt(t),
-    Array.from(one.trapStates.at(t)), Array.from(one.scores.at(t)), one.layers.map((tape) => Array.from(tape.cells))]);
+    Array.from(one.trapStates.at(t)), Array.from(one.scores.at(t)),
+    one.layers.map((tape) => Array.from(tape.cells))]);
 }
 
 // A run in memory whose last frame is at `until` [s], and a function that appends a part.
@@ -188,7 +190,8 @@ run({
     const laser = one.devices[0];
     const before = laser.times.length;
     laser.append({t: added([110e6]),
-      series: [{v: added([1]), scale: 0.5}, {name: "volts", unit: "V", words: [], v: added([12]), scale: 0.1}],
+      series: [{v: added([1]), scale: 0.5},
+        {name: "volts", unit: "V", words: [], v: added([12]), scale: 0.1}],
       lists: [{n: added([1]), v: added([7]), scale: 1e-3},
         {name: "echoes", unit: "", n: added([2]), v: added([5, 6]), scale: 1}],
       beams: {poses: {x: added([0]), y: added([0]), a: added([0])}}}, (index) =>
@@ -218,7 +221,7 @@ run({
       for (let t = one.devices[0].times.at(0); t < 5980; t += 30) {
         const [now, then] = [shown(one, t), shown(complete, t)];
         for (const i of [1, 2, 5, 6, 7, 8]) assert.deepStrictEqual(now[i], then[i], i + " at " + t);
-        if (t > one.commands.times.at(8)) assert.deepStrictEqual(now[3], then[3], "commands at " + t);
+        if (t > one.commands.times.at(12)) assert.deepStrictEqual(now[3], then[3], "commands at " + t);
         close(now[0][0][0].x, then[0][0][0].x);
       }
     });
