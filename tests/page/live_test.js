@@ -52,7 +52,8 @@ function replay() {
     goals: [{t: 0, robot: 0, place: [1, 1], reached: micro(3000)},
       {t: micro(3100), robot: 0, place: [2, 2], reached: null}],
     texts: [{t: micro(10), gone: micro(2000), text: "open", place: [0, 0], colour: "#000000"}],
-    commands: {t: times(every(1)), device: numbers(kFrames, (i) => (i % 3 === 0 ? 2 : 1)), text: numbers(kFrames, (i) => i % 7),
+    commands: {t: times(every(1)), device: numbers(kFrames, (i) => (i % 3 === 0 ? 2 : 1)),
+      text: numbers(kFrames, (i) => i % 7),
       texts: range(7, (i) => "go " + i)},
     output: range(50, (i) => [micro(77 * i), "line " + i, i % 2]),
     layers: [{name: "map", colour: "#000000", visible: true, priority: 0, grey: false, width: 4, height: 3,
@@ -160,6 +161,13 @@ run({
     }
     assert.deepStrictEqual(plain(happened), plain(complete.happenings()).slice(0, -1));
     assert.deepStrictEqual(plain(one.happenings()), plain(happened));
+  },
+  aPartMayBeAlmostEmpty() {
+    const {one} = grown(500);
+    const before = shown(one, 500);
+    assert.deepStrictEqual(plain(one.append({end: 510e6}, null)), []);
+    assert.strictEqual(one.end, 510);
+    assert.deepStrictEqual(shown(one, 500), before);
   },
   headingsGoOnOverParts() {
     const {one, grow} = grown(100);

@@ -479,7 +479,7 @@ const Page = (function () {
     state.happened.push(...run.append(json, file));
     if (state.happened.length > 2 * kMostHappenings) state.happened.splice(0, kMostHappenings);
     if (run.layers.filter((tape) => tape.times.length > 0).length > layers) makeLayers();
-    if (json.verdict || json.notes.length > 0) showHead("");
+    if (json.verdict || (json.notes || []).length > 0) showHead("");
     state.live = file.head.live;
     grown();
   }

@@ -411,34 +411,37 @@ const Runs = (function () {
       this.textIndices = null; // see appendCommands()
     }
 
-    // Adds what is new in a live run. Returns what happened, as happenings() does.
+    // Adds what is new in a live run; what is not is left out. Returns what happened, as happenings().
     append(json, file) {
       const column = (index) => file.column(index);
+      const all = (name) => json[name] || [];
       this.end = json.end * kMicrosecond;
-      this.frames.append(column(json.frames));
-      json.robots.forEach((one, i) => this.robots[i].append(one, column));
-      for (const {i, log} of json.obstacles) this.obstacles[i].log.append(log, column);
-      for (const one of json.devices) this.devices[one.i].append(one, column);
-      this.appendCommands(json.commands, column);
-      this.trapStates.append(json.trap_states, column);
-      this.timerDues.append(json.timer_dues, column);
-      this.scores.append(json.scores, column);
-      this.notes.push(...json.notes);
-      this.output.push(...json.output.map(printed));
+      if (json.frames !== undefined) this.frames.append(column(json.frames));
+      all("robots").forEach((one, i) => this.robots[i].append(one, column));
+      for (const {i, log} of all("obstacles")) this.obstacles[i].log.append(log, column);
+      for (const one of all("devices")) this.devices[one.i].append(one, column);
+      if (json.commands) this.appendCommands(json.commands, column);
+      if (json.trap_states) this.trapStates.append(json.trap_states, column);
+      if (json.timer_dues) this.timerDues.append(json.timer_dues, column);
+      if (json.scores) this.scores.append(json.scores, column);
+      this.notes.push(...all("notes"));
+      this.output.push(...all("output").map(printed));
       this.verdict = json.verdict || this.verdict;
-      for (const one of json.layers) {
+      for (const one of all("layers")) {
         if (one.i < this.layers.length) this.layers[one.i].append(one, column);
         else this.layers.push(new Layers.Tape(one, column));
       }
-      const added = {};
+      const added = {goals: []};
       for (const name of ["collisions", "events", "spoken"]) {
-        added[name] = json[name].map(timed);
+        added[name] = all(name).map(timed);
         this[name].push(...added[name]);
       }
-      const goals = this.replace("goals", json.goals_from, json.goals);
-      added.goals = this.goals.slice(json.goals_from - this.dropped.goals)
-        .filter((goal, i) => goals[i] === undefined || goals[i].reached === Infinity);
-      this.replace("texts", json.texts_from, json.texts);
+      if (json.goals) {
+        const old = this.replace("goals", json.goals_from, json.goals);
+        added.goals = this.goals.slice(Math.max(json.goals_from - this.dropped.goals, 0))
+          .filter((goal, i) => old[i] === undefined || old[i].reached === Infinity);
+      }
+      if (json.texts) this.replace("texts", json.texts_from, json.texts);
       this.trim();
       return this.happeningsIn(added);
     }
