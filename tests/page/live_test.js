@@ -261,6 +261,8 @@ run({
       one.replace("goals", 4, [goal(4e6, 5e6), goal(6e6)]);
       assert.deepStrictEqual(plain(one.goals.map(({t}) => t)), [2, 3, 4, 6]);
       assert.strictEqual(one.goals[2].reached, 5);
+      one.replace("goals", 0, range(8, (i) => goal(i * 1e6)));
+      assert.deepStrictEqual(plain(one.goals.map(({t}) => t)), [2, 3, 4, 5, 6, 7]);
     });
   },
   oldChangesBecomeTheBase() {

@@ -476,10 +476,11 @@ const Page = (function () {
     const [run] = state.runs;
     const layers = run.layers.filter((tape) => tape.times.length > 0).length;
     const [json] = file.head.runs;
+    const known = [run.verdict, run.notes.length].join();
     state.happened.push(...run.append(json, file));
     if (state.happened.length > 2 * kMostHappenings) state.happened.splice(0, kMostHappenings);
     if (run.layers.filter((tape) => tape.times.length > 0).length > layers) makeLayers();
-    if (json.verdict || (json.notes || []).length > 0) showHead("");
+    if ([run.verdict, run.notes.length].join() !== known) showHead("");
     state.live = file.head.live;
     grown();
   }

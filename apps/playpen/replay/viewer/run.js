@@ -448,7 +448,8 @@ const Runs = (function () {
 
     // Replaces a list's elements from an index on. Returns the replaced ones.
     replace(name, from, json) {
-      return this[name].splice(Math.max(from - this.dropped[name], 0), Infinity, ...json.map(timed));
+      const at = from - this.dropped[name];
+      return this[name].splice(Math.max(at, 0), Infinity, ...json.slice(Math.max(-at, 0)).map(timed));
     }
 
     appendCommands(json, column) {
