@@ -16,6 +16,8 @@ const Runs = (function () {
     commands: 5000, output: 4000, events: 4000, spoken: 2000, collisions: 1000, goals: 1000,
     texts: 1000};
 
+  const isWide = (array) => array.BYTES_PER_ELEMENT === 8;
+
   // Numbers in a typed array, times a unit. The array may be longer than the numbers.
   class Numbers {
     constructor(values, unit = 1) {
@@ -29,8 +31,11 @@ const Runs = (function () {
       return value === kNoNumber ? NaN : value * this.unit;
     }
 
-    reserve(length, Type = this.values.constructor) {
-      if (length <= this.values.length && this.values instanceof Type) return;
+    // Makes room for `length` numbers. @param wide  of 64 bits
+    reserve(length, wide = isWide(this.values)) {
+      const widens = wide && !isWide(this.values);
+      if (length <= this.values.length && !widens) return;
+      const Type = widens ? Float64Array : this.values.constructor;
       const room = new Type(Math.max(length, 2 * this.length));
       room.set(this.values.subarray(0, this.length));
       this.values = room;
@@ -40,7 +45,7 @@ const Runs = (function () {
     append(values, unit = this.unit) {
       const length = this.length + values.length;
       if (unit !== this.unit) {
-        if (this.unit !== 1 || !(this.values instanceof Float64Array)) {
+        if (this.unit !== 1 || !isWide(this.values)) {
           this.values = Float64Array.from({length: this.length}, (none, i) => this.at(i));
           this.unit = 1;
         }
@@ -48,7 +53,7 @@ const Runs = (function () {
         const added = new Numbers(values, unit);
         for (let i = 0; i < values.length; ++i) this.values[this.length + i] = added.at(i);
       } else {
-        this.reserve(length, values instanceof Float64Array ? Float64Array : undefined);
+        this.reserve(length, isWide(values));
         this.values.set(values, this.length);
       }
       this.length = length;
