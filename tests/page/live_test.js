@@ -142,6 +142,30 @@ function node() {
       listeners[name]({clientX, clientY, pointerId, preventDefault() {}})};
 }
 
+// A Desk with a page of elements that remember; it has the right to command robot r1 of a run.
+function desk() {
+  const elements = new Map();
+  const byId = (id) => {
+    if (!elements.has(id)) {
+      elements.set(id, Object.assign(node(), {appendChild: (child) => child, classList: {toggle() {}}}));
+    }
+    return elements.get(id);
+  };
+  const listeners = {};
+  const hears = {addEventListener: (name, action) => { listeners[name] = action; }};
+  const made = {sent: [], said: [], byId, listeners};
+  const browser = load({document: Object.assign({getElementById: byId, body: byId("body")}, hears),
+    window: hears, Option: class {}, performance: {now: () => 0}, setInterval: () => 1, clearInterval() {}});
+  made.state = {runs: [grown(1000).one], clock: {t: 10, following: true, follow() {}},
+    options: {selected: -1}, live: Object.assign({}, kLive, {can: {place: true, blocks: ["block"]}})};
+  made.desk = new browser.Commands.Desk({state: made.state, changed() {},
+    say: (text) => made.said.push(text)}, (command) => made.sent.push(plain(command)));
+  made.desk.setRights({command: true});
+  made.desk.setConnected(true);
+  made.key = (key, shiftKey = false) => made.desk.key({key, shiftKey, target: {matches: () => false}});
+  return made;
+}
+
 run({
   partsGiveTheWholeRun() {
     const {head, file} = replay();
@@ -450,6 +474,71 @@ run({
     pad.send("lostpointercapture", 100, 200);
     assert.deepStrictEqual(driven, [[1, 0], [0, 1], [0, 0]]);
     assert.strictEqual(made.knob.style.transform, "translate(0%,0%)");
+  },
+  keysDriveThePresentRobot() {
+    const made = desk();
+    assert.ok(made.key("ArrowUp", true));
+    made.listeners.keyup({key: "ArrowUp"});
+    assert.ok(made.key(" "));
+    assert.ok(!made.key("x"));
+    assert.deepStrictEqual(made.sent, [{steer: {robot: 0, ahead: 1, left: 0}},
+      {steer: {robot: 0, ahead: 0, left: 0}}, {pause: true}]);
+    // Which one, if there are two?
+    made.state.runs[0].robots.push(made.state.runs[0].robots[0]);
+    made.key("ArrowUp");
+    assert.strictEqual(made.sent.length, 3);
+    assert.ok(made.said[0].startsWith("Select the robot to drive"));
+  },
+  whatIsHeldIsReleased() {
+    for (const release of [(made) => made.listeners.blur(), (made) => made.listeners.visibilitychange(),
+      (made) => made.desk.setConnected(false)]) {
+      const made = desk();
+      made.key("ArrowLeft");
+      release(made);
+      release(made);
+      assert.deepStrictEqual(made.sent.map(({steer}) => steer.left), [0.6, 0]);
+    }
+  },
+  noCommandsToThePastOrWithoutRights() {
+    const made = desk();
+    const nothing = () => {
+      assert.ok(!made.key("ArrowUp") && !made.key(" ") && !made.desk.clicked([0, 0]));
+      assert.deepStrictEqual(made.sent, []);
+    };
+    made.state.clock.following = false;
+    nothing();
+    made.desk.show();
+    assert.ok(made.byId("pad").hidden && !made.byId("live-bar").hidden);
+    made.state.clock.following = true;
+    made.desk.setRights({command: false});
+    nothing();
+    assert.ok(made.byId("pad").hidden && made.byId("live-bar").hidden);
+  },
+  aDragPlacesARobot() {
+    const made = desk();
+    const view = {scale: 100};
+    assert.strictEqual(made.desk.tool(view), null);
+    made.desk.startPlacing();
+    assert.ok(made.key("Escape"));
+    assert.strictEqual(made.desk.tool(view), null);
+    made.desk.startPlacing();
+    const tool = made.desk.tool(view);
+    tool.down([1, 2]);
+    tool.move([1.05, 2.05]); // by 7 pixels: not meant as a drag
+    tool.move([1, 3]);
+    tool.up();
+    assert.strictEqual(made.desk.tool(view), null);
+    assert.deepStrictEqual(made.sent, [{place: {robot: 0, x: 1, y: 2, a: Math.PI / 2}}]);
+    made.state.live.can.place = "a program drives it";
+    made.desk.show();
+    assert.ok(made.byId("place").disabled);
+    assert.strictEqual(made.byId("place").title, "a program drives it");
+  },
+  aClickRaisesABlock() {
+    const made = desk();
+    assert.ok(made.desk.clicked([0, 0]));
+    assert.ok(!made.desk.clicked([3, 0]));
+    assert.deepStrictEqual(made.sent, [{block: {name: "block", up: true}}]);
   },
   clicksMeanBlocks() {
     const {one} = grown(1000);
