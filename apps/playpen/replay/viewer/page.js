@@ -49,7 +49,9 @@ const Page = (function () {
       }
       const stage = new Stages.Stage(canvas, runs);
       stage.listen({changed, picked: (robot, place) => picked(robot, place, runs[0]),
-        tool: (view) => (state.desk === null ? null : state.desk.tool(view))}, () => state.clock.t);
+        tool: (view) => (state.desk === null ? null : state.desk.tool(view)),
+        cursor: (place) => (state.desk !== null && state.desk.blockAt(place) !== null ? "pointer" : "")},
+      () => state.clock.t);
       return stage;
     });
     changed();
@@ -405,6 +407,7 @@ const Page = (function () {
       changed();
     });
     document.body.classList.add("ready");
+    byId("link").hidden = state.live === null;
     byId("status").remove();
     requestAnimationFrame(draw);
   }
@@ -433,7 +436,6 @@ const Page = (function () {
     document.body.classList.add("is-live");
     byId("picture").appendChild(byId("live"));
     byId("live-keys").hidden = false;
-    byId("link").hidden = false;
     byId("trail").value = "short";
     state.options.trail = kTrails.short;
     setText(byId("title"), "Live");
@@ -476,10 +478,11 @@ const Page = (function () {
     const [run] = state.runs;
     const layers = run.layers.filter((tape) => tape.times.length > 0).length;
     const [json] = file.head.runs;
+    const known = [run.verdict, run.notes.length].join();
     state.happened.push(...run.append(json, file));
     if (state.happened.length > 2 * kMostHappenings) state.happened.splice(0, kMostHappenings);
     if (run.layers.filter((tape) => tape.times.length > 0).length > layers) makeLayers();
-    if (json.verdict || json.notes.length > 0) showHead("");
+    if ([run.verdict, run.notes.length].join() !== known) showHead("");
     state.live = file.head.live;
     grown();
   }
