@@ -53,6 +53,7 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"PLAYPEN_TOKEN", "The token that a program presents to a server.", false},
       {"PLAYPEN_UNTIL", "Simulated time at which the run stops for a debugger or viewer [s].",
        true},
+      {"PLAYPEN_PAGE", "The number of the descriptor that leads to the live page's process.", true},
       {"PLAYPEN_VIEW", "The number of the descriptor that leads to the live window.", true},
       {"PLAYPEN_VIEW_MODE", "How the canvas is shown: ground, mini-map or full-screen.", true},
       {"PLAYPEN_VIRTUAL_TIME", "If it is 1, sleeps of the program are simulated time.", true},

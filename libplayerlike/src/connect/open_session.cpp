@@ -61,7 +61,8 @@ struct Registry {
 /// Loads the drawing libraries now, and registers the exit handler again, so that it runs before
 /// their static destructors: it may draw the last pictures. Registering it twice is harmless.
 void prepare_drawing(const RunSettings& settings) {
-  const bool draws = !settings.output_folder.empty() || settings.view_socket;
+  const bool draws =
+      !settings.output_folder.empty() || settings.view_socket || settings.page_socket;
   if (!draws && settings.film.empty()) return;
   sim::render::prepare_pictures();
   if (!settings.film.empty()) sim::render::prepare_films();
@@ -92,6 +93,7 @@ std::shared_ptr<Host> host_of(Registry& registry, const std::string& file, bool 
     if (registry.results > 0) {
       settings.film.clear();
       settings.view_socket.reset();
+      settings.page_socket.reset();
       settings.kept_run.clear();
       settings.player_port.reset();
       settings.progress = false;
@@ -104,8 +106,10 @@ std::shared_ptr<Host> host_of(Registry& registry, const std::string& file, bool 
     // A program has one virtual clock, which belongs to the first world that still exists.
     const bool virtual_time_wanted = settings.virtual_time && registry.clock_host == nullptr;
     settings.virtual_time = virtual_time_wanted && virtual_time::active();
-    // Window and Player ports belong to this process: programs that it starts must not use them.
+    // Window, page and Player ports belong to this process: programs that it starts must not use
+    // them.
     unsetenv("PLAYPEN_VIEW");
+    unsetenv("PLAYPEN_PAGE");
     unsetenv("PLAYPEN_PLAYER_PORT");
     const sim::LogHook log = log_to_stderr();
     sim::WorldDescription world = sim::load_world(file);
@@ -238,11 +242,11 @@ std::unique_ptr<Session> connect_to_host(const std::string& host, int port) {
   }
 }
 
-// Whether a variable may change after the start. The library itself removes PLAYPEN_VIEW; the
-// others do not affect the simulation.
+// Whether a variable may change after the start. The library itself removes PLAYPEN_VIEW and
+// PLAYPEN_PAGE; the others do not affect the simulation.
 bool may_change(std::string_view name) {
-  return name == "PLAYPEN_VIEW" || name == "PLAYPEN_TOKEN" || name == "PLAYPEN_ENCODING" ||
-         name == "PLAYPEN_LIBRARIES";
+  return name == "PLAYPEN_VIEW" || name == "PLAYPEN_PAGE" || name == "PLAYPEN_TOKEN" ||
+         name == "PLAYPEN_ENCODING" || name == "PLAYPEN_LIBRARIES";
 }
 
 // The PLAYPEN_ variables that affect runs.

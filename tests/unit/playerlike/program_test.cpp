@@ -45,14 +45,15 @@ TEST(RunEnvironment, UnsetVariables_Removed) {
           Pair("PLAYPEN_FOLLOW", std::nullopt), Pair("PLAYPEN_CROP", std::nullopt),
           Pair("PLAYPEN_HIDE", std::nullopt), Pair("PLAYPEN_COLOUR_BY", std::nullopt),
           Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt), Pair("PLAYPEN_VIEW_MODE", std::nullopt),
-          Pair("PLAYPEN_VIEW", std::nullopt), Pair("PLAYPEN_CLIENTS", std::nullopt),
-          Pair("PLAYPEN_INTERFACES", std::nullopt), Pair("PLAYPEN_GRADE", std::nullopt),
-          Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt), Pair("PLAYPEN_STATE", std::nullopt),
-          Pair("PLAYPEN_REALISM", std::nullopt), Pair("PLAYPEN_REAL", std::nullopt),
-          Pair("PLAYPEN_PLAYER_PORT", std::nullopt), Pair("PLAYPEN_TAKE_OVER", std::nullopt),
-          Pair("PLAYPEN_TASK", std::nullopt), Pair("PLAYPEN_PORT", std::nullopt),
-          Pair("PLAYPEN_DESK", std::nullopt), Pair("PLAYPEN_START", std::nullopt),
-          Pair("PLAYPEN_UNTIL", std::nullopt), Pair("PLAYPEN_THEN", std::nullopt)));
+          Pair("PLAYPEN_VIEW", std::nullopt), Pair("PLAYPEN_PAGE", std::nullopt),
+          Pair("PLAYPEN_CLIENTS", std::nullopt), Pair("PLAYPEN_INTERFACES", std::nullopt),
+          Pair("PLAYPEN_GRADE", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt),
+          Pair("PLAYPEN_STATE", std::nullopt), Pair("PLAYPEN_REALISM", std::nullopt),
+          Pair("PLAYPEN_REAL", std::nullopt), Pair("PLAYPEN_PLAYER_PORT", std::nullopt),
+          Pair("PLAYPEN_TAKE_OVER", std::nullopt), Pair("PLAYPEN_TASK", std::nullopt),
+          Pair("PLAYPEN_PORT", std::nullopt), Pair("PLAYPEN_DESK", std::nullopt),
+          Pair("PLAYPEN_START", std::nullopt), Pair("PLAYPEN_UNTIL", std::nullopt),
+          Pair("PLAYPEN_THEN", std::nullopt)));
 }
 
 TEST(RunEnvironment, Paths_MadeAbsolute) {

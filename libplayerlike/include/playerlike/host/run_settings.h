@@ -94,6 +94,8 @@ struct RunSettings {
   OpenRealRobot open_real_robot;
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
   std::optional<int> view_socket;
+  /// Descriptor of a socket to a process that offers the run's page (playerlike/page/protocol.h).
+  std::optional<int> page_socket;
   /// First port of Player's protocol, by which other programs look on (docs/player_wire.md); 0: any
   /// free ports; nullopt: none. Hosts ignore it; see host/stepping/onlookers.h.
   std::optional<int> player_port;
@@ -126,8 +128,8 @@ struct RunSettings {
   /// (lockstep, real or a factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS,
   /// PLAYPEN_RECORD_SPEED, PLAYPEN_RECORD_FROM, PLAYPEN_RECORD_SIZE, PLAYPEN_FOLLOW, PLAYPEN_CROP,
   /// PLAYPEN_HIDE, PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE
-  /// (ground, mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
-  /// descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
+  /// (ground, mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW
+  /// and PLAYPEN_PAGE (descriptors' numbers), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
   /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_TASK,
   /// PLAYPEN_START (a snapshot's file), PLAYPEN_UNTIL (seconds) with PLAYPEN_THEN (debug or view),
   /// PLAYPEN_TAKE_OVER, PLAYPEN_INTERFACES and PLAYPEN_REAL (choices, separated by commas).

@@ -291,6 +291,8 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   changes["PLAYPEN_RECORD"] = path_or_nothing(settings.film);
   changes["PLAYPEN_VIEW"] =
       settings.view_socket ? std::optional(std::to_string(*settings.view_socket)) : std::nullopt;
+  changes["PLAYPEN_PAGE"] =
+      settings.page_socket ? std::optional(std::to_string(*settings.page_socket)) : std::nullopt;
   changes["PLAYPEN_PORT"] =
       settings.robot_port ? std::optional(std::to_string(*settings.robot_port)) : std::nullopt;
   changes["PLAYPEN_PLAYER_PORT"] =
