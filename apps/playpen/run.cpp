@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "debug_call.h"
 #include "debugger_hint.h"
+#include "page_process.h"
 #include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
 #include "playerlike/host/kept_results.h"
@@ -253,7 +254,7 @@ int run(RunRequest request) {
     // Before results of an earlier run are removed; the program's simulation opens the ports.
     playerlike::Server::check(playerlike::onlooker_settings(*settings.player_port), world);
   }
-  if (request.view) pace_for_view(settings, world);
+  if (request.view || request.page.wanted) pace_for_view(settings, world);
   settings.progress = !request.quiet && !request.debug;  // it would mix with gdb's prompt
   settings.quiet_end = true;
   if (request.from) {
@@ -271,6 +272,12 @@ int run(RunRequest request) {
   }
   std::optional<ViewerProcess> viewer;
   if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
+  std::optional<PageProcess> page;
+  if (request.page.wanted) {
+    page.emplace(request.page, "Playpen: " + world.name, playerlike::log_to_stderr());
+    settings.page_socket = page->socket();
+    std::cout << page->links() << std::endl;
+  }
 
   std::optional<PreloadedLibrary> virtual_time;
   settings.virtual_time = !request.real_sleep && in_lockstep(settings, world);
@@ -290,9 +297,10 @@ int run(RunRequest request) {
   watch.kept = &kept;
   watch.desk = &desk;
   watch.is_debugger = request.debug;
-  // With a window, the program's process draws pictures also while time is paused.
-  watch.standstill_s = request.view ? std::numeric_limits<double>::infinity()
-                                    : playerlike::silence_limit_s_of_environment();
+  // With a window or page, the program's process shows the run also while time is paused.
+  watch.standstill_s = request.view || request.page.wanted
+                           ? std::numeric_limits<double>::infinity()
+                           : playerlike::silence_limit_s_of_environment();
   watch.tell = [](const std::string& text) { std::cerr << "playpen: " << text << '\n'; };
   bool completed = false;
   watch.on_end = [&](const playerlike::ProgramEnd& program_end) {
@@ -311,6 +319,7 @@ int run(RunRequest request) {
   const playerlike::ProgramEnd end = playerlike::run_program(command, environment, watch);
 
   viewer.reset();  // the window has nothing left to show
+  page.reset();
 
   const bool replayed = write_replay_of(request);
   const int status = verdict(request, world, end, completed);

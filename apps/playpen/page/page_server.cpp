@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The only source with Boost. Its classes are templates: they take a compiler some 10 s.
+// The only source with Boost, whose templates take a compiler some 10 s.
 #include "page_server.h"
 
 #include <sys/socket.h>
@@ -14,13 +14,10 @@
 #include <utility>
 #include <vector>
 // Boost 1.74 uses std::exchange without its header, so these come after it.
-#include <boost/asio/generic/stream_protocol.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/read.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/write.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
@@ -32,6 +29,8 @@
 #include <boost/beast/websocket/stream.hpp>
 
 #include "gate.h"
+#include "host_link.h"
+#include "listening.h"
 #include "live_page.h"
 #include "outbox.h"
 #include "playerlike/page/protocol.h"
@@ -50,73 +49,11 @@ using asio::ip::tcp;
 using beast::error_code;
 using websocket::close_code;
 using Clock = std::chrono::steady_clock;
-// TCP and socketpairs of tests alike.
-using Protocol = asio::generic::stream_protocol;
-using Socket = Protocol::socket;
+using Protocol = HostLink::Protocol;
+using Socket = HostLink::Socket;
 
 // A client takes a message in such pieces, so that a slow one is not taken for a hanging one.
 constexpr std::size_t kPiece = std::size_t{64} << 10U;
-
-/// The connection to the host.
-class HostLink {
- public:
-  using OnMessage = std::function<void(wire::HostKind, std::uint32_t client, const Bytes&)>;
-
-  HostLink(asio::io_context& io, int descriptor) : socket_(io, Protocol(AF_UNIX, 0), descriptor) {}
-
-  /// @param on_end  called once: the host has closed its end, or has sent what is no message.
-  void start(OnMessage on_message, std::function<void()> on_end) {
-    on_message_ = std::move(on_message);
-    on_end_ = std::move(on_end);
-    read_header();
-  }
-
-  void send(wire::PageKind kind, std::uint32_t client = 0, std::string_view contents = {}) {
-    waiting_ += wire::page_message(kind, client, contents);
-    write();
-  }
-
-  /// Bytes that the host has not taken yet.
-  [[nodiscard]] std::size_t backlog() const { return waiting_.size() + writing_.size(); }
-
- private:
-  void read_header() {
-    asio::async_read(socket_, asio::buffer(&header_, sizeof header_),
-                     [this](const error_code& error, std::size_t) {
-                       if (error || !wire::is_from_host(header_)) return on_end_();
-                       contents_ = std::make_shared<std::string>(header_.length, '\0');
-                       read_contents();
-                     });
-  }
-
-  void read_contents() {
-    asio::async_read(
-        socket_, asio::buffer(*contents_), [this](const error_code& error, std::size_t) {
-          if (error) return on_end_();
-          on_message_(static_cast<wire::HostKind>(header_.kind), header_.client, contents_);
-          read_header();
-        });
-  }
-
-  void write() {
-    if (!writing_.empty() || waiting_.empty()) return;
-    writing_.swap(waiting_);
-    asio::async_write(socket_, asio::buffer(writing_),
-                      [this](const error_code& error, std::size_t) {
-                        if (error) return;  // the end of reading follows
-                        writing_.clear();
-                        write();
-                      });
-  }
-
-  Socket socket_;
-  OnMessage on_message_;
-  std::function<void()> on_end_;
-  wire::Header header_;
-  std::shared_ptr<std::string> contents_;
-  std::string waiting_;
-  std::string writing_;
-};
 
 class Connection;
 
@@ -163,6 +100,7 @@ class PageServer::Impl {
   bool whole_asked_ = false;   ///< and not yet there
   std::optional<Clock::time_point> asked_at_;
   bool accepting_ = false;
+  bool is_open_ = false;  ///< watching needs no token
   std::optional<Clock::time_point> ends_at_;
 };
 
@@ -528,38 +466,6 @@ void Connection::look(Clock::time_point now) {
   if (limit_ && now > *limit_) leave();
 }
 
-/// Listens on the first of the ports that is free.
-void listen_on(tcp::acceptor& acceptor, const PageSettings& settings) {
-  error_code error;
-  tcp::resolver resolver(acceptor.get_executor());
-  const auto found = resolver.resolve(
-      settings.bind, "0", tcp::resolver::passive | tcp::resolver::numeric_service, error);
-  if (error || found.empty()) {
-    throw std::runtime_error("\"" + settings.bind + "\" is no address and no name of this machine");
-  }
-  const asio::ip::address address = found.begin()->endpoint().address();
-  const auto fail = [&](const std::string& what) {
-    throw std::runtime_error("cannot listen on " + what + " of " + settings.bind + ": " +
-                             error.message());
-  };
-  constexpr int kGreatestPort = 65535;
-  const int last = std::min(settings.port + settings.ports - 1, kGreatestPort);
-  for (int port = settings.port; port <= last; ++port) {
-    const tcp::endpoint endpoint(address, static_cast<unsigned short>(port));
-    error_code ignored;
-    acceptor.close(ignored);
-    acceptor.open(endpoint.protocol(), error);
-    if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
-    if (!error) acceptor.bind(endpoint, error);
-    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-    if (!error) return;
-    if (error != asio::error::address_in_use) fail("port " + std::to_string(port));
-  }
-  fail(settings.ports == 1
-           ? "port " + std::to_string(settings.port)
-           : "any port from " + std::to_string(settings.port) + " to " + std::to_string(last));
-}
-
 }  // namespace
 
 PageServer::Impl::Impl(const PageSettings& given, const PageLimits& given_limits, int host,
@@ -571,15 +477,16 @@ PageServer::Impl::Impl(const PageSettings& given, const PageLimits& given_limits
     names.push_back(names.back() + ".local");  // of multicast DNS
   }
   listen_on(acceptor, settings);
-  gate.emplace(settings, settings.open || acceptor.local_endpoint().address().is_loopback(),
-               std::move(tell));
+  is_open_ = settings.open || acceptor.local_endpoint().address().is_loopback();
+  gate.emplace(settings, is_open_, std::move(tell));
 }
 
 void PageServer::Impl::start() {
   host_.start([this](wire::HostKind kind, std::uint32_t client,
                      const Bytes& contents) { on_message(kind, client, contents); },
               [this] { on_end(); });
-  host_.send(wire::PageKind::kReady, 0, std::to_string(acceptor.local_endpoint().port()));
+  host_.send(wire::PageKind::kReady, 0,
+             std::to_string(acceptor.local_endpoint().port()) + (is_open_ ? " 1" : " 0"));
   accept();
   look();
 }

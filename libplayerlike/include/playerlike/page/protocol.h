@@ -32,7 +32,8 @@ enum class HostKind : std::uint32_t {
 
 /// Kinds of messages from the page process.
 enum class PageKind : std::uint32_t {
-  kReady = 1,      ///< it listens; client 0; contents: the TCP port as a decimal number
+  kReady = 1,      ///< it listens; client 0; contents, for the command that has started it: the TCP
+                   ///< port, a blank, and 1 if watching needs no token, otherwise 0
   kTaken = 2,      ///< it has read one kPart: the host may send the next; client 0
   kWantWhole = 3,  ///< a client waits for a whole; client 0. The host answers with the next part
                    ///< and a whole after it.
