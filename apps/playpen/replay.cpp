@@ -24,11 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // The goals of a task, which no device has.
-std::vector<replay::GoalNote> goals_of(const RunData& run) {
-  std::vector<replay::GoalNote> goals;
+std::vector<playerlike::replay::GoalNote> goals_of(const RunData& run) {
+  std::vector<playerlike::replay::GoalNote> goals;
   if (!run.passed || run.goals.size() <= run.report.goals.size()) return goals;
   for (std::size_t i = run.report.goals.size(); i < run.goals.size(); ++i) {
-    replay::GoalNote note;
+    playerlike::replay::GoalNote note;
     note.robot = run.goals[i].robot;
     note.place = run.goals[i].place;
     for (const Moment& reached : run.reached) {
@@ -46,13 +46,13 @@ std::string page_name_of(const std::string& folder) {
   return fs::absolute(fs::path(folder) / "").parent_path().filename().string();
 }
 
-replay::ReplayRun replay_of_folder(const std::string& folder) {
+playerlike::replay::ReplayRun replay_of_folder(const std::string& folder) {
   const RunData run = read_run(folder);
   playerlike::Rerun rerun(folder);
   return replay::replay_of(rerun, folder, page_name_of(folder), goals_of(run));
 }
 
-void write_page_of(const std::vector<replay::ReplayRun>& runs, const std::string& file,
+void write_page_of(const std::vector<playerlike::replay::ReplayRun>& runs, const std::string& file,
                    double most_megabytes) {
   replay::PageOptions options;
   options.most_bytes = static_cast<std::size_t>(most_megabytes * 1e6);
@@ -92,7 +92,7 @@ std::vector<std::string> folders_of(const ReplayRequest& request) {
 
 std::string write_replay(const std::string& folder, const std::string& file,
                          double most_megabytes) {
-  std::vector<replay::ReplayRun> runs;
+  std::vector<playerlike::replay::ReplayRun> runs;
   runs.push_back(replay_of_folder(folder));
   std::string page = file.empty() ? (fs::path(folder) / course::kReplayFile).string() : file;
   write_page_of(runs, page, most_megabytes);
@@ -119,7 +119,7 @@ int make_replay(const ReplayRequest& request) {
     }
     return kOk;
   }
-  std::vector<replay::ReplayRun> runs;
+  std::vector<playerlike::replay::ReplayRun> runs;
   for (const std::string& folder : folders) runs.push_back(replay_of_folder(folder));
   if (runs.front().name == runs.back().name) {
     for (std::size_t i = 0; i < runs.size(); ++i) runs[i].name = folders[i];

@@ -203,6 +203,19 @@ void require_time_of_until(const RunRequest& request, const sim::WorldDescriptio
   }
 }
 
+/// Says what the user may not expect of the run.
+void tell_before(const RunRequest& request, const sim::WorldDescription& world) {
+  const playerlike::RunSettings& settings = request.settings;
+  if (!request.quiet && !settings.duration_s && !world.simulation.duration_ns) {
+    std::cerr << "playpen: the world sets no duration, so the run ends when the program does "
+                 "(or give --duration)\n";
+  }
+  if (request.debug && !in_lockstep(settings, world)) {
+    std::cerr << "playpen: time is real in this run, so it does not stand still at breakpoints "
+                 "(--time lockstep decides otherwise)\n";
+  }
+}
+
 /// Says how to go on from the end of a run of --then save.
 void tell_start(const RunRequest& request) {
   if (!request.until || request.until->then != RunUntil::Then::kSave || request.quiet) return;
@@ -262,14 +275,7 @@ int run(RunRequest request) {
     refuse_same_folder(*request.from, settings.output_folder);
   }
   prepare_outputs(settings, world_file);
-  if (!request.quiet && !settings.duration_s && !world.simulation.duration_ns) {
-    std::cerr << "playpen: the world sets no duration, so the run ends when the program does "
-                 "(or give --duration)\n";
-  }
-  if (request.debug && !in_lockstep(settings, world)) {
-    std::cerr << "playpen: time is real in this run, so it does not stand still at breakpoints "
-                 "(--time lockstep decides otherwise)\n";
-  }
+  tell_before(request, world);
   std::optional<ViewerProcess> viewer;
   if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
   std::optional<PageProcess> page;

@@ -111,7 +111,8 @@ PLAYERLIKE = arrows({
     "protocol": "messages libplayerinterface",
     "session": "messages libplayerinterface",
     "virtual_time": "process",
-    "host": "messages process protocol session view page virtual_time",
+    "replay": "",
+    "host": "messages process protocol session view page replay virtual_time",
     "remote": "messages process protocol session virtual_time",
     "connect": "messages process session virtual_time host remote",
     "server": "messages process protocol session virtual_time host wire proxies libplayerinterface",
@@ -146,12 +147,13 @@ PLAYERLIKE = arrows({
     "par_exploration_changing": "imr-h libCCMorse par_exploration",
     "par_chase": "imr-h libCCMorse par_common",
     "par_localization": "imr-h libCCMorse par_common",
-    "playpen": "messages process host connect server page playpen/grade playpen/course playpen/batch",
+    "playpen": "messages process host replay connect server page playpen/grade playpen/course "
+               "playpen/batch",
     "playpen/grade": "messages host",
     "playpen/course": "messages host playpen/grade",
     "playpen/batch": "messages host playpen/grade",
     "playpen/view": "view",
-    "playpen/page": "page server",
+    "playpen/page": "page server replay",
 })
 
 # Includes that belong in a few places only: (start of the include, start of the paths that may have
@@ -163,8 +165,8 @@ PLACES = [(re.compile(include), re.compile(path), why) for include, path, why in
      "OpenCV belongs in the modules of libsim/src/render/modules"),
     (r"lib(av[a-z]+|sw[a-z]+)/", r"libsim/src/render/modules/film_module\.cpp$",
      "FFmpeg belongs in libsim/src/render/modules/film_module.cpp"),
-    (r"boost/", r"apps/playpen/page/page_server\.cpp$|libplayerlike/include/imr-h/|(?!apps/|lib)",
-     "Boost belongs in apps/playpen/page/page_server.cpp"),
+    (r"boost/", r"apps/playpen/page/|libplayerlike/include/imr-h/|(?!apps/|lib)",
+     "Boost belongs in apps/playpen/page"),
     (r"opencv2/highgui\.hpp$|X11/", r"apps/playpen/view/", "windows belong in apps/playpen/view"),
     (r"png\.h$", r"libsim/src/canvas/png_codec\.cpp$",
      "libpng belongs in libsim/src/canvas/png_codec.cpp"),

@@ -8,9 +8,9 @@ const path = require("path");
 const vm = require("vm");
 
 const folder = path.join(__dirname, "../../apps/playpen/replay");
-const list = /set\(viewer_scripts ([a-z ]+)\)/.exec(
+const list = /set\(viewer_scripts ([a-z\s]+)\)/.exec(
   fs.readFileSync(path.join(folder, "CMakeLists.txt"), "utf8"));
-const names = list[1].split(" ");
+const names = list[1].split(/\s+/);
 
 // The namespaces of all scripts except the last one, which needs a document.
 function load() {
@@ -19,7 +19,8 @@ function load() {
   const context = vm.createContext({atob, Blob, Response, DecompressionStream, TextDecoder, URL,
     console});
   return vm.runInContext(source +
-    "\n({Columns, Runs, Layers, Views, Scene, Robots, Marks, Plots, Panels, Stages, Clocks});", context);
+    "\n({Columns, Runs, Layers, Views, Scene, Robots, Marks, Plots, Panels, Stages, Clocks, Live, " +
+    "Joystick, Commands});", context);
 }
 
 // Columns for a run's JSON: column(values) gives the index, file.column(index) the typed array.

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "replay/replay_builder.h"
+#include "playerlike/replay/replay_builder.h"
 #include "replay/replay_page.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/laser.h"
@@ -24,8 +24,8 @@
 
 namespace {
 
-using playpen::replay::ReplayBuilder;
-using playpen::replay::ReplayRun;
+using playerlike::replay::ReplayBuilder;
+using playerlike::replay::ReplayRun;
 using sim::Simulation;
 
 // A robot's devices that the driver uses; -1: it has none.
@@ -122,7 +122,7 @@ Recorded drive(const std::string& world, double seconds, double phase, const std
   for (const sim::Collision& one : made.run.collisions) {
     made.scene.collisions.push_back({one.robot, one.place, sim::to_seconds(one.time_ns)});
   }
-  for (const playpen::replay::GoalNote& goal : made.run.goals) {
+  for (const playerlike::replay::GoalNote& goal : made.run.goals) {
     made.scene.goals.push_back({goal.robot, goal.place, goal.reached_ns.has_value(), true});
   }
   return made;

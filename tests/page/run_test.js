@@ -207,7 +207,7 @@ run({
   plotsKeepExtremes() {
     const numbers = new Runs.Numbers(Int32Array.from([1, 9, -3, 2, 2]), 1);
     assert.deepStrictEqual(JSON.parse(JSON.stringify(Plots.extent(timeline([0, 0.1, 0.2, 5, 9.9]),
-      numbers, 10, 2))), [[0, -3, 9], [1, 2, 2]]);
+      numbers, [0, 10], 2))), [[0, -3, 9], [1, 2, 2]]);
   },
   shortensNumbers() {
     assert.deepStrictEqual([0, 0.123456, 12345.678, NaN, 1e-7, 2].map(Plots.shortNumber),

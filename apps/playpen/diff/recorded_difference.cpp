@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "replay/field_values.h"
+#include "playerlike/replay/field_values.h"
 #include "sim/core/number_text.h"
 #include "sim/core/time.h"
 #include "sim/devices/builtin.h"
@@ -25,9 +25,9 @@ struct NamedNumbers {
 
 std::vector<NamedNumbers> numbers_of(const sim::FieldTable& table, const void* object) {
   std::vector<NamedNumbers> all;
-  replay::visit_values(
+  playerlike::replay::visit_values(
       table, object,
-      [&all](const replay::FieldValue& field) {
+      [&all](const playerlike::replay::FieldValue& field) {
         all.push_back({field.name, false, {field.value}});
       },
       [&all](const std::string& name, const char*, std::span<const double> numbers) {
@@ -112,7 +112,7 @@ std::optional<RecordedPair> differing_reading(const sim::Simulation& first,
 
 /// A command in exact numbers, for comparison.
 std::string exact_text(const playerlike::RecordedCommand& command) {
-  std::string text = replay::text_of(command.command);
+  std::string text = playerlike::replay::text_of(command.command);
   const auto& kind = sim::command_kinds()[command.command.index()];
   for (const NamedNumbers& field : numbers_of(kind.fields(), sim::object_in(command.command))) {
     for (const double number : field.numbers) text += ' ' + sim::shortest_text(number);
@@ -122,7 +122,7 @@ std::string exact_text(const playerlike::RecordedCommand& command) {
 
 /// A command in words: rounded unless that hides a difference.
 std::string words_of(const playerlike::RecordedCommand& command, bool exact) {
-  return exact ? exact_text(command) : replay::text_of(command.command);
+  return exact ? exact_text(command) : playerlike::replay::text_of(command.command);
 }
 
 std::optional<RecordedPair> differing_command(const playerlike::Rerun& first,
@@ -140,7 +140,8 @@ std::optional<RecordedPair> differing_command(const playerlike::Rerun& first,
         exact_text(a[i]) == exact_text(b[i])) {
       continue;
     }
-    const bool exact = replay::text_of(a[i].command) == replay::text_of(b[i].command);
+    const bool exact =
+        playerlike::replay::text_of(a[i].command) == playerlike::replay::text_of(b[i].command);
     return RecordedPair{before_s, name_of(first.simulation(), a[i].device), "",
                         words_of(a[i], exact), words_of(b[i], exact)};
   }

@@ -557,9 +557,9 @@ void PageServer::Impl::on_message(wire::HostKind kind, std::uint32_t client,
   switch (kind) {
     case wire::HostKind::kPart:
       return on_part(contents);
-    case wire::HostKind::kWhole: {
-      // One that nobody has asked for: the simulation has gone back in time.
-      const bool for_all = !whole_asked_;
+    case wire::HostKind::kWhole:
+    case wire::HostKind::kAnew: {
+      const bool for_all = kind == wire::HostKind::kAnew;
       whole_asked_ = false;
       const auto all = connections_;  // a connection that ends is removed
       for (const auto& [number, connection] : all) connection->whole(contents, for_all);

@@ -1,18 +1,35 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "replay/replay_page.h"
 
-#include <cstdint>
+#include <zlib.h>
+
+#include <new>
 #include <stdexcept>
 
 #include "grade/text.h"
-#include "replay/columns.h"
-#include "replay/replay_encoder.h"
+#include "playerlike/replay/replay_encoder.h"
 #include "replay/viewer_files.h"
 #include "sim/core/base64.h"
 #include "sim/core/number_text.h"
 #include "sim/core/utf8.h"
 
 namespace playpen::replay {
+
+using playerlike::replay::encoded;
+using playerlike::replay::ReplayRun;
+using playerlike::replay::Thinning;
+using playerlike::replay::thinning_steps;
+
+std::vector<std::uint8_t> deflated(std::string_view bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::vector<std::uint8_t> packed(size);
+  const int result = compress2(packed.data(), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                               static_cast<uLong>(bytes.size()), Z_DEFAULT_COMPRESSION);
+  if (result != Z_OK) throw std::bad_alloc();
+  packed.resize(size);
+  return packed;
+}
+
 std::string html(const std::vector<ReplayRun>& runs, const PageOptions& options) {
   if (runs.empty()) throw std::invalid_argument("a replay needs at least one run");
   std::string title;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "replay/replay_run.h"
+#include "playerlike/replay/replay_run.h"
 
 namespace playpen::replay {
 
@@ -22,6 +24,11 @@ struct PageOptions {
 /// thinning_steps(), and the page says which. If even the last step is too large, its page is
 /// returned, and says that too.
 /// @throws std::invalid_argument if there is no run.
-[[nodiscard]] std::string html(const std::vector<ReplayRun>& runs, const PageOptions& options = {});
+[[nodiscard]] std::string html(const std::vector<playerlike::replay::ReplayRun>& runs,
+                               const PageOptions& options = {});
+
+/// The bytes in zlib's format (RFC 1950), compressed at zlib's default level.
+/// @throws std::bad_alloc if there is no memory.
+[[nodiscard]] std::vector<std::uint8_t> deflated(std::string_view bytes);
 
 }  // namespace playpen::replay

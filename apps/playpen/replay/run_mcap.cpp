@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "playerlike/host/reading_json.h"
-#include "replay/happenings.h"
+#include "playerlike/replay/happenings.h"
 #include "replay/mcap_writer.h"
 #include "replay/printed_lines.h"
 #include "sim/core/replace_file.h"
@@ -30,6 +30,8 @@
 #include "sim/devices/laser.h"
 
 namespace playpen::replay {
+
+using playerlike::replay::HappeningsWatch;
 namespace {
 
 using json = nlohmann::json;

@@ -1,10 +1,16 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "replay/run_replay.h"
 
+#include "playerlike/replay/replay_builder.h"
 #include "replay/printed_lines.h"
-#include "replay/replay_builder.h"
 
 namespace playpen::replay {
+
+using playerlike::replay::GoalNote;
+using playerlike::replay::ReplayBuilder;
+using playerlike::replay::ReplayOptions;
+using playerlike::replay::ReplayRun;
+
 ReplayRun replay_of(playerlike::Rerun& rerun, const std::string& folder, const std::string& name,
                     const std::vector<GoalNote>& goals) {
   const sim::Simulation& run = rerun.simulation();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "playerlike/host/rerun.h"
-#include "replay/replay_run.h"
+#include "playerlike/replay/replay_run.h"
 
 namespace playpen::replay {
 
@@ -17,7 +17,8 @@ namespace playpen::replay {
 /// @param name   of the run, for people.
 /// @param goals  of robots, that no device has: those of a task.
 /// @throws playerlike::RecordingError as Rerun::step().
-[[nodiscard]] ReplayRun replay_of(playerlike::Rerun& rerun, const std::string& folder,
-                                  const std::string& name, const std::vector<GoalNote>& goals = {});
+[[nodiscard]] playerlike::replay::ReplayRun replay_of(
+    playerlike::Rerun& rerun, const std::string& folder, const std::string& name,
+    const std::vector<playerlike::replay::GoalNote>& goals = {});
 
 }  // namespace playpen::replay

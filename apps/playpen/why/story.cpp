@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "replay/happenings.h"
+#include "playerlike/replay/happenings.h"
 #include "sim/core/time.h"
 #include "sim/devices/laser.h"
 
@@ -61,7 +61,7 @@ Story story_of(playerlike::Rerun& rerun, int robot) {
   const std::optional<int> laser = laser_of(run, robot);
   if (laser) story.laser = run.device(robot, *laser).name();
   std::uint64_t scans = 0;
-  replay::HappeningsWatch watch;
+  playerlike::replay::HappeningsWatch watch;
   story.samples.push_back(sample_of(run, robot));
   for (;;) {
     const double before_s = sim::to_seconds(run.now_ns());
@@ -77,7 +77,7 @@ Story story_of(playerlike::Rerun& rerun, int robot) {
         story.scans.push_back(scan_of(device));
       }
     }
-    const replay::HappeningsWatch::Happenings happenings = watch.look(run);
+    const playerlike::replay::HappeningsWatch::Happenings happenings = watch.look(run);
     for (const sim::ArenaEvent& e : happenings.events) {
       if (e.who == story.robot || e.kind == sim::ArenaEventKind::kEnd) story.events.push_back(e);
     }

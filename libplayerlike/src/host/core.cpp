@@ -9,6 +9,7 @@
 #include "host/launch/busy_alarm.h"
 #include "host/launch/start_of_run.h"
 #include "host/stepping/virtual_clock.h"
+#include "host/window/page.h"
 #include "host/window/window.h"
 #include "process/end_of_program.h"
 #include "sim/core/number_text.h"
@@ -65,8 +66,14 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
 Host::Core::~Core() { stop(); }
 
 void Host::Core::start() {
+  if (settings_.view_socket || settings_.page_socket) {
+    inputs_.hand.emplace(robots_, [this](DeviceId device, const sim::Command& command) {
+      static_cast<void>(inputs_.execute(device, command));
+    });
+  }
   if (settings_.view_socket) window_ = std::make_unique<Window>(*this, *settings_.view_socket);
-  const Lock lock = lock_with_priority();  // the window's thread may be running already
+  if (settings_.page_socket) page_ = std::make_unique<Page>(*this, *settings_.page_socket);
+  const Lock lock = lock_with_priority();  // their threads may be running already
   if (window_) pace_.watch_from(sim::from_seconds(settings_.film_from_s));
   if (window_ && settings_.stop && settings_.stop->then == RunStop::Then::kView) {
     pace_.watch_from(sim::from_seconds(settings_.stop->time_s));
@@ -79,6 +86,7 @@ void Host::Core::start() {
 void Host::Core::stop() noexcept {
   finish();
   if (window_) window_->close();
+  page_.reset();
   locked([this] {
     stop_pacing_ = true;
     changed_.notify_all();
@@ -609,6 +617,8 @@ void Host::Core::finish() noexcept {
     changed_.wait(lock, [this] { return !writing_; });
     stop_pacing_ = true;
     changed_.notify_all();
+    lock.unlock();
+    if (page_) page_->end();
   } catch (const std::exception& e) {
     warn_(e.what());
   }
@@ -654,30 +664,6 @@ void Host::Core::write_results(Lock& lock) {
   writing_ = false;
   changed_.notify_all();
   if (settings_.quiet_end) end_program_quietly_if_uncaught();
-}
-
-std::vector<std::string> Host::Core::unrepeatable() const {
-  std::vector<std::string> why = told_unrepeatable_;
-  if (turns_) why = Turns::instance().unrepeatable();
-  if (paced()) why.emplace_back("simulated time followed the wall clock");
-  if (lockstep_.silence_noted()) {
-    why.emplace_back("simulated time advanced without a client that did not call Read() for " +
-                     std::to_string(settings_.silence_limit_s) + " s of wall time");
-  }
-  if (inputs_.commanders.has_stopped()) why.emplace_back("a watchdog has stopped a robot");
-  if (results_.conflict_noted()) why.emplace_back(kConflictWhy);
-  if (driven_by_hand_) why.emplace_back("a robot was driven by hand");
-  if (onlooker_acted_) {
-    why.emplace_back("a client on a Player port commanded a robot or changed the world");
-  }
-  if (!paced() && (!turns_ || !Turns::instance().active())) {
-    if (lockstep_.several_owners() || (watches_program_ && program_has_threads())) {
-      why.emplace_back(
-          "the program has several threads or there were several programs, and time was "
-          "not virtual: the order of their calls varies");
-    }
-  }
-  return why;
 }
 
 TimeStatistics Host::Core::time_locked() const {

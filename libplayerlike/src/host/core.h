@@ -44,6 +44,7 @@ class Host::Core {
   using Lock = std::unique_lock<std::mutex>;
   class VirtualClock;
   class Window;
+  class Page;
 
   Core(sim::WorldDescription world, RunSettings settings, sim::LogHook log);
   Core(const Core&) = delete;
@@ -282,6 +283,7 @@ class Host::Core {
   Results results_;
   std::unique_ptr<VirtualClock> clock_;
   std::unique_ptr<Window> window_;
+  std::unique_ptr<Page> page_;
   std::thread pacer_;
   std::thread ender_;      ///< see end_run_elsewhere()
   std::mutex copy_mutex_;  ///< for copies in pieces, one at a time; locked before the mutex
@@ -301,7 +303,8 @@ class Host::Core {
   /// When the server calls check_silence() again; nullopt: it has not called it yet.
   std::optional<WallClock::time_point> silence_check_due_;
   std::vector<std::string> told_unrepeatable_;  ///< see Host::note_unrepeatable()
-  bool driven_by_hand_ = false;                 ///< a user has driven a robot in the window
+  bool driven_by_hand_ = false;                 ///< a user has driven a robot
+  bool acted_on_page_ = false;                  ///< a user has moved robots or blocks on the page
   std::atomic<bool> onlooker_acted_{false};     ///< see Host::note_onlooker_acts()
 };
 

@@ -60,6 +60,31 @@ void Host::note_program_ends(int status) { InsideCore(*core_)->note_program_ends
 void Host::note_end_request(int signal) noexcept { core_->results_.note_end_request(signal); }
 bool Host::take_over_results() noexcept { return core_->results_.take_over(); }
 void Host::note_onlooker_acts() noexcept { core_->onlooker_acted_ = true; }
+std::vector<std::string> Host::Core::unrepeatable() const {
+  std::vector<std::string> why = told_unrepeatable_;
+  if (turns_) why = Turns::instance().unrepeatable();
+  if (paced()) why.emplace_back("simulated time followed the wall clock");
+  if (lockstep_.silence_noted()) {
+    why.emplace_back("simulated time advanced without a client that did not call Read() for " +
+                     std::to_string(settings_.silence_limit_s) + " s of wall time");
+  }
+  if (inputs_.commanders.has_stopped()) why.emplace_back("a watchdog has stopped a robot");
+  if (results_.conflict_noted()) why.emplace_back(kConflictWhy);
+  if (driven_by_hand_) why.emplace_back("a robot was driven by hand");
+  if (acted_on_page_) why.emplace_back("somebody moved things on the live page");
+  if (onlooker_acted_) {
+    why.emplace_back("a client on a Player port commanded a robot or changed the world");
+  }
+  if (!paced() && (!turns_ || !Turns::instance().active())) {
+    if (lockstep_.several_owners() || (watches_program_ && program_has_threads())) {
+      why.emplace_back(
+          "the program has several threads or there were several programs, and time was "
+          "not virtual: the order of their calls varies");
+    }
+  }
+  return why;
+}
+
 void Host::note_unrepeatable(const std::string& reason) {
   constexpr std::size_t kMostReasons = 32;
   core_->locked([&] {

@@ -76,12 +76,12 @@ class HandDriveTest : public testing::Test {
   // A program's command between two steps.
   void command(int robot, double v_mps) {
     const sim::Command twist = sim::TwistCommand{{.v_mps = v_mps}};
-    hand.note_command({robot, device(robot)}, twist);
+    drive.note_command({robot, device(robot)}, twist);
     ASSERT_FALSE(simulation.apply({robot, device(robot)}, twist));
   }
   void step(int count = 1) {
     for (int i = 0; i < count; ++i) {
-      hand.before_step(simulation);
+      drive.before_step(simulation);
       simulation.step();
     }
   }
@@ -92,7 +92,8 @@ class HandDriveTest : public testing::Test {
           "robots": [{"name": "r1", "pose": {"x": 5, "y": 1}},
                      {"name": "r2", "pose": {"x": 5, "y": 3}}]})")};
   std::vector<RobotInfo> robots = describe_robots(simulation);
-  HandDrive hand{robots};
+  HandDrive drive{robots};
+  KeyDrive hand{drive};
 };
 
 TEST_F(HandDriveTest, NoKeys_RobotsUnaffected) {
@@ -160,6 +161,18 @@ TEST_F(HandDriveTest, NextRobot_SelectedAndFirstReturnsToProgram) {
   EXPECT_EQ(hand.chosen(), 0);
 }
 
+TEST_F(HandDriveTest, TwoSticks_TwoRobotsAtTheirSpeeds) {
+  drive.steer(0, {.ahead = 0.5});
+  drive.steer(1, {.ahead = -1.0, .left = 0.2});
+  step(60);
+  EXPECT_NEAR(motion(0).commanded().v_mps, 0.25, 1e-12);
+  EXPECT_NEAR(motion(1).commanded().v_mps, -0.5, 1e-12);
+  EXPECT_NEAR(motion(1).commanded().omega_radps, 0.3, 1e-12);
+  drive.steer(1, {.ahead = -0.1, .left = 0.2});  // slows down at once
+  step();
+  EXPECT_NEAR(motion(1).commanded().v_mps, -0.05, 1e-12);
+}
+
 TEST_F(HandDriveTest, LostFocus_StopsRobot) {
   hand.hold(ViewAction::kForward, true);
   step(50);
@@ -171,10 +184,11 @@ TEST_F(HandDriveTest, LostFocus_StopsRobot) {
 TEST(HandDrive, NoRobots_NoEffect) {
   sim::Simulation simulation(
       sim::load_world_text(R"({"name": "none", "arena": {"size": [2, 2]}, "robots": []})"));
-  HandDrive hand(describe_robots(simulation));
+  HandDrive drive(describe_robots(simulation));
+  KeyDrive hand(drive);
   EXPECT_EQ(hand.chosen(), -1);
   hand.hold(ViewAction::kForward, true);
-  hand.before_step(simulation);
+  drive.before_step(simulation);
   hand.choose_next(simulation);
   EXPECT_FALSE(hand.active());
 }

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "replay/columns.h"
+#include "playerlike/replay/columns.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,14 +11,15 @@
 #include <vector>
 
 #include "grade/text.h"
+#include "replay/replay_page.h"
 
 namespace {
 
+using playerlike::replay::Columns;
+using playerlike::replay::kNoNumber;
+using playerlike::replay::quantised;
 using playpen::grade::markup_escaped;
-using playpen::replay::Columns;
 using playpen::replay::deflated;
-using playpen::replay::kNoNumber;
-using playpen::replay::quantised;
 
 std::vector<int> bytes_of(const std::vector<std::int64_t>& values, std::size_t lag = 1) {
   Columns columns;

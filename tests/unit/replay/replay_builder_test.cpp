@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "replay/replay_builder.h"
+#include "playerlike/replay/replay_builder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "replay/columns.h"
-#include "replay/field_values.h"
-#include "replay/replay_encoder.h"
+#include "playerlike/replay/columns.h"
+#include "playerlike/replay/field_values.h"
+#include "playerlike/replay/replay_encoder.h"
 #include "replay/replay_page.h"
 #include "sim/core/base64.h"
 #include "sim/simulation/simulation.h"
@@ -20,14 +20,17 @@
 namespace {
 
 using nlohmann::json;
-using playpen::replay::cell_runs;
-using playpen::replay::DeviceLog;
-using playpen::replay::encoded;
+using playerlike::replay::cell_runs;
+using playerlike::replay::DeviceLog;
+using playerlike::replay::encoded;
+using playerlike::replay::encoded_part;
+using playerlike::replay::encoded_whole;
+using playerlike::replay::has_news;
+using playerlike::replay::ReplayBuilder;
+using playerlike::replay::ReplayRun;
+using playerlike::replay::text_of;
+using playerlike::replay::Thinning;
 using playpen::replay::html;
-using playpen::replay::ReplayBuilder;
-using playpen::replay::ReplayRun;
-using playpen::replay::text_of;
-using playpen::replay::Thinning;
 using sim::Simulation;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -323,7 +326,7 @@ TEST(ReplayPage, LargePagesAreThinned) {
 TEST(ReplayPage, PageTooLargeInAnyCase_SaysSo) {
   const ReplayRun run = driven(1.0);
   const std::string said =
-      encoded({run}, playpen::replay::thinning_steps().back(),
+      encoded({run}, playerlike::replay::thinning_steps().back(),
               "Nothing more can be left out, so it is still larger than the limit of 0.02 MB.");
   EXPECT_THAT(said, HasSubstr("no drawings. Nothing more can be left out"));
   EXPECT_THAT(html({run}, {.most_bytes = 20'000}),
@@ -352,5 +355,136 @@ TEST(ReplayPage, TextsAreNoMarkup) {
 }
 
 TEST(ReplayPage, EqualRunsGiveEqualPages) { EXPECT_EQ(html({driven(1.0)}), html({driven(1.0)})); }
+
+// A part's readings, poses and so on after those of an earlier part.
+void append(ReplayRun& run, const ReplayRun& part) {
+  const auto add = [](auto& all, const auto& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  add(run.frames_ns, part.frames_ns);
+  for (std::size_t i = 0; i < part.robots.size(); ++i) add(run.robots[i].X_WB, part.robots[i].X_WB);
+  for (std::size_t i = 0; i < part.devices.size(); ++i) {
+    DeviceLog& device = run.devices[i];
+    add(device.times_ns, part.devices[i].times_ns);
+    EXPECT_EQ(part.devices[i].known_series, device.series.size());
+    for (std::size_t k = 0; k < part.devices[i].series.size(); ++k) {
+      if (k == device.series.size()) device.series.push_back({"", "", {}, {}});
+      add(device.series[k].values, part.devices[i].series[k].values);
+    }
+    for (std::size_t k = 0; k < part.devices[i].lists.size(); ++k) {
+      if (k == device.lists.size()) device.lists.push_back({"", "", {}, {}});
+      add(device.lists[k].counts, part.devices[i].lists[k].counts);
+      add(device.lists[k].values, part.devices[i].lists[k].values);
+    }
+  }
+  for (std::size_t i = 0; i < part.obstacles.size(); ++i) {
+    for (std::size_t k = 0; k < part.obstacles[i].times_ns().size(); ++k) {
+      const std::vector<std::int64_t>& values = part.obstacles[i].values();
+      const auto at = values.begin() + static_cast<std::ptrdiff_t>(9 * k);
+      run.obstacles[i].note(part.obstacles[i].times_ns()[k], {at, at + 9});
+    }
+  }
+  for (std::size_t i = 0; i < part.layers.size(); ++i) {
+    EXPECT_EQ(part.layers[i].is_known, i < run.layers.size());
+    if (i == run.layers.size())
+      run.layers.push_back(part.layers[i]);
+    else
+      add(run.layers[i].changes, part.layers[i].changes);
+  }
+  for (const auto& command : part.commands) {
+    run.commands.push_back(
+        {command.time_ns, command.robot, command.device, run.command_texts.size()});
+    run.command_texts.push_back(part.command_texts[command.text]);
+  }
+}
+
+TEST(ReplayParts, AddUpToWhatOnePartHas) {
+  Simulation simulation = room();
+  ReplayBuilder often(simulation, {.live = true});
+  ReplayBuilder once(simulation, {.live = true});
+  ReplayRun sum;
+  sum.robots.resize(1);
+  sum.devices.resize(static_cast<std::size_t>(simulation.device_count(0)));
+  sum.obstacles.resize(1);
+  for (int step = 0; step < 200; ++step) {
+    const sim::Command command = sim::TwistCommand{{.v_mps = 0.1 + 0.01 * (step / 50)}};
+    simulation.apply(id_of(simulation, "motion"), command);
+    if (step == 60) {
+      ASSERT_FALSE(simulation.set_obstacle_state("gate", sim::ObstacleState::kRetracted));
+    }
+    if (step % 30 == 0) simulation.layers().base().set_pixel(step / 30, 1, {255, 0, 0, 255});
+    simulation.step();
+    for (ReplayBuilder* const builder : {&often, &once}) {
+      builder->note_command(simulation.now_ns(), id_of(simulation, "motion"), command);
+      builder->observe(simulation);
+    }
+    if (step % 7 == 3) append(sum, often.take());
+  }
+  append(sum, often.take());
+  const ReplayRun all = once.take();
+  EXPECT_EQ(sum.frames_ns, all.frames_ns);
+  EXPECT_THAT(all.frames_ns, SizeIs(200));
+  EXPECT_EQ(sum.robots[0].X_WB, all.robots[0].X_WB);
+  for (std::size_t i = 0; i < all.devices.size(); ++i) {
+    EXPECT_EQ(sum.devices[i].times_ns, all.devices[i].times_ns) << all.devices[i].name;
+    for (std::size_t k = 0; k < all.devices[i].series.size(); ++k) {
+      EXPECT_EQ(sum.devices[i].series[k].values, all.devices[i].series[k].values);
+    }
+    for (std::size_t k = 0; k < all.devices[i].lists.size(); ++k) {
+      EXPECT_EQ(sum.devices[i].lists[k].values, all.devices[i].lists[k].values);
+    }
+  }
+  EXPECT_THAT(log_of(all, "laser").times_ns, SizeIs(20));
+  EXPECT_EQ(sum.obstacles[0].times_ns(), all.obstacles[0].times_ns());
+  EXPECT_THAT(all.obstacles[0].times_ns(), SizeIs(2));
+  ASSERT_EQ(sum.layers.size(), 1U);
+  EXPECT_EQ(sum.layers[0].changes.size(), all.layers[0].changes.size());
+  EXPECT_THAT(sum.commands, SizeIs(4));
+  EXPECT_EQ(sum.command_texts.back(), all.command_texts[all.commands.back().text]);
+  EXPECT_FALSE(has_news(once.take()));
+}
+
+TEST(ReplayParts, Whole_HasTheWorldAndItsPresentState) {
+  Simulation simulation = room();
+  ReplayBuilder builder(simulation, {.live = true});
+  simulation.apply(id_of(simulation, "motion"), sim::TwistCommand{{.v_mps = 0.1}});
+  for (int step = 0; step < 300; ++step) {
+    if (step % 100 == 0) simulation.layers().base().set_pixel(step / 100, 2, {255, 0, 0, 255});
+    simulation.step();
+    builder.observe(simulation);
+    static_cast<void>(builder.take());
+  }
+  const ReplayRun whole = builder.whole();
+  EXPECT_EQ(whole.end_ns, simulation.now_ns());
+  // The history has a pose each 0.2 s, and the newest one.
+  EXPECT_THAT(whole.frames_ns, SizeIs(16));
+  EXPECT_EQ(whole.frames_ns.back(), simulation.now_ns());
+  EXPECT_EQ(whole.robots[0].X_WB.back(), simulation.body(0).X_WB);
+  EXPECT_EQ(whole.robots[0].start.name, "r1");
+  EXPECT_THAT(log_of(whole, "laser").times_ns, SizeIs(1));
+  EXPECT_EQ(log_of(whole, "laser").known_series, 0U);
+  ASSERT_THAT(whole.layers, SizeIs(1));
+  ASSERT_THAT(whole.layers[0].changes, SizeIs(1));
+  std::uint32_t cells = 0;
+  for (const auto& run : whole.layers[0].changes[0].runs) cells += run.count;
+  EXPECT_EQ(cells, 3U);
+  EXPECT_THAT(whole.obstacles[0].times_ns(), SizeIs(1));
+  EXPECT_GT(encoded_whole(whole, "{}").size(), encoded_part(builder.take(), "{}").size());
+}
+
+TEST(ReplayParts, LongRun_HistoryIsThinned) {
+  Simulation simulation = room();
+  ReplayBuilder builder(simulation, {.live = true});
+  for (int i = 0; i < 9000; ++i) {
+    for (int step = 0; step < 20; ++step) simulation.step();
+    builder.observe(simulation);
+    static_cast<void>(builder.take());
+  }
+  const ReplayRun whole = builder.whole();
+  EXPECT_LE(whole.frames_ns.size(), 4001U);
+  EXPECT_GE(whole.frames_ns.size(), 2000U);
+  EXPECT_LE(whole.frames_ns.front(), kSecond_ns);
+  EXPECT_EQ(whole.frames_ns.back(), simulation.now_ns());
+}
 
 }  // namespace

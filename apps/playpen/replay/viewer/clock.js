@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The time that the page shows, and its playback.
+// The time that the page shows, and its playback. Of a live run it follows the end.
 "use strict";
 
 const Clocks = (function () {
@@ -9,7 +9,10 @@ const Clocks = (function () {
     // @param changed  called after each change of the time or of the playback.
     constructor(frames, end, changed) {
       this.frames = frames;
+      this.begin = 0;
       this.end = end;
+      this.live = false; // the end moves on
+      this.following = false; // and the time with it
       this.changed = changed;
       this.t = 0;
       this.speed = 1;
@@ -18,12 +21,36 @@ const Clocks = (function () {
     }
 
     seek(t) {
-      this.t = Math.min(Math.max(t, 0), this.end);
+      this.t = Math.min(Math.max(t, this.begin), this.end);
+      const followed = this.following;
+      this.following = this.live && this.t >= this.end;
+      if (this.following !== followed) this.playing = this.following;
+      this.changed();
+    }
+
+    // Shows a live run that lasts from `begin` to `end` by now.
+    grow(begin, end) {
+      this.begin = begin;
+      this.end = end;
+      if (this.following || this.t > end || this.t < begin) this.seek(this.following ? end : this.t);
+    }
+
+    // @param live  false: the run is over, so that it can be played like a replay.
+    setLive(live) {
+      this.live = live;
+      this.follow(live);
+    }
+
+    follow(on) {
+      this.following = on;
+      this.playing = on;
+      if (on) this.t = this.end;
       this.changed();
     }
 
     // By whole frames, forward or back.
     step(frames) {
+      this.following = false;
       this.playing = false;
       const now = this.frames.before(this.t);
       const between = this.t - this.frames.at(Math.max(now, 0)) > 1e-6;
@@ -32,21 +59,26 @@ const Clocks = (function () {
     }
 
     play(on) {
-      if (on && this.t >= this.end) this.t = 0;
+      if (on && this.t >= this.end) {
+        if (this.live) return this.follow(true);
+        this.t = this.begin;
+      }
+      this.following = false;
       this.playing = on;
       this.last = null;
-      this.changed();
+      return this.changed();
     }
 
     // Advances a playback to the browser's time `now` [ms].
     tick(now) {
-      if (!this.playing) return;
+      if (!this.playing || this.following) return;
       // After a pause of the page itself, go on from where it was.
       if (this.last !== null) this.t += Math.min(now - this.last, 250) / 1000 * this.speed;
       this.last = now;
       if (this.t >= this.end) {
         this.t = this.end;
-        this.playing = false;
+        this.playing = this.live;
+        this.following = this.live;
       }
       this.changed();
     }

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Puts the page together.
+// Puts the page together: with data in it a replay, else a live page.
 "use strict";
 
 const Page = (function () {
@@ -7,14 +7,25 @@ const Page = (function () {
   const byId = (id) => document.getElementById(id);
   const kTrails = {whole: 1e9, short: 10, off: 0};
   const kPanelPeriod = 100; // between updates of the panel during a playback [ms]
+  const kMarksPeriod = 1000; // between pictures of the marks of a live run [ms]
+  const kLivePlot = 60; // what plots of a live run show [s]
+  const kMostHappenings = 500; // in the list of a live run
+  const kShownMessage = 6000; // [ms]
 
   const state = {
     runs: [], stages: [], clock: null, panel: null, panelRun: null, over: false,
     dirty: true, // the picture is out of date
     panelAt: 0, // when the panel was updated last, by the browser's clock [ms]
+    marksAt: 0, // when the scrubber's marks were drawn last [ms]
     lastHappening: null, // the newest item of the list that is in the past
     options: {trail: kTrails.whole, scans: true, names: true, frame: true, selected: -1,
-      hidden: new Set(), paper: null},
+      hidden: new Set(), paper: null, steered: [], placing: null},
+    live: null, // of a live page: what the simulation does and can do
+    link: null, // of a live page: its connection
+    desk: null, // of a live page: where a person commands
+    grown: false, // the run has grown since the controls were updated
+    happened: [], // what is not in the list of happenings yet
+    knownLayers: new Set(), // names of layers that have had a switch
   };
 
   function changed() {
@@ -37,10 +48,16 @@ const Page = (function () {
         figure.appendChild(element("figcaption", "", runs.map((run) => run.name).join(", over it ")));
       }
       const stage = new Stages.Stage(canvas, runs);
-      stage.listen({changed, picked: (robot) => select(robot, runs[0])}, () => state.clock.t);
+      stage.listen({changed, picked: (robot, place) => picked(robot, place, runs[0]),
+        tool: (view) => (state.desk === null ? null : state.desk.tool(view))}, () => state.clock.t);
       return stage;
     });
     changed();
+  }
+
+  function picked(robot, place, run) {
+    if (robot < 0 && state.desk !== null && state.desk.clicked(place)) return;
+    select(robot, run);
   }
 
   function zoom(factor) {
@@ -60,7 +77,16 @@ const Page = (function () {
     state.panel.show(run, robot);
     setText(byId("of-run"), state.runs.length > 1 && robot >= 0 ? "in " + run.name : "");
     byId("hint").hidden = robot >= 0;
+    if (state.desk !== null) state.desk.release();
     changed();
+  }
+
+  // Shows a short message in the live region of a live page.
+  let messageTimer = 0;
+  function showMessage(text) {
+    setText(byId("live"), text);
+    clearTimeout(messageTimer);
+    messageTimer = setTimeout(() => setText(byId("live"), ""), kShownMessage);
   }
 
   // Says time and positions in the live region.
@@ -72,11 +98,14 @@ const Page = (function () {
       return robot.name + " at x " + X.x.toFixed(2) + ", y " + X.y.toFixed(2) + " metres, heading " +
         heading + " degrees" + (X.stalled ? ", stalled" : "");
     });
-    byId("live").textContent = t.toFixed(2) + " seconds. " + robots.join("; ") + ".";
+    const text = t.toFixed(2) + " seconds. " + robots.join("; ") + ".";
+    if (state.live !== null) showMessage(text);
+    else byId("live").textContent = text;
   }
 
   function drawScrubber() {
     const canvas = byId("marks");
+    const {begin, end} = state.clock;
     const box = canvas.getBoundingClientRect();
     const ratio = window.devicePixelRatio || 1;
     canvas.width = Math.max(Math.round(box.width * ratio), 1);
@@ -88,7 +117,7 @@ const Page = (function () {
       const height = canvas.height / state.runs.length;
       for (const {t, kind} of run.happenings()) {
         // The thumb's centre moves between half its width from either end.
-        const x = (8 + t / Math.max(state.clock.end, 1e-9) * (box.width - 16)) * ratio;
+        const x = (8 + (t - begin) / Math.max(end - begin, 1e-9) * (box.width - 16)) * ratio;
         ctx.fillStyle = colours[kind];
         ctx.fillRect(x - ratio, row * height, 2 * ratio, height - ratio);
       }
@@ -100,6 +129,8 @@ const Page = (function () {
     clock.tick(now);
     let resized = false;
     for (const stage of state.stages) resized = stage.resize() || resized;
+    // A live run grows also while the past is shown.
+    if (state.grown && now - state.panelAt > kPanelPeriod) showGrowth(now);
     if (state.dirty || resized) {
       state.dirty = false;
       const dark = window.matchMedia("(prefers-color-scheme: dark)").matches;
@@ -115,11 +146,31 @@ const Page = (function () {
     requestAnimationFrame(draw);
   }
 
+  function showGrowth(now) {
+    const {clock} = state;
+    state.grown = false;
+    byId("scrubber").min = String(clock.begin);
+    byId("scrubber").max = String(clock.end);
+    addHappenings(state.happened.splice(0));
+    if (!clock.following) state.panelAt = now;
+    if (now - state.marksAt < kMarksPeriod) return;
+    state.marksAt = now;
+    drawScrubber();
+  }
+
   function showControls() {
     const {clock} = state;
+    if (state.desk !== null) {
+      const {command, pad} = state.desk;
+      byId("to-live").hidden = !clock.live;
+      byId("to-live").setAttribute("aria-pressed", String(clock.following));
+      byId("speed-box").hidden = clock.following;
+      if (command && pad.node.hidden === clock.following) state.desk.show();
+    }
     const play = byId("play");
     setText(play, clock.playing ? "❚❚" : "►");
-    play.setAttribute("aria-label", clock.playing ? "Pause" : "Play");
+    const what = state.live === null ? "" : " the view";
+    play.setAttribute("aria-label", (clock.playing ? "Pause" : "Play") + what);
     const scrubber = byId("scrubber");
     scrubber.value = String(clock.t);
     scrubber.setAttribute("aria-valuetext", clock.t.toFixed(2) + " seconds");
@@ -137,7 +188,7 @@ const Page = (function () {
     let last = null;
     for (const item of list.children) {
       const past = Number(item.dataset.t) <= t + 1e-9;
-      item.classList.toggle("past", past);
+      if (item.classList.contains("past") !== past) item.classList.toggle("past", past);
       if (past) last = item;
     }
     if (last !== state.lastHappening) {
@@ -160,10 +211,12 @@ const Page = (function () {
 
   function makeLayers() {
     const box = byId("layers");
+    box.textContent = "";
     // Layers of the same name share a switch, also in two runs.
     const tapes = new Map();
     for (const tape of [].concat(...state.runs.map((run) => run.layers))) {
-      if (!tape.visible) state.options.hidden.add(tape.name);
+      if (!tape.visible && !state.knownLayers.has(tape.name)) state.options.hidden.add(tape.name);
+      state.knownLayers.add(tape.name);
       if (tape.times.length > 0 && !tapes.has(tape.name)) tapes.set(tape.name, tape);
     }
     byId("layer-box").hidden = tapes.size === 0;
@@ -193,10 +246,15 @@ const Page = (function () {
   }
 
   function makeHappenings() {
-    const list = byId("happenings");
+    byId("happenings").textContent = "";
+    state.lastHappening = null;
     const all = [].concat(...state.runs.map((run) => run.happenings().map((one) =>
       Object.assign(one, {text: namedIfSeveral(run, one.text)}))));
-    for (const one of all.sort((a, b) => a.t - b.t)) {
+    addHappenings(all.sort((a, b) => a.t - b.t));
+  }
+  function addHappenings(all) {
+    const list = byId("happenings");
+    for (const one of all) {
       const item = list.appendChild(element("li", one.kind));
       item.dataset.t = String(one.t);
       const link = item.appendChild(element("button"));
@@ -205,6 +263,8 @@ const Page = (function () {
       link.appendChild(element("bdi", "", one.text));
       link.addEventListener("click", () => state.clock.seek(one.t));
     }
+    if (state.live === null) return;
+    while (list.childElementCount > kMostHappenings) list.firstChild.remove();
   }
 
   function namedIfSeveral(run, text) {
@@ -216,7 +276,8 @@ const Page = (function () {
     button("play", () => clock.play(!clock.playing));
     button("back", () => clock.step(-1));
     button("forward", () => clock.step(1));
-    button("start", () => clock.seek(0));
+    button("start", () => clock.seek(clock.begin));
+    button("to-live", () => clock.follow(true));
     button("zoom-in", () => zoom(1.4));
     button("zoom-out", () => zoom(1 / 1.4));
     button("fit", fit);
@@ -235,15 +296,19 @@ const Page = (function () {
     const scrubber = byId("scrubber");
     scrubber.max = String(clock.end);
     scrubber.addEventListener("input", () => clock.seek(Number(scrubber.value)));
-    const robot = byId("robot");
-    robot.appendChild(new Option("none", "-1"));
-    state.runs[0].robots.forEach((one, i) => robot.appendChild(new Option(one.name, String(i))));
-    robot.addEventListener("change", () => select(Number(robot.value)));
+    byId("robot").addEventListener("change", (event) => select(Number(event.target.value)));
     byId("mode-box").hidden = state.runs.length < 2;
     byId("mode").addEventListener("change", (event) => {
       state.over = event.target.value === "over";
       makeStages();
     });
+  }
+
+  function makeRobots() {
+    const robot = byId("robot");
+    robot.textContent = "";
+    robot.appendChild(new Option("none", "-1"));
+    state.runs[0].robots.forEach((one, i) => robot.appendChild(new Option(one.name, String(i))));
   }
 
   // The next or last thing that happened, from the present time.
@@ -259,7 +324,7 @@ const Page = (function () {
     const step = (way) => (event.shiftKey ? clock.seek(clock.t + way) : clock.step(way));
     return {
       " ": () => clock.play(!clock.playing), "ArrowRight": () => step(1), "ArrowLeft": () => step(-1),
-      "Home": () => clock.seek(0), "End": () => clock.seek(clock.end), "+": () => zoom(1.4),
+      "Home": () => clock.seek(clock.begin), "End": () => clock.seek(clock.end), "+": () => zoom(1.4),
       "=": () => zoom(1.4), "-": () => zoom(1 / 1.4), "0": fit, "s": () => flip("scans"),
       "m": () => flip("names"), "n": () => toHappening(1), "p": () => toHappening(-1), "w": say,
       "t": () => {
@@ -288,6 +353,10 @@ const Page = (function () {
     document.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey || byId("help").open) return;
       const target = event.target;
+      if (state.desk !== null && !target.matches("select") && state.desk.key(event)) {
+        event.preventDefault();
+        return;
+      }
       // Controls keep the keys that they use themselves.
       if (target.matches("select, summary, button, input[type=checkbox]") &&
           [" ", "Enter", "ArrowUp", "ArrowDown"].includes(event.key)) return;
@@ -308,42 +377,153 @@ const Page = (function () {
     if (said.t !== null) state.clock.seek(said.t);
   }
 
+  // Plots show a whole replay, but the last minute of a live run.
+  function plotSpan(t) {
+    const {begin, end, live} = state.clock;
+    return live ? [t - kLivePlot, t] : [begin, end];
+  }
+
+  // Shows the first runs of the page.
+  function open(file) {
+    Scene.setPalette(file.head.palette);
+    state.runs = file.head.runs.map((json) => new Runs.Run(json, file));
+    setText(byId("title"), state.runs.map((run) => run.name).join(" and "));
+    const longest = state.runs.reduce((a, b) => (b.end > a.end ? b : a));
+    state.clock = new Clocks.Clock(longest.frames, longest.end, changed);
+    if (state.live !== null) state.clock.setLive(true);
+    state.panel = new Panels.Panel(byId("panel"), plotSpan);
+    state.panelRun = state.runs[0];
+    makeControls();
+    makeStages();
+    showRuns(file.head);
+    listenToKeys();
+    select(state.runs[0].robots.length === 1 ? 0 : -1);
+    openFragment();
+    window.addEventListener("hashchange", openFragment);
+    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+      drawScrubber();
+      changed();
+    });
+    document.body.classList.add("ready");
+    byId("status").remove();
+    requestAnimationFrame(draw);
+  }
+
+  function showRuns(head) {
+    showHead(head.thinned);
+    makeLayers();
+    makeHappenings();
+    makeRobots();
+  }
+
   async function start() {
-    const status = byId("status");
+    const node = byId("replay-data");
+    if (node === null) return startLive();
     try {
-      const node = byId("replay-data");
       const file = new Columns.File(await Columns.inflated(Columns.bytesOfBase64(node.textContent)));
       node.remove();
-      Scene.setPalette(file.head.palette);
-      state.runs = file.head.runs.map((json) => new Runs.Run(json, file));
-      setText(byId("title"), state.runs.map((run) => run.name).join(" and "));
-      showHead(file.head.thinned);
-      const longest = state.runs.reduce((a, b) => (b.end > a.end ? b : a));
-      state.clock = new Clocks.Clock(longest.frames, longest.end, changed);
-      state.panel = new Panels.Panel(byId("panel"));
-      state.panelRun = state.runs[0];
-      makeLayers();
-      makeHappenings();
-      makeControls();
-      makeStages();
-      listenToKeys();
-      select(state.runs[0].robots.length === 1 ? 0 : -1);
-      openFragment();
-      window.addEventListener("hashchange", openFragment);
-      window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-        drawScrubber();
-        changed();
-      });
-      document.body.classList.add("ready");
-      status.remove();
-      requestAnimationFrame(draw);
+      return open(file);
     } catch (error) {
-      setText(status, "The replay cannot be shown: " + error.message);
+      setText(byId("status"), "The replay cannot be shown: " + error.message);
       throw error;
     }
   }
 
+  function startLive() {
+    document.body.classList.add("is-live");
+    byId("picture").appendChild(byId("live"));
+    byId("live-keys").hidden = false;
+    byId("link").hidden = false;
+    byId("trail").value = "short";
+    state.options.trail = kTrails.short;
+    setText(byId("title"), "Live");
+    setText(byId("status"), "Connecting …");
+    let token = Live.takeToken(window);
+    const address = window.location.origin.replace(/^http/, "ws") + "/live";
+    state.desk = new Commands.Desk({state, changed, say: showMessage},
+      (command) => state.link.send(command));
+    state.link = new Live.Link(() => new WebSocket(address), () => token,
+      {whole, part, rights: (rights) => state.desk.setRights(rights), answer: showMessage,
+        state: showLink}, window);
+    window.addEventListener("hashchange", () => {
+      if (!window.location.hash.includes("token=")) return;
+      token = Live.takeToken(window);
+      state.link.reopen();
+    });
+  }
+
+  // A whole run: the first one, or one that replaces the run.
+  function whole(file) {
+    const {head} = file;
+    state.live = head.live;
+    state.happened = [];
+    if (state.clock === null) {
+      open(file);
+    } else {
+      const selected = state.runs[0].robots[state.options.selected];
+      const [run] = state.runs = [new Runs.Run(head.runs[0], file)];
+      state.clock.frames = run.frames;
+      state.panelRun = run;
+      state.stages.forEach((stage) => stage.show(state.runs));
+      showRuns(head);
+      select(selected === undefined ? -1 : run.robotNamed(selected.name));
+    }
+    state.runs[0].ended = false;
+    grown();
+  }
+
+  function part(file) {
+    const [run] = state.runs;
+    const layers = run.layers.filter((tape) => tape.times.length > 0).length;
+    const [json] = file.head.runs;
+    state.happened.push(...run.append(json, file));
+    if (state.happened.length > 2 * kMostHappenings) state.happened.splice(0, kMostHappenings);
+    if (run.layers.filter((tape) => tape.times.length > 0).length > layers) makeLayers();
+    if (json.verdict || json.notes.length > 0) showHead("");
+    state.live = file.head.live;
+    grown();
+  }
+
+  function grown() {
+    const [run] = state.runs;
+    state.grown = true;
+    state.options.steered = state.clock.following ? state.live.steered : [];
+    state.clock.grow(run.begin, run.end);
+    if (state.clock.following) changed();
+    state.desk.show();
+    showLink("live", "");
+    if (state.live.over) showLink("over", "the run is over");
+  }
+
+  // @param name  of a state of Live.Link
+  function showLink(name, text) {
+    const {live, clock, desk} = state;
+    const node = byId("link");
+    desk.setConnected(name === "live");
+    node.className = name;
+    const rights = desk.command ? "commanding" : "watching";
+    const now = live !== null && live.paused ? "paused" : "live";
+    setText(node, name === "live" ? now + " · " + rights : text);
+    if (clock === null) {
+      if (name !== "live") setText(byId("status"), text);
+      return;
+    }
+    if (name === "over" && clock.live) {
+      state.runs[0].ended = true;
+      desk.setRights({command: false});
+      clock.setLive(false);
+      makeHappenings();
+      drawScrubber();
+    }
+    if (name !== "live") {
+      state.options.steered = [];
+      changed();
+    }
+  }
+
   function showHead(thinned) {
+    byId("verdict").textContent = "";
+    byId("notes").textContent = "";
     for (const run of state.runs) {
       if (run.verdict) {
         byId("verdict").appendChild(element("span", run.verdict.passed ? "passed" : "failed",

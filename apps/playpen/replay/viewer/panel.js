@@ -21,7 +21,7 @@ const Panels = (function () {
 
   // A row "name | value | plot" of a table.
   class Row {
-    constructor(table, name, curve, end) {
+    constructor(table, name, curve, spanAt) {
       const row = table.appendChild(element("tr"));
       const head = row.appendChild(element("th", "", name));
       head.scope = "row";
@@ -31,7 +31,7 @@ const Panels = (function () {
       const canvas = cell.appendChild(element("canvas"));
       canvas.setAttribute("role", "img");
       canvas.setAttribute("aria-label", name + " over time");
-      this.plot = new Plots.Plot(canvas, curve, end);
+      this.plot = new Plots.Plot(canvas, curve, spanAt);
     }
 
     update(text, t) {
@@ -40,22 +40,10 @@ const Panels = (function () {
     }
   }
 
-  // The least number of each reading of a list, as numbers over time.
-  function leastOf(device, list) {
-    return {length: device.times.length, at: (i) => {
-      let least = NaN;
-      for (let k = list.begins[i]; k < list.begins[i + 1]; ++k) {
-        const value = list.numbers.at(k);
-        if (!(value >= least)) least = value;
-      }
-      return least;
-    }};
-  }
-
   class DeviceView {
-    constructor(device, end) {
+    constructor(device, spanAt) {
       this.device = device;
-      this.end = end;
+      this.spanAt = spanAt;
       this.node = element("details", "device");
       const summary = this.node.appendChild(element("summary"));
       summary.appendChild(element("b", "", device.name));
@@ -67,16 +55,17 @@ const Panels = (function () {
 
     // Rows are made when they are first seen.
     makeRows() {
+      if (this.rows !== null) this.node.lastChild.remove();
       const table = this.node.appendChild(element("table"));
-      const {device, end} = this;
+      const {device, spanAt} = this;
       this.rows = [];
       for (const series of device.series) {
-        const row = new Row(table, series.name, {times: device.times, numbers: series.numbers}, end);
+        const row = new Row(table, series.name, {times: device.times, numbers: () => series.numbers}, spanAt);
         this.rows.push((i, t) => row.update(valueText(series, series.numbers.at(i)), t));
       }
       for (const list of device.lists) {
         const row = new Row(table, "least of " + list.name,
-          {times: device.times, numbers: leastOf(device, list)}, end);
+          {times: device.times, numbers: () => device.leastOf(list)}, spanAt);
         const all = table.appendChild(element("tr")).appendChild(element("td", "numbers"));
         all.colSpan = 3;
         this.rows.push((i, t) => {
@@ -97,7 +86,9 @@ const Panels = (function () {
       setText(this.brief, device.times.length === 0 ? "no readings"
         : i < 0 ? "none yet" : "at " + device.times.at(i).toFixed(2) + " s");
       if (!this.node.open || i < 0) return;
-      if (this.rows === null) this.makeRows();
+      const {series, lists} = device;
+      // A live run's devices may get new ones.
+      if (this.rows === null || this.rows.length < series.length + lists.length) this.makeRows();
       for (const update of this.rows) update(i, t);
     }
   }
@@ -109,8 +100,10 @@ const Panels = (function () {
 
   // A robot of a run in an element.
   class Panel {
-    constructor(node) {
+    // @param spanAt  (t) => [begin, end], the time that plots show at t.
+    constructor(node, spanAt) {
       this.node = node;
+      this.spanAt = spanAt;
       this.shown = null;
     }
 
@@ -128,11 +121,11 @@ const Panels = (function () {
         ["speed", one.v, (X) => Plots.shortNumber(X.v) + " m/s" + (X.stalled ? ", stalled" : "")],
         ["turn rate", one.w, (X) => degrees(X.w).toFixed(1) + "°/s"],
       ].map(([name, numbers, text]) => ({text, row: new Row(motion, name,
-        numbers ? {times: run.frames, numbers} : null, run.end)}));
+        numbers ? {times: run.frames, numbers: () => numbers} : null, this.spanAt)}));
       this.node.appendChild(element("h3", "", "Devices"));
       const devices = run.devices.filter((device) => device.robot === robot)
         .sort((a, b) => (b.times.length > 0) - (a.times.length > 0))
-        .map((device) => new DeviceView(device, run.end));
+        .map((device) => new DeviceView(device, this.spanAt));
       devices.forEach((view) => this.node.appendChild(view.node));
       if (devices.length === 0) this.node.appendChild(element("p", "note", "none"));
       this.node.appendChild(element("h3", "", "Last commands"));

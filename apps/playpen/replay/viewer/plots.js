@@ -12,13 +12,14 @@ const Plots = (function () {
 
   // The least and the greatest number in each of `columns` stretches of time, in order:
   // [column, least, greatest].
-  function extent(times, numbers, end, columns) {
+  function extent(times, numbers, [begin, end], columns) {
     const parts = [];
+    const length = Math.max(end - begin, 1e-9);
     let last = -1;
-    for (let i = 0; i < times.length; ++i) {
+    for (let i = Math.max(times.before(begin), 0); i < times.length && times.at(i) <= end + 1e-6; ++i) {
       const value = numbers.at(i);
       if (!Number.isFinite(value)) continue;
-      const column = Math.min(Math.max(Math.floor(times.at(i) / end * columns), 0), columns - 1);
+      const column = Math.min(Math.max(Math.floor((times.at(i) - begin) / length * columns), 0), columns - 1);
       if (column === last) {
         const part = parts[parts.length - 1];
         part[1] = Math.min(part[1], value);
@@ -33,11 +34,12 @@ const Plots = (function () {
 
   // A plot whose curve is drawn once; only the cursor moves.
   class Plot {
-    // @param curve  {times, numbers} from 0 to `end` seconds.
-    constructor(canvas, curve, end) {
+    // @param curve  {times, numbers()}
+    // @param spanAt  (t) => [begin, end], what is shown at t [s].
+    constructor(canvas, curve, spanAt) {
       this.canvas = canvas;
       this.curve = curve;
-      this.end = Math.max(end, 1e-9);
+      this.spanAt = spanAt;
       this.cache = null;
     }
 
@@ -47,8 +49,9 @@ const Plots = (function () {
       const ratio = window.devicePixelRatio || 1;
       const [width, height] = [Math.round(box.width * ratio), Math.round(box.height * ratio)];
       const style = getComputedStyle(this.canvas);
-      const key = [width, height, style.color].join();
-      if (this.cache === null || this.cache.key !== key) this.drawCurve(key, width, height, style);
+      const span = this.spanAt(t);
+      const key = [width, height, style.color, span].join();
+      if (this.cache === null || this.cache.key !== key) this.drawCurve(key, width, height, style, span);
       if (this.canvas.width !== width || this.canvas.height !== height) {
         this.canvas.width = width;
         this.canvas.height = height;
@@ -58,17 +61,18 @@ const Plots = (function () {
       ctx.drawImage(this.cache.canvas, 0, 0);
       ctx.fillStyle = style.color;
       ctx.globalAlpha = 0.55;
-      ctx.fillRect(Math.round(Math.min(t / this.end, 1) * (width - ratio)), 0, ratio, height);
+      const share = (t - span[0]) / Math.max(span[1] - span[0], 1e-9);
+      ctx.fillRect(Math.round(Math.min(share, 1) * (width - ratio)), 0, ratio, height);
       ctx.globalAlpha = 1;
     }
 
-    drawCurve(key, width, height, style) {
-      const canvas = document.createElement("canvas");
+    drawCurve(key, width, height, style, span) {
+      const canvas = this.cache === null ? document.createElement("canvas") : this.cache.canvas;
       canvas.width = width;
       canvas.height = height;
       this.cache = {key, canvas};
       const ctx = canvas.getContext("2d");
-      const parts = extent(this.curve.times, this.curve.numbers, this.end, width);
+      const parts = extent(this.curve.times, this.curve.numbers(), span, width);
       if (parts.length === 0) return;
       let low = Math.min(...parts.map((part) => part[1]));
       let high = Math.max(...parts.map((part) => part[2]));

@@ -298,9 +298,21 @@ const Robots = (function () {
     }
   }
 
-  // The robot of another run, over this one's: half transparent, as SceneSnapshot::ghosts.
-  function drawGhost(ctx, view, robot, t) {
+  // Marks a robot that a person steers: four arrows on a disc beside it.
+  function drawSteered(ctx, view, robot, t) {
     const X = robot.at(t);
+    const [x, y] = view.point([X.x, X.y]);
+    const size = Math.max(11 * view.unit, 8);
+    const center = [x + markedRadius(view, robot) + 20 * view.unit + size, y];
+    disc(ctx, center, size, colour("light"));
+    ring(ctx, center, size, view.line(1.6), mix(robot.colour, colour("ink"), 0.3));
+    const arrows = [[1, 0], [0, 1], [-1, 0], [0, -1]].map(([c, s]) => [[0.78, 0], [0.32, 0.36], [0.32, -0.36]]
+      .map(([u, v]) => [center[0] + size * (u * c - v * s), center[1] + size * (u * s + v * c)]));
+    fill(ctx, pathOf(arrows), colour("ink"));
+  }
+
+  // The robot at another pose or of another run, half transparent, as SceneSnapshot::ghosts.
+  function drawGhost(ctx, view, robot, X) {
     const onBody = ([x, y]) => view.point(place(X, x, y));
     const dark = mix(robot.colour, colour("wheel"), 0.5);
     const area = pathOf(robot.parts.map((part) => part.map(onBody)));
@@ -311,5 +323,5 @@ const Robots = (function () {
   }
 
   return {disc, ring, line, markedRadius, scansAt, drawFans, drawCones, drawSurfaces, simplified,
-    drawTrail, drawRobot, drawGhost};
+    drawTrail, drawRobot, drawSteered, drawGhost};
 })();

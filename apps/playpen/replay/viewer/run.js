@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A run: columns over time.
+// A run: columns over time. A live run grows by parts: append(); trim() bounds its memory.
 // Times are in seconds, lengths in m, angles in rad.
 "use strict";
 
@@ -8,9 +8,15 @@ const Runs = (function () {
   const kAngle = Math.PI / 18000;
   const kMicrosecond = 1e-6;
   const kNoNumber = -2147483648;
+  const kTurn = Math.round(2 * Math.PI / kAngle);
   const kJump = 0.3; // a robot that moves so much farther than at twice its speed was placed [m]
 
-  // Numbers in a typed array, times a unit.
+  // What a live run remembers; of a full list, the older half is dropped.
+  const kMost = {robotFrames: 2e6, frames: 1e5, records: 20000, deviceNumbers: 1e6, numbers: 16e6,
+    commands: 5000, output: 4000, events: 4000, spoken: 2000, collisions: 1000, goals: 1000,
+    texts: 1000};
+
+  // Numbers in a typed array, times a unit. The array may be longer than the numbers.
   class Numbers {
     constructor(values, unit = 1) {
       this.values = values;
@@ -21,6 +27,37 @@ const Runs = (function () {
     at(i) {
       const value = this.values[i];
       return value === kNoNumber ? NaN : value * this.unit;
+    }
+
+    reserve(length, Type = this.values.constructor) {
+      if (length <= this.values.length && this.values instanceof Type) return;
+      const room = new Type(Math.max(length, 2 * this.length));
+      room.set(this.values.subarray(0, this.length));
+      this.values = room;
+    }
+
+    // @param values  times `unit`. Numbers of different units are stored with the unit 1.
+    append(values, unit = this.unit) {
+      const length = this.length + values.length;
+      if (unit !== this.unit) {
+        if (this.unit !== 1 || !(this.values instanceof Float64Array)) {
+          this.values = Float64Array.from({length: this.length}, (none, i) => this.at(i));
+          this.unit = 1;
+        }
+        this.reserve(length);
+        const added = new Numbers(values, unit);
+        for (let i = 0; i < values.length; ++i) this.values[this.length + i] = added.at(i);
+      } else {
+        this.reserve(length, values instanceof Float64Array ? Float64Array : undefined);
+        this.values.set(values, this.length);
+      }
+      this.length = length;
+    }
+
+    // Forgets the first `count` numbers.
+    drop(count) {
+      this.values.copyWithin(0, count, this.length);
+      this.length -= count;
     }
   }
 
@@ -51,22 +88,52 @@ const Runs = (function () {
     }
   }
 
+  // Where records begin in an array of all their elements, and where the last one ends.
+  class Begins extends Numbers {
+    constructor(counts) {
+      super(new Float64Array(1));
+      this.append(counts);
+    }
+
+    append(counts) {
+      this.reserve(this.length + counts.length);
+      for (let i = 0; i < counts.length; ++i, ++this.length) {
+        this.values[this.length] = this.values[this.length - 1] + counts[i];
+      }
+    }
+
+    // Forgets the first `count` records. Returns how many elements they had.
+    drop(count) {
+      super.drop(count);
+      const first = this.values[0];
+      for (let i = 0; i < this.length; ++i) this.values[i] -= first;
+      return first;
+    }
+  }
+
   // Records of whole numbers, each valid from its time on.
   class ChangeLog {
     constructor(times, lengths, values) {
       this.times = times;
-      this.values = values;
-      this.begins = [];
-      let begin = 0;
-      for (let i = 0; i < lengths.length; ++i) {
-        this.begins.push(begin);
-        begin += lengths[i];
-      }
-      this.begins.push(begin);
+      this.numbers = new Numbers(values);
+      this.begins = new Begins(lengths);
+    }
+
+    append(json, column) {
+      this.times.append(column(json.t));
+      this.begins.append(column(json.n));
+      this.numbers.append(column(json.v));
+    }
+
+    trim() {
+      if (this.times.length <= kMost.records) return;
+      const count = this.times.length >> 1;
+      this.times.drop(count);
+      this.numbers.drop(this.begins.drop(count));
     }
 
     record(i) {
-      return this.values.subarray(this.begins[i], this.begins[i + 1]);
+      return this.numbers.values.subarray(this.begins.values[i], this.begins.values[i + 1]);
     }
 
     // The record at t; the first one before its time; null if there is none.
@@ -78,6 +145,19 @@ const Runs = (function () {
   function posesOf(json, column) {
     return {x: new Numbers(column(json.x), kPlace), y: new Numbers(column(json.y), kPlace),
       a: new Numbers(column(json.a), kAngle)};
+  }
+
+  // Headings of a part begin within half a turn of 0. They go on within half a turn of the last one.
+  function appendPoses(to, json, column) {
+    to.x.append(column(json.x));
+    to.y.append(column(json.y));
+    const values = column(json.a);
+    const {a} = to;
+    const last = a.length > 0 ? a.values[a.length - 1] : 0;
+    const turns = values.length > 0 ? Math.round((last - values[0]) / kTurn) * kTurn : 0;
+    // After many turns, 32 bits do not suffice.
+    a.append(Math.abs(turns) > 1e9 ? Float64Array.from(values, (value) => value + turns)
+      : values.map((value) => value + turns));
   }
 
   // A robot over the frames of its run.
@@ -98,6 +178,17 @@ const Runs = (function () {
       this.stalled = new Numbers(column(json.stalled));
       this.looks = log(json.looks);
       this.radius = Math.max(...[].concat(...this.parts).map(([x, y]) => Math.hypot(x, y)));
+    }
+
+    append(json, column) {
+      appendPoses(this, json.poses, column);
+      for (const name of ["v", "side", "w", "stalled"]) this[name].append(column(json[name]));
+      this.looks.append(json.looks, column);
+    }
+
+    // Forgets the first `count` frames.
+    drop(count) {
+      for (const name of ["x", "y", "a", "v", "side", "w", "stalled"]) this[name].drop(count);
     }
 
     // Pose and velocity at t, between two frames linearly.
@@ -141,10 +232,10 @@ const Runs = (function () {
   const kStates = ["standing", "retracted", "rising", "sinking", "waiting"];
 
   class Obstacle {
-    constructor(json, period, log) {
+    constructor(json, frames, log) {
       Object.assign(this, json);
       this.height = json.height * 1e-3;
-      this.period = period;
+      this.frames = frames;
       this.log = log(json.log);
     }
 
@@ -152,7 +243,8 @@ const Runs = (function () {
       const times = this.log.times;
       const i = Math.max(times.before(t), 0);
       const now = this.log.record(i);
-      const moves = i + 1 < times.length && times.at(i + 1) - times.at(i) < 1.5 * this.period;
+      const moves = i + 1 < times.length &&
+        this.frames.before(times.at(i + 1)) - this.frames.before(times.at(i)) <= 1;
       const next = moves ? this.log.record(i + 1) : now;
       const share = moves ? times.share(i, t) : 0;
       const mix = (k) => now[k] + (next[k] - now[k]) * share;
@@ -176,21 +268,67 @@ const Runs = (function () {
       this.times = new Timeline(column(json.t));
       this.series = json.series.map((one) => ({name: one.name, unit: one.unit, words: one.words,
         numbers: new Numbers(column(one.v), one.scale)}));
-      this.lists = json.lists.map((one) => {
-        const counts = column(one.n);
-        const begins = new Float64Array(counts.length + 1);
-        for (let i = 0; i < counts.length; ++i) begins[i + 1] = begins[i] + counts[i];
-        return {name: one.name, unit: one.unit, begins, numbers: new Numbers(column(one.v), one.scale)};
-      });
+      this.lists = json.lists.map((one) => ({name: one.name, unit: one.unit,
+        begins: new Begins(column(one.n)), numbers: new Numbers(column(one.v), one.scale),
+        least: new Numbers(new Float64Array(0))}));
       this.beams = json.beams
         ? Object.assign({}, json.beams, posesOf(json.beams.poses, column)) : null;
+    }
+
+    // Series and lists that are new have had no values so far.
+    append(json, column) {
+      const before = this.times.length;
+      this.times.append(column(json.t));
+      (json.series || []).forEach((one, i) => {
+        if (i === this.series.length) {
+          this.series.push({name: one.name, unit: one.unit, words: one.words || [],
+            numbers: new Numbers(new Int32Array(before).fill(kNoNumber), one.scale)});
+        }
+        this.series[i].numbers.append(column(one.v), one.scale);
+      });
+      (json.lists || []).forEach((one, i) => {
+        if (i === this.lists.length) {
+          this.lists.push({name: one.name, unit: one.unit, begins: new Begins(new Int32Array(before)),
+            numbers: new Numbers(new Int32Array(0), one.scale), least: new Numbers(new Float64Array(0))});
+        }
+        this.lists[i].begins.append(column(one.n));
+        this.lists[i].numbers.append(column(one.v), one.scale);
+      });
+      if (this.beams !== null) appendPoses(this.beams, json.beams.poses, column);
+    }
+
+    // @param most  how many numbers may be kept.
+    trim(most) {
+      const sum = (all) => all.reduce((before, {numbers}) => before + numbers.length, 0);
+      if (sum(this.series) + sum(this.lists) <= most) return;
+      const count = this.times.length >> 1;
+      this.times.drop(count);
+      for (const {numbers} of this.series) numbers.drop(count);
+      for (const {begins, numbers, least} of this.lists) {
+        numbers.drop(begins.drop(count));
+        least.drop(Math.min(count, least.length));
+      }
+      if (this.beams !== null) for (const name of ["x", "y", "a"]) this.beams[name].drop(count);
     }
 
     // The numbers of a list in reading i.
     list(list, i) {
       const numbers = [];
-      for (let k = list.begins[i]; k < list.begins[i + 1]; ++k) numbers.push(list.numbers.at(k));
+      const end = list.begins.values[i + 1];
+      for (let k = list.begins.values[i]; k < end; ++k) numbers.push(list.numbers.at(k));
       return numbers;
+    }
+
+    // The least number of each reading of a list; NaN: it has none.
+    leastOf(list) {
+      const {least} = list;
+      const added = new Float64Array(this.times.length - least.length);
+      for (let i = 0; i < added.length; ++i) {
+        added[i] = NaN;
+        for (const value of this.list(list, least.length + i)) if (!(value >= added[i])) added[i] = value;
+      }
+      least.append(added);
+      return least;
     }
 
     // What the range sensor measured last before t, in W: {laser, origin, ends} or cones; null
@@ -243,34 +381,125 @@ const Runs = (function () {
       this.canvas = json.canvas;
       this.walls = wallsOf(json.arena.walls, column);
       this.frames = new Timeline(column(json.frames));
-      const period = this.frames.length > 1 ? this.frames.at(1) - this.frames.at(0) : 1;
       this.robots = json.robots.map((one) => new Robot(one, this.frames, column, log));
-      this.obstacles = json.obstacles.map((one) => new Obstacle(one, period, log));
+      this.obstacles = json.obstacles.map((one) => new Obstacle(one, this.frames, log));
       this.tracks = json.tracks;
       this.devices = json.devices.map((one) => new Device(one, column));
+      this.begin = 0;
+      this.ended = true; // a live run has not
       for (const name of ["collisions", "events", "spoken", "goals", "texts"]) {
-        this[name] = json[name].map((one) => Object.assign({}, one, {t: one.t * kMicrosecond}));
+        this[name] = json[name].map(timed);
       }
-      for (const goal of this.goals) {
-        goal.reached = goal.reached === null ? Infinity : goal.reached * kMicrosecond;
-      }
-      for (const text of this.texts) {
-        text.gone = text.gone === null ? Infinity : text.gone * kMicrosecond;
-      }
+      this.dropped = {goals: 0, texts: 0};
       this.traps = json.traps;
       this.trapStates = log(json.trap_states);
       this.timers = json.timers;
       this.timerDues = log(json.timer_dues);
       this.scores = log(json.scores);
       this.verdict = json.verdict || null;
-      this.commands = {times: new Timeline(column(json.commands.t)),
-        device: column(json.commands.device), text: column(json.commands.text),
-        texts: json.commands.texts};
-      this.commandsOf = grouped(this.commands.times,
-        (i) => this.devices[this.commands.device[i]].robot);
-      this.output = json.output.map(([t, text, error]) => ({t: t * kMicrosecond, text,
-        error: error === 1}));
+      const {commands} = json;
+      this.commands = {times: new Timeline(column(commands.t)), device: new Numbers(column(commands.device)),
+        text: new Numbers(column(commands.text)), texts: commands.texts};
+      this.groupCommands();
+      this.output = json.output.map(printed);
       this.layers = json.layers.map((one) => new Layers.Tape(one, column));
+    }
+
+    groupCommands() {
+      this.commandsOf = grouped(this.commands.times,
+        (i) => this.devices[this.commands.device.values[i]].robot);
+      this.textIndices = null; // see appendCommands()
+    }
+
+    // Adds what is new in a live run. Returns what happened, as happenings() does.
+    append(json, file) {
+      const column = (index) => file.column(index);
+      this.end = json.end * kMicrosecond;
+      this.frames.append(column(json.frames));
+      json.robots.forEach((one, i) => this.robots[i].append(one, column));
+      for (const {i, log} of json.obstacles) this.obstacles[i].log.append(log, column);
+      for (const one of json.devices) this.devices[one.i].append(one, column);
+      this.appendCommands(json.commands, column);
+      this.trapStates.append(json.trap_states, column);
+      this.timerDues.append(json.timer_dues, column);
+      this.scores.append(json.scores, column);
+      this.notes.push(...json.notes);
+      this.output.push(...json.output.map(printed));
+      this.verdict = json.verdict || this.verdict;
+      for (const one of json.layers) {
+        if (one.i < this.layers.length) this.layers[one.i].append(one, column);
+        else this.layers.push(new Layers.Tape(one, column));
+      }
+      const added = {};
+      for (const name of ["collisions", "events", "spoken"]) {
+        added[name] = json[name].map(timed);
+        this[name].push(...added[name]);
+      }
+      const goals = this.replace("goals", json.goals_from, json.goals);
+      added.goals = this.goals.slice(json.goals_from - this.dropped.goals)
+        .filter((goal, i) => goals[i] === undefined || goals[i].reached === Infinity);
+      this.replace("texts", json.texts_from, json.texts);
+      this.trim();
+      return this.happeningsIn(added);
+    }
+
+    // Replaces a list's elements from an index on. Returns the replaced ones.
+    replace(name, from, json) {
+      return this[name].splice(Math.max(from - this.dropped[name], 0), Infinity, ...json.map(timed));
+    }
+
+    appendCommands(json, column) {
+      const {times, device, text, texts} = this.commands;
+      if (this.textIndices === null) this.textIndices = new Map(texts.map((one, i) => [one, i]));
+      const indices = json.texts.map((one) => {
+        if (!this.textIndices.has(one)) this.textIndices.set(one, texts.push(one) - 1);
+        return this.textIndices.get(one);
+      });
+      const first = times.length;
+      times.append(column(json.t));
+      device.append(column(json.device));
+      text.append(column(json.text).map((i) => indices[i]));
+      for (let i = first; i < times.length; ++i) {
+        const {robot} = this.devices[device.values[i]];
+        if (!this.commandsOf.has(robot)) this.commandsOf.set(robot, []);
+        this.commandsOf.get(robot).push(i);
+      }
+    }
+
+    trim() {
+      const frames = this.frames.length;
+      if (frames > Math.min(kMost.frames, kMost.robotFrames / this.robots.length)) {
+        this.frames.drop(frames >> 1);
+        for (const robot of this.robots) robot.drop(frames >> 1);
+        this.begin = this.frames.at(0);
+      }
+      for (const robot of this.robots) robot.looks.trim();
+      for (const obstacle of this.obstacles) obstacle.log.trim();
+      for (const log of [this.trapStates, this.timerDues, this.scores]) log.trim();
+      for (const device of this.devices) {
+        device.trim(Math.min(kMost.deviceNumbers, kMost.numbers / this.devices.length));
+      }
+      for (const name of ["output", "collisions", "events", "spoken", "goals", "texts"]) {
+        if (this[name].length <= kMost[name]) continue;
+        const gone = this[name].splice(0, this[name].length >> 1);
+        if (name in this.dropped) this.dropped[name] += gone.length;
+      }
+      if (this.commands.times.length > kMost.commands) this.dropCommands();
+    }
+
+    dropCommands() {
+      const {times, device, text, texts} = this.commands;
+      const count = times.length >> 1;
+      for (const numbers of [times, device, text]) numbers.drop(count);
+      const kept = [];
+      const places = new Map(); // of kept texts, by their old places
+      for (let i = 0; i < text.length; ++i) {
+        const old = text.values[i];
+        if (!places.has(old)) places.set(old, kept.push(texts[old]) - 1);
+        text.values[i] = places.get(old);
+      }
+      this.commands.texts = kept;
+      this.groupCommands();
     }
 
     robotNamed(name) {
@@ -289,8 +518,8 @@ const Runs = (function () {
         else high = middle;
       }
       return own.slice(Math.max(low - most, 0), low).reverse().map((i) => ({
-        t: this.commands.times.at(i), device: this.devices[this.commands.device[i]].name,
-        text: this.commands.texts[this.commands.text[i]]}));
+        t: this.commands.times.at(i), device: this.devices[this.commands.device.values[i]].name,
+        text: this.commands.texts[this.commands.text.values[i]]}));
     }
 
     // Countdowns of the arena controller's timers at t: {name, left}.
@@ -309,18 +538,34 @@ const Runs = (function () {
 
     // What happened, in order: {t, kind, text}; kind: "collision", "event", "goal" or "end".
     happenings() {
+      return this.happeningsIn(this).concat(
+        this.ended ? [{t: this.end, kind: "end", text: "end of the run"}] : []);
+    }
+
+    happeningsIn({collisions, events, spoken, goals}) {
       const names = this.robots.map((robot) => robot.name);
       const all = [].concat(
-        this.collisions.map((one) => ({t: one.t, kind: "collision",
+        collisions.map((one) => ({t: one.t, kind: "collision",
           text: names[one.robot] + " collides with " + one.partner})),
-        this.events.map((one) => ({t: one.t, kind: "event", text: one.text})),
-        this.spoken.map((one) => ({t: one.t, kind: "event",
+        events.map((one) => ({t: one.t, kind: "event", text: one.text})),
+        spoken.map((one) => ({t: one.t, kind: "event",
           text: names[one.robot] + " says: " + one.text})),
-        this.goals.filter((one) => one.reached < Infinity).map((one) => ({t: one.reached,
-          kind: "goal", text: names[one.robot] + " reaches its goal"})),
-        [{t: this.end, kind: "end", text: "end of the run"}]);
+        goals.filter((one) => one.reached < Infinity).map((one) => ({t: one.reached,
+          kind: "goal", text: names[one.robot] + " reaches its goal"})));
       return all.sort((a, b) => a.t - b.t);
     }
+  }
+
+  // An entry of a list with its times in seconds; null: never.
+  function timed(json) {
+    const one = Object.assign({}, json, {t: json.t * kMicrosecond});
+    for (const name of ["reached", "gone"]) {
+      if (name in json) one[name] = json[name] === null ? Infinity : json[name] * kMicrosecond;
+    }
+    return one;
+  }
+  function printed([t, text, error]) {
+    return {t: t * kMicrosecond, text, error: error === 1};
   }
 
   function wallsOf(json, column) {
@@ -337,5 +582,5 @@ const Runs = (function () {
     return loops;
   }
 
-  return {Numbers, Timeline, ChangeLog, Robot, Obstacle, Device, Run, colourOf};
+  return {kMost, Numbers, Timeline, Begins, ChangeLog, Robot, Obstacle, Device, Run, colourOf};
 })();

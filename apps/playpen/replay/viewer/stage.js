@@ -49,11 +49,16 @@ const Stages = (function () {
     // @param runs  the first one with its arena; further ones are drawn as ghosts.
     constructor(canvas, runs) {
       this.canvas = canvas;
-      this.runs = runs;
       this.view = new Views.View();
+      this.show(runs);
+    }
+
+    // The view stays as it is.
+    show(runs) {
+      this.runs = runs;
       this.ground = new Cache();
       this.solids = new Cache();
-      this.layers = runs[0].layers.map((tape) => new LayerPicture(tape));
+      this.layers = [];
       this.hasLaser = runs[0].robots.map((robot, i) => runs[0].devices.some((device) =>
         device.robot === i && device.beams !== null && device.beams.step > 0));
     }
@@ -80,7 +85,8 @@ const Stages = (function () {
     }
 
     // @param options  trail [s], scans, names, selected, hidden (names of layers), paper; frame:
-    //     whether to draw what lies beside the arena, the scale and the countdowns.
+    //     whether to draw what lies beside the arena, the scale and the countdowns; steered (indices
+    //     of robots), placing ({robot, pose}, or null).
     draw(t, options) {
       const ratio = this.canvas.width / Math.max(this.view.width, 1);
       this.drawOn(this.canvas.getContext("2d"), ratio, t, options);
@@ -138,10 +144,14 @@ const Stages = (function () {
       Marks.drawMovers(ctx, view, blocks);
       if (options.scans) Robots.drawSurfaces(ctx, view, run, scans);
       for (const other of others) {
-        other.robots.forEach((one) => Robots.drawGhost(ctx, view, one, t));
+        other.robots.forEach((one) => Robots.drawGhost(ctx, view, one, one.at(t)));
       }
       run.robots.forEach((robot, i) => Robots.drawRobot(ctx, view, robot, t,
         {selected: options.selected === i, hasLaser: this.hasLaser[i]}));
+      options.steered.forEach((i) => Robots.drawSteered(ctx, view, run.robots[i], t));
+      if (options.placing !== null && options.placing.pose !== null) {
+        Robots.drawGhost(ctx, view, run.robots[options.placing.robot], options.placing.pose);
+      }
       Marks.drawGoals(ctx, view, run, t);
       Marks.drawCollisions(ctx, view, run, t);
       Marks.drawEvents(ctx, view, run, blocks, t);
@@ -164,7 +174,10 @@ const Stages = (function () {
 
     // @param hidden  names of layers.
     drawLayers(ctx, t, hidden) {
-      const {canvas} = this.runs[0];
+      const {canvas, layers} = this.runs[0];
+      while (this.layers.length < layers.length) {
+        this.layers.push(new LayerPicture(layers[this.layers.length]));
+      }
       const view = this.view;
       const cell = canvas.cell * view.scale;
       const [left, bottom] = view.point(canvas.origin);
@@ -236,11 +249,14 @@ const Stages = (function () {
       return best;
     }
 
-    // Lets pointers move and zoom the picture. @param on  {changed(), picked(robot)}
+    // Lets pointers move and zoom the picture. @param on  {changed(), picked(robot, place)}; tool(view)
+    //     may return {hover, down, move, up}, which get the place in the world instead.
     listen(on, time) {
       const canvas = this.canvas;
       const pointers = new Map();
       let moved = 0;
+      let tool = null; // of the present gesture
+      const place = (event) => this.view.world(...at(event));
       const at = (event) => {
         const box = canvas.getBoundingClientRect();
         return [event.clientX - box.left, event.clientY - box.top];
@@ -248,10 +264,17 @@ const Stages = (function () {
       canvas.addEventListener("pointerdown", (event) => {
         pointers.set(event.pointerId, at(event));
         canvas.setPointerCapture(event.pointerId);
+        tool = pointers.size === 1 ? on.tool(this.view) : null;
+        if (tool !== null) tool.down(place(event));
         if (pointers.size === 1) moved = 0;
       });
       canvas.addEventListener("pointermove", (event) => {
+        if (pointers.size === 0 && on.tool(this.view) !== null) on.tool(this.view).hover(place(event));
         if (!pointers.has(event.pointerId)) return;
+        if (tool !== null) {
+          tool.move(place(event));
+          return;
+        }
         const before = [...pointers.values()];
         const old = pointers.get(event.pointerId);
         const now = at(event);
@@ -270,8 +293,10 @@ const Stages = (function () {
         on.changed();
       });
       const end = (event) => {
-        if (!pointers.delete(event.pointerId) || event.type !== "pointerup" || moved > 4) return;
-        on.picked(this.robotAt(...at(event), time()));
+        if (!pointers.delete(event.pointerId) || event.type !== "pointerup") return;
+        if (tool !== null) tool.up();
+        else if (moved <= 4) on.picked(this.robotAt(...at(event), time()), place(event));
+        tool = null;
       };
       canvas.addEventListener("pointerup", end);
       canvas.addEventListener("pointercancel", end);

@@ -137,6 +137,19 @@ void read_rules(Variables& variables, TaskRules& rules) {
   });
 }
 
+// The sockets to the processes that show the run.
+void read_sockets(Variables& variables, RunSettings& settings) {
+  const auto parse_descriptor = [](const std::string& text, int& descriptor) {
+    return parse_whole(text, descriptor) && descriptor > 2;
+  };
+  variables.read("PLAYPEN_VIEW",
+                 "the number of a descriptor above 2, as playpen run --view sets it",
+                 into<int>(settings.view_socket, parse_descriptor));
+  variables.read("PLAYPEN_PAGE",
+                 "the number of a descriptor above 2, as playpen run --page sets it",
+                 into<int>(settings.page_socket, parse_descriptor));
+}
+
 /// Reads at which state a run begins, and at which time it stops. @pre The grading is known.
 void read_start_and_stop(Variables& variables, RunSettings& settings) {
   settings.start_state = environment("PLAYPEN_START");
@@ -365,15 +378,7 @@ RunSettings RunSettings::from_environment() {
                  });
   variables.read("PLAYPEN_SILENCE_LIMIT", "a number of seconds in (0, 1e9]",
                  into<double>(settings.silence_limit_s, parse_positive_seconds));
-  const auto parse_descriptor = [](const std::string& text, int& descriptor) {
-    return parse_whole(text, descriptor) && descriptor > 2;
-  };
-  variables.read("PLAYPEN_VIEW",
-                 "the number of a descriptor above 2, as playpen run --view sets it",
-                 into<int>(settings.view_socket, parse_descriptor));
-  variables.read("PLAYPEN_PAGE",
-                 "the number of a descriptor above 2, as playpen run --page sets it",
-                 into<int>(settings.page_socket, parse_descriptor));
+  read_sockets(variables, settings);
   settings.output_folder = environment("PLAYPEN_OUT");
   settings.kept_run = environment("PLAYPEN_STATE");
   settings.film = environment("PLAYPEN_RECORD");

@@ -29,7 +29,7 @@ void Host::Core::check_silence() {
 void Host::Core::make_stop() {
   stop_ns_.reset();
   if (settings_.stop->then == RunStop::Then::kView) {
-    if (window_) pace_.set_paused(true);
+    if (window_ || page_) pace_.set_paused(true);
   } else if (tracer_of(0) != 0) {
     static_cast<void>(raise(SIGTRAP));  // the debugger takes it
   }

@@ -69,6 +69,7 @@ void Inputs::apply(Client& client) {
 }
 
 std::optional<std::string> Inputs::execute(DeviceId device, const sim::Command& command) {
+  if (on_command) on_command(device, command);
   if (mirror_ != nullptr) {
     if (auto executed = mirror_->take_command(device, command)) return *std::move(executed);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -9,7 +10,7 @@
 #include "host/stepping/clients.h"
 #include "host/stepping/command_book.h"
 #include "host/stepping/commanders.h"
-#include "host/window/view_controls.h"
+#include "host/stepping/hand_drive.h"
 #include "playerlike/session/layer_registry.h"
 
 namespace playerlike {
@@ -65,8 +66,10 @@ class Inputs {
   /// The clients' commands so far.
   CommandBook commands;
   Commanders commanders;
-  /// Steering by hand; only in a run with a window.
+  /// Steering by hand; only in a run with a window or a page.
   std::optional<HandDrive> hand;
+  /// Called for each command that is executed; may be empty.
+  std::function<void(DeviceId, const sim::Command&)> on_command;
 
  private:
   sim::Simulation& simulation_;

@@ -38,10 +38,10 @@ class Pace {
   [[nodiscard]] bool watched(sim::SimTime now_ns) const noexcept {
     return watched_from_ns_ && now_ns >= *watched_from_ns_;
   }
-  /// For runs in lockstep: whether the next step has to wait, because people watch. If not, the
-  /// step begins now.
+  /// For runs in lockstep: whether the next step has to wait, because people watch or have paused
+  /// the run. If not, the step begins now.
   [[nodiscard]] bool is_too_early(sim::SimTime now_ns, Time now) {
-    if (!watched(now_ns)) return false;
+    if (!watched(now_ns) && !paused_) return false;
     if (paused_) begin_at(now);
     if (paused_ || now < due()) return true;
     begin_step(now);

@@ -1,14 +1,12 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "host/window/frame_link.h"
 #include "playerlike/view/protocol.h"
 #include "sim/render/render.h"
 #include "sim/simulation/scene_snapshot.h"
@@ -47,49 +45,35 @@ class ViewedRun {
   virtual void on_lost(const std::string& reason) = 0;
 };
 
-/// A run's end of the connection to the process that shows its window.
-///
-/// Its thread handles the viewer's messages. At most 30 times per wall-clock second, and only when
-/// the viewer has shown the last picture, it asks the run for a scene, draws it and sends it.
-/// Sending never blocks, so a viewer that hangs gets no further pictures. If the viewer ends or
-/// sends an invalid message, the run is notified (on_lost) and the connection is closed.
-class ViewerLink {
+/// A run's end of the connection to the process that shows its window (playerlike/view/protocol.h).
+/// The next frame is made only when the viewer has shown the last one.
+class ViewerLink final : public FrameLink {
  public:
-  /// @param socket  a connected stream socket, owned by the link from now on; close-on-exec is set.
-  /// @throws std::runtime_error if it is not a socket.
+  /// @param socket  as FrameLink. @throws std::runtime_error as FrameLink.
   ViewerLink(int socket, ViewedRun& run);
-  ViewerLink(const ViewerLink&) = delete;
-  ViewerLink& operator=(const ViewerLink&) = delete;
   /// Closes the connection, which closes the window, and ends the thread.
-  ~ViewerLink();
+  ~ViewerLink() override;
+
+ protected:
+  [[nodiscard]] bool handle_messages(std::string& received, bool& garbage) override;
+  [[nodiscard]] bool wants_frame() const override {
+    return renderer_ && !last_frame_ && shown_ == number_;
+  }
+  [[nodiscard]] std::string make_frame() override;
+  /// The last picture is on the screen: closing the connection closes the window.
+  [[nodiscard]] bool is_done() const override { return last_frame_ && shown_ == number_; }
+  void on_lost(const std::string& reason) override { run_.on_lost(reason); }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  void serve();
-  /// Waits until the socket is readable or writable, a frame is due, or the thread must end.
-  void wait_for_work();
-  /// @return false if the connection is over.
-  [[nodiscard]] bool receive();
   [[nodiscard]] bool handle(const view::ViewerMessage& message);
-  [[nodiscard]] bool frame_is_due() const;
-  void draw_frame();
-  void send_some();
   void save_picture(const std::string& file);
 
-  int socket_ = -1;
-  int stop_ = -1;  ///< eventfd: readable when the thread must end
   ViewedRun& run_;
-  std::string received_;
-  std::string outgoing_;                                ///< a frame that is being sent
-  std::size_t sent_ = 0;                                ///< bytes of it sent so far
   sim::render::Image image_;                            ///< of the newest frame
   std::uint32_t number_ = 0;                            ///< of the newest frame
   std::uint32_t shown_ = 0;                             ///< the newest frame on the screen
   std::optional<sim::render::SceneRenderer> renderer_;  ///< unset until the viewer has said hello
   bool last_frame_ = false;  ///< the last frame of the finished run was drawn
-  Clock::time_point next_frame_{};
-  std::thread thread_;
 };
 
 }  // namespace playerlike

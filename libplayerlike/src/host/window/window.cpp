@@ -13,12 +13,7 @@
 
 namespace playerlike {
 
-Host::Core::Window::Window(Core& core, int socket)
-    : core_(core),
-      hand_(core.inputs_.hand.emplace(core.robots_,
-                                      [this](DeviceId device, const sim::Command& command) {
-                                        static_cast<void>(core_.inputs_.execute(device, command));
-                                      })) {
+Host::Core::Window::Window(Core& core, int socket) : core_(core), hand_(*core.inputs_.hand) {
   link_ = std::make_unique<ViewerLink>(socket, *this);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "host/core.h"
+#include "host/window/view_controls.h"
 #include "host/window/viewer_link.h"
 
 namespace playerlike {
@@ -37,7 +38,7 @@ class Host::Core::Window final : public ViewedRun {
   void tell(const std::string& text);
 
   Core& core_;
-  HandDrive& hand_;
+  KeyDrive hand_;
   bool help_ = true;     ///< shown
   std::string message_;  ///< shown until the time below
   WallClock::time_point message_end_{};

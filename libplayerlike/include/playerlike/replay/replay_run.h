@@ -20,7 +20,7 @@
 
 /// What a replay shows of a run. Plain data; lengths in m, angles in rad, poses in W unless a
 /// comment says otherwise.
-namespace playpen::replay {
+namespace playerlike::replay {
 
 /// Units of the whole numbers in change logs and columns.
 inline constexpr double kPlaceUnit_m = 1e-4;                               ///< [m]
@@ -40,7 +40,17 @@ class ChangeLog {
   /// The length of all records; nullopt if they differ.
   [[nodiscard]] std::optional<std::size_t> common_length() const;
 
+  /// The records since the last call of take(), which are removed here, except for the newest one.
+  [[nodiscard]] ChangeLog take();
+  /// The newest record only.
+  [[nodiscard]] ChangeLog newest() const {
+    return from(times_ns_.empty() ? 0 : times_ns_.size() - 1);
+  }
+
  private:
+  [[nodiscard]] ChangeLog from(std::size_t first) const;
+
+  std::size_t taken_ = 0;  ///< records at the begin that take() has returned: 0 or 1
   std::vector<sim::SimTime> times_ns_;
   std::vector<std::int64_t> lengths_;
   std::vector<std::int64_t> values_;
@@ -82,6 +92,9 @@ struct DeviceLog {
   std::vector<sim::Pose> X_WB;         ///< of range sensors: the robot's pose at these times
   std::vector<Series> series;
   std::vector<ListSeries> lists;
+  /// Of a part of a run: how many of the series and lists occur in earlier parts.
+  std::size_t known_series = 0;
+  std::size_t known_lists = 0;
 };
 
 /// A robot's motion, one element per frame.
@@ -141,6 +154,7 @@ struct LayerLog {
   int width = 0;                     ///< columns
   int height = 0;                    ///< rows
   std::vector<LayerChange> changes;  ///< in the order of time
+  bool is_known = false;             ///< of a part of a run: it occurs in earlier parts
 };
 
 /// A text of the arena controller.
@@ -178,6 +192,10 @@ struct ReplayRun {
   std::vector<OutputLine> output;
   std::vector<LayerLog> layers;
   std::vector<std::string> notes;  ///< what was left out, in words
+  /// Of a part of a run, see ReplayBuilder::take(): the numbers of the first elements of `goals`
+  /// and `texts` among all of the run.
+  std::size_t first_goal = 0;
+  std::size_t first_text = 0;
 };
 
-}  // namespace playpen::replay
+}  // namespace playerlike::replay

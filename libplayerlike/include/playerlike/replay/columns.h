@@ -9,7 +9,7 @@
 #include <vector>
 
 /// The encoding of a replay's numbers. viewer/columns.js decodes it.
-namespace playpen::replay {
+namespace playerlike::replay {
 
 /// Columns of whole numbers, as bytes.
 ///
@@ -50,8 +50,4 @@ inline constexpr std::int64_t kNoNumber = -(std::int64_t{1} << 31);
 /// @pre unit > 0
 [[nodiscard]] std::int64_t quantised(double value, double unit);
 
-/// The bytes in zlib's format (RFC 1950), compressed at zlib's default level.
-/// @throws std::bad_alloc if there is no memory.
-[[nodiscard]] std::vector<std::uint8_t> deflated(std::string_view bytes);
-
-}  // namespace playpen::replay
+}  // namespace playerlike::replay

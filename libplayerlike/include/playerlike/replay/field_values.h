@@ -10,7 +10,7 @@
 #include "sim/core/fields.h"
 #include "sim/devices/device.h"
 
-namespace playpen::replay {
+namespace playerlike::replay {
 
 /// A list of more numbers than this is a list; a shorter one is as many single values.
 inline constexpr std::size_t kMostListedNumbers = 8;
@@ -38,4 +38,4 @@ void visit_values(
 /// A command in words: "twist v=0.3 omega=-0.1". Numbers have four significant digits.
 [[nodiscard]] std::string text_of(const sim::Command& command);
 
-}  // namespace playpen::replay
+}  // namespace playerlike::replay

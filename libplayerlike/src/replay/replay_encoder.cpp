@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "replay/replay_encoder.h"
+#include "playerlike/replay/replay_encoder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +10,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "replay/columns.h"
+#include "playerlike/replay/columns.h"
 #include "sim/render/palette.h"
 #include "sim/world/outline.h"
 
-namespace playpen::replay {
+namespace playerlike::replay {
 namespace {
 
 using nlohmann::json;
@@ -79,8 +79,16 @@ class RunEncoder {
                 {"obstacles", obstacles()},
                 {"tracks", json::array()},
                 {"devices", json::array()},
+                {"traps", json::array()},
+                {"timers", run_.timers},
                 {"notes", run_.notes}};
     for (const RobotLog& robot : run_.robots) out["robots"].push_back(of(robot));
+    for (const sim::TrapMark& trap : run_.traps) {
+      out["traps"].push_back({{"name", trap.name},
+                              {"outline", polygon_json(trap.outline)},
+                              {"center", {trap.center.x(), trap.center.y()}},
+                              {"radius", trap.radius_m}});
+    }
     for (const sim::ObstacleTrack& track : run_.tracks) {
       out["tracks"].push_back({{"obstacle", track.obstacle},
                                {"points", polygon_json(track.points)},
@@ -90,6 +98,37 @@ class RunEncoder {
     add_happenings(out);
     add_program(out);
     out["layers"] = layers();
+    return out;
+  }
+
+  // What a part of a run adds, see encoded_part().
+  json encode_part() {
+    json out = {{"end", run_.end_ns / kMicrosecond_ns},
+                {"frames", times(run_.frames_ns, frames_)},
+                {"robots", json::array()},
+                {"obstacles", json::array()},
+                {"devices", json::array()},
+                {"layers", json::array()},
+                {"notes", run_.notes}};
+    for (const RobotLog& robot : run_.robots) out["robots"].push_back(motion_of(robot));
+    const auto add = [](json& list, std::size_t index, json entry) {
+      entry["i"] = index;
+      list.push_back(std::move(entry));
+    };
+    for (std::size_t i = 0; i < run_.obstacles.size(); ++i) {
+      if (run_.obstacles[i].times_ns().empty()) continue;
+      add(out["obstacles"], i, {{"log", of(run_.obstacles[i])}});
+    }
+    for (std::size_t i = 0; i < run_.devices.size(); ++i) {
+      if (!run_.devices[i].times_ns.empty()) add(out["devices"], i, readings_of(run_.devices[i]));
+    }
+    for (std::size_t i = 0; i < run_.layers.size(); ++i) {
+      const LayerLog& layer = run_.layers[i];
+      if (layer.is_known && layer.changes.empty()) continue;
+      add(out["layers"], i, layer.is_known ? changes_of(layer) : of(layer));
+    }
+    add_happenings(out);
+    add_program(out);
     return out;
   }
 
@@ -192,14 +231,19 @@ class RunEncoder {
       lights.push_back(
           {{"place", {light.p_BL.x(), light.p_BL.y()}}, {"colour", text_json(light.colour)}});
     }
+    json out = {{"name", start.name},
+                {"colour", text_json(start.colour)},
+                {"parts", polygons_json(parts)},
+                {"core", polygon_json(core < parts.size() ? parts[core] : start.footprint)},
+                {"superstructures", polygons_json(start.superstructures)},
+                {"bumpers", bumpers},
+                {"lights", lights}};
+    out.update(motion_of(robot));
+    return out;
+  }
+
+  json motion_of(const RobotLog& robot) {
     return {
-        {"name", start.name},
-        {"colour", text_json(start.colour)},
-        {"parts", polygons_json(parts)},
-        {"core", polygon_json(core < parts.size() ? parts[core] : start.footprint)},
-        {"superstructures", polygons_json(start.superstructures)},
-        {"bumpers", bumpers},
-        {"lights", lights},
         {"poses", poses(robot.X_WB, frames_)},
         {"v", column(robot.twists, frames_,
                      [](const sim::Twist& t) { return quantised(t.v_mps, kPlaceUnit_m); })},
@@ -233,23 +277,35 @@ class RunEncoder {
   }
 
   json of(const DeviceLog& device) {
+    json out = {{"robot", device.robot}, {"name", device.name}, {"type", device.type}};
+    out.update(readings_of(device));
+    return out;
+  }
+
+  json readings_of(const DeviceLog& device) {
     const std::size_t stride = device.beams ? thinning_.scans : thinning_.samples;
     const std::vector<std::size_t> kept = kept_indices(device.times_ns.size(), stride, false);
-    json out = {{"robot", device.robot},   {"name", device.name},
-                {"type", device.type},     {"t", times(device.times_ns, kept)},
-                {"series", json::array()}, {"lists", json::array()}};
+    json out = {
+        {"t", times(device.times_ns, kept)}, {"series", json::array()}, {"lists", json::array()}};
     for (const Series& series : device.series) {
       const double unit = unit_of(series.values);
-      out["series"].push_back(
-          {{"name", series.name},
-           {"unit", series.unit},
-           {"words", series.words},
-           {"scale", unit},
-           {"v", column(series.values, kept, [unit](double v) { return quantised(v, unit); })}});
+      json one = {
+          {"scale", unit},
+          {"v", column(series.values, kept, [unit](double v) { return quantised(v, unit); })}};
+      if (out["series"].size() >= device.known_series) {
+        one.update({{"name", series.name}, {"unit", series.unit}, {"words", series.words}});
+      }
+      out["series"].push_back(std::move(one));
     }
     const bool is_laser = device.beams && device.beams->resolution_rad > 0.0;
     const std::size_t beams = is_laser ? thinning_.beams : 1;
-    for (const ListSeries& list : device.lists) out["lists"].push_back(of(list, kept, beams));
+    for (const ListSeries& list : device.lists) {
+      json one = of(list, kept, beams);
+      if (out["lists"].size() >= device.known_lists) {
+        one.update({{"name", list.name}, {"unit", list.unit}});
+      }
+      out["lists"].push_back(std::move(one));
+    }
     if (!device.beams) return out;
     json mounts = json::array();
     for (const sim::Pose& X_BS : device.beams->X_BS) {
@@ -280,9 +336,7 @@ class RunEncoder {
       }
       counts.push_back(static_cast<std::int64_t>(values.size() - before));
     }
-    return {{"name", list.name},
-            {"unit", list.unit},
-            {"scale", kRangeUnit},
+    return {{"scale", kRangeUnit},
             {"n", columns_.add(counts)},
             {"v", columns_.add(values, better_lag(counts, values))}};
   }
@@ -329,6 +383,8 @@ class RunEncoder {
                                {"robot", spoken.robot},
                                {"text", spoken.text}});
     }
+    out["goals_from"] = run_.first_goal;
+    out["texts_from"] = run_.first_text;
     out["goals"] = json::array();
     for (const GoalNote& goal : run_.goals) {
       out["goals"].push_back(
@@ -346,15 +402,7 @@ class RunEncoder {
            {"t", note.shown_ns / kMicrosecond_ns},
            {"gone", note.gone_ns ? json(*note.gone_ns / kMicrosecond_ns) : json()}});
     }
-    out["traps"] = json::array();
-    for (const sim::TrapMark& trap : run_.traps) {
-      out["traps"].push_back({{"name", trap.name},
-                              {"outline", polygon_json(trap.outline)},
-                              {"center", {trap.center.x(), trap.center.y()}},
-                              {"radius", trap.radius_m}});
-    }
     out["trap_states"] = of(run_.trap_states);
-    out["timers"] = run_.timers;
     out["timer_dues"] = of(run_.timer_dues);
     out["scores"] = of(run_.scores);
     if (run_.verdict) {
@@ -391,45 +439,46 @@ class RunEncoder {
 
   json layers() {
     json all = json::array();
-    for (const LayerLog& layer : run_.layers) {
-      std::vector<std::int64_t> at;
-      std::vector<std::int64_t> runs;
-      std::vector<std::int64_t> first;
-      std::vector<std::int64_t> count;
-      std::vector<std::int64_t> colour;
-      std::unordered_map<std::uint32_t, std::int64_t> known;
-      json palette = json::array();
-      for (const LayerChange& change : layer.changes) {
-        if (!thinning_.layers) break;
-        at.push_back(change.time_ns / kMicrosecond_ns);
-        runs.push_back(static_cast<std::int64_t>(change.runs.size()));
-        for (const CellRun& run : change.runs) {
-          const std::uint32_t rgba = (std::uint32_t{run.colour.r} << 24) |
-                                     (std::uint32_t{run.colour.g} << 16) |
-                                     (std::uint32_t{run.colour.b} << 8) | run.colour.a;
-          const auto [found, is_new] =
-              known.try_emplace(rgba, static_cast<std::int64_t>(known.size()));
-          if (is_new) palette.push_back(rgba);
-          first.push_back(run.first);
-          count.push_back(run.count);
-          colour.push_back(found->second);
-        }
-      }
-      all.push_back({{"name", layer.name},
-                     {"colour", text_json(layer.colour)},
-                     {"visible", layer.visible},
-                     {"priority", layer.priority},
-                     {"grey", layer.is_grey},
-                     {"width", layer.width},
-                     {"height", layer.height},
-                     {"t", columns_.add(at)},
-                     {"runs", columns_.add(runs)},
-                     {"first", columns_.add(first)},
-                     {"count", columns_.add(count)},
-                     {"colours", columns_.add(colour)},
-                     {"palette", palette}});
-    }
+    for (const LayerLog& layer : run_.layers) all.push_back(of(layer));
     return all;
+  }
+
+  json of(const LayerLog& layer) {
+    json out = {{"name", layer.name},       {"colour", text_json(layer.colour)},
+                {"visible", layer.visible}, {"priority", layer.priority},
+                {"grey", layer.is_grey},    {"width", layer.width},
+                {"height", layer.height}};
+    out.update(changes_of(layer));
+    return out;
+  }
+
+  json changes_of(const LayerLog& layer) {
+    std::vector<std::int64_t> at;
+    std::vector<std::int64_t> runs;
+    std::vector<std::int64_t> first;
+    std::vector<std::int64_t> count;
+    std::vector<std::int64_t> colour;
+    std::unordered_map<std::uint32_t, std::int64_t> known;
+    json palette = json::array();
+    for (const LayerChange& change : layer.changes) {
+      if (!thinning_.layers) break;
+      at.push_back(change.time_ns / kMicrosecond_ns);
+      runs.push_back(static_cast<std::int64_t>(change.runs.size()));
+      for (const CellRun& run : change.runs) {
+        const std::uint32_t rgba = (std::uint32_t{run.colour.r} << 24) |
+                                   (std::uint32_t{run.colour.g} << 16) |
+                                   (std::uint32_t{run.colour.b} << 8) | run.colour.a;
+        const auto [found, is_new] =
+            known.try_emplace(rgba, static_cast<std::int64_t>(known.size()));
+        if (is_new) palette.push_back(rgba);
+        first.push_back(run.first);
+        count.push_back(run.count);
+        colour.push_back(found->second);
+      }
+    }
+    return {{"t", columns_.add(at)},           {"runs", columns_.add(runs)},
+            {"first", columns_.add(first)},    {"count", columns_.add(count)},
+            {"colours", columns_.add(colour)}, {"palette", palette}};
   }
 
   const ReplayRun& run_;
@@ -437,6 +486,29 @@ class RunEncoder {
   Columns& columns_;
   std::vector<std::size_t> frames_;
 };
+
+json palette_json() {
+  json all = json::object();
+  for (const sim::render::palette::NamedColour& one : sim::render::palette::kAll) {
+    all[one.name] = text_json(one.colour);
+  }
+  return all;
+}
+
+// A head, and its columns after it.
+std::string joined(json head, const Columns& columns) {
+  head["format"] = 1;
+  head["columns"] = json::array();
+  for (const Columns::Entry& entry : columns.entries()) {
+    head["columns"].push_back({entry.offset, entry.count, entry.lag, entry.wide ? 1 : 0});
+  }
+  const std::string text = head.dump(-1, ' ', false, json::error_handler_t::replace);
+  std::string bytes;
+  for (int i = 0; i < 4; ++i) {
+    bytes += static_cast<char>((text.size() >> (8 * i)) & 0xff);
+  }
+  return bytes + text + columns.bytes();
+}
 
 }  // namespace
 
@@ -470,26 +542,27 @@ std::string encoded(const std::vector<ReplayRun>& runs, const Thinning& thinning
   Columns columns;
   std::string thinned = thinning.text();
   if (!note.empty()) thinned += (thinned.empty() ? "" : " ") + note;
-  json out = {{"format", 1},
-              {"thinned", thinned},
-              {"palette", json::object()},
-              {"runs", json::array()},
-              {"columns", json::array()}};
-  for (const sim::render::palette::NamedColour& one : sim::render::palette::kAll) {
-    out["palette"][one.name] = text_json(one.colour);
-  }
+  json head = {{"thinned", thinned}, {"palette", palette_json()}, {"runs", json::array()}};
   for (const ReplayRun& run : runs) {
-    out["runs"].push_back(RunEncoder(run, thinning, columns).encode());
+    head["runs"].push_back(RunEncoder(run, thinning, columns).encode());
   }
-  for (const Columns::Entry& entry : columns.entries()) {
-    out["columns"].push_back({entry.offset, entry.count, entry.lag, entry.wide ? 1 : 0});
-  }
-  const std::string text = out.dump(-1, ' ', false, json::error_handler_t::replace);
-  std::string bytes;
-  for (int i = 0; i < 4; ++i) {
-    bytes += static_cast<char>((text.size() >> (8 * i)) & 0xff);
-  }
-  return bytes + text + columns.bytes();
+  return joined(std::move(head), columns);
 }
 
-}  // namespace playpen::replay
+std::string encoded_whole(const ReplayRun& run, const std::string& live) {
+  Columns columns;
+  const Thinning all;
+  json head = {{"thinned", ""}, {"palette", palette_json()}, {"live", json::parse(live)}};
+  head["runs"] = {RunEncoder(run, all, columns).encode()};
+  return joined(std::move(head), columns);
+}
+
+std::string encoded_part(const ReplayRun& part, const std::string& live) {
+  Columns columns;
+  const Thinning all;
+  json head = {{"part", true}, {"live", json::parse(live)}};
+  head["runs"] = {RunEncoder(part, all, columns).encode_part()};
+  return joined(std::move(head), columns);
+}
+
+}  // namespace playerlike::replay

@@ -1,21 +1,22 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "replay/replay_builder.h"
+#include "playerlike/replay/replay_builder.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
-#include "replay/columns.h"
-#include "replay/field_values.h"
+#include "playerlike/replay/columns.h"
+#include "playerlike/replay/field_values.h"
 #include "sim/core/utf8.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/waypoint.h"
 
-namespace playpen::replay {
+namespace playerlike::replay {
 namespace {
 
 constexpr sim::SimTime kFramePeriod_ns = sim::kNanosecondsPerSecond / 20;
@@ -77,6 +78,14 @@ std::vector<std::int64_t> obstacle_record(const sim::ObstacleDescription& obstac
           state_code(obstacle, moving),
           obstacle.carried_by,
           obstacle.colour ? packed(*obstacle.colour) : -1};
+}
+
+std::vector<sim::Pose> places_of(const sim::Simulation& simulation) {
+  std::vector<sim::Pose> places;
+  for (int robot = 0; robot < simulation.robot_count(); ++robot) {
+    places.push_back(simulation.body(robot).X_WB);
+  }
+  return places;
 }
 
 std::optional<BeamGeometry> beams_of(const sim::Device& device) {
@@ -150,6 +159,25 @@ void ChangeLog::note(sim::SimTime time_ns, std::vector<std::int64_t> record) {
   values_.insert(values_.end(), record.begin(), record.end());
 }
 
+ChangeLog ChangeLog::from(std::size_t first) const {
+  ChangeLog log;
+  const auto at = static_cast<std::ptrdiff_t>(first);
+  log.times_ns_.assign(times_ns_.begin() + at, times_ns_.end());
+  log.lengths_.assign(lengths_.begin() + at, lengths_.end());
+  const auto begin = std::accumulate(lengths_.begin(), lengths_.begin() + at, std::ptrdiff_t{0});
+  log.values_.assign(values_.begin() + begin, values_.end());
+  return log;
+}
+
+ChangeLog ChangeLog::take() {
+  ChangeLog taken = from(taken_);
+  if (!taken.times_ns_.empty()) {
+    *this = newest();
+    taken_ = 1;
+  }
+  return taken;
+}
+
 std::optional<std::size_t> ChangeLog::common_length() const {
   if (lengths_.empty() ||
       std::ranges::adjacent_find(lengths_, std::not_equal_to<>()) != lengths_.end()) {
@@ -184,6 +212,10 @@ ReplayBuilder::ReplayBuilder(const sim::Simulation& simulation, ReplayOptions op
       if (own.beams) own.lists.push_back({"ranges", "m", {}, {}});
     }
   }
+  newest_reading_.resize(run_.devices.size(), 0);
+  taken_readings_.resize(run_.devices.size(), 0);
+  known_.resize(run_.devices.size());
+  history_.resize(run_.robots.size());
   goal_of_.resize(run_.robots.size(), sim::Vec2::Zero());
   newest_goal_.resize(run_.robots.size(), -1);
   tolerance_m_.resize(run_.robots.size(), 0.0);
@@ -200,12 +232,18 @@ void ReplayBuilder::observe(const sim::Simulation& simulation) {
     throw std::invalid_argument("a replay observed the time " + std::to_string(now_ns) +
                                 " ns after " + std::to_string(last_ns_) + " ns");
   }
-  for (const sim::Simulation::DeviceId id : simulation.updated()) add_reading(simulation, id);
+  if (options_.live) {
+    for (int robot = 0; robot < simulation.robot_count(); ++robot) {
+      for (int i = 0; i < simulation.device_count(robot); ++i) add_reading(simulation, {robot, i});
+    }
+  } else {
+    for (const sim::Simulation::DeviceId id : simulation.updated()) add_reading(simulation, id);
+  }
   add_happenings(simulation);
   add_goals(simulation);
   // A frame is due at the first step at or after each multiple of the period, and at the end.
-  const bool due =
-      run_.frames_ns.empty() || now_ns / kFramePeriod_ns > run_.frames_ns.back() / kFramePeriod_ns;
+  const bool due = options_.live || !last_frame_ns_ ||
+                   now_ns / kFramePeriod_ns > *last_frame_ns_ / kFramePeriod_ns;
   if (due || simulation.finished()) add_frame(simulation);
   observed_ = true;
   last_ns_ = now_ns;
@@ -213,19 +251,30 @@ void ReplayBuilder::observe(const sim::Simulation& simulation) {
 
 void ReplayBuilder::add_frame(const sim::Simulation& simulation) {
   const sim::SimTime now_ns = simulation.now_ns();
-  if (!run_.frames_ns.empty() && run_.frames_ns.back() == now_ns) return;
-  run_.frames_ns.push_back(now_ns);
+  // While a run is paused, people can still move robots and blocks, and draw.
+  const bool again = last_frame_ns_ == now_ns;
+  if (again && !options_.live) return;
+  last_frame_ns_ = now_ns;
+  if (!again || places_ != places_of(simulation)) add_poses(simulation);
+  for (int robot = 0; robot < simulation.robot_count(); ++robot) {
+    run_.robots[static_cast<std::size_t>(robot)].looks.note(
+        now_ns, look_of(simulation.robot_snapshot(robot)));
+  }
+  add_obstacles(simulation);
+  if (simulation.records_arena_events()) add_controller(simulation);
+  if (!layers_ended_) add_layers(layers_ != nullptr ? *layers_ : simulation.layers());
+}
+
+void ReplayBuilder::add_poses(const sim::Simulation& simulation) {
+  run_.frames_ns.push_back(simulation.now_ns());
   for (int robot = 0; robot < simulation.robot_count(); ++robot) {
     RobotLog& log = run_.robots[static_cast<std::size_t>(robot)];
     const sim::BodyState& body = simulation.body(robot);
     log.X_WB.push_back(body.X_WB);
     log.twists.push_back(body.twist);
     log.stalled.push_back(body.stalled ? 1 : 0);
-    log.looks.note(now_ns, look_of(simulation.robot_snapshot(robot)));
   }
-  add_obstacles(simulation);
-  if (simulation.records_arena_events()) add_controller(simulation);
-  if (!layers_ended_) add_layers(layers_ != nullptr ? *layers_ : simulation.layers());
+  if (options_.live) places_ = places_of(simulation);
 }
 
 void ReplayBuilder::add_obstacles(const sim::Simulation& simulation) {
@@ -278,8 +327,13 @@ void ReplayBuilder::add_reading(const sim::Simulation& simulation, sim::Simulati
   const sim::DeviceKind* const kind = sim::find_device_kind(device.type());
   if (device.sensor() == nullptr || kind == nullptr || kind->reading.fields == nullptr) return;
   const sim::Reading& reading = device.sensor()->reading();
-  DeviceLog& log = run_.devices[first_device_[static_cast<std::size_t>(id.robot)] +
-                                static_cast<std::size_t>(id.device)];
+  const std::size_t index =
+      first_device_[static_cast<std::size_t>(id.robot)] + static_cast<std::size_t>(id.device);
+  DeviceLog& log = run_.devices[index];
+  if (options_.live &&
+      std::exchange(newest_reading_[index], reading.sequence) == reading.sequence) {
+    return;
+  }
   // A reset can make the time of a late reading jump back; the replay shows readings in order.
   if (!log.times_ns.empty() && reading.time_ns < log.times_ns.back()) return;
   log.times_ns.push_back(reading.time_ns);
@@ -385,4 +439,4 @@ ReplayRun ReplayBuilder::finish(const sim::Simulation& simulation) {
   return std::move(run_);
 }
 
-}  // namespace playpen::replay
+}  // namespace playerlike::replay

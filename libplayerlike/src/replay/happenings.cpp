@@ -1,10 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "replay/happenings.h"
+#include "playerlike/replay/happenings.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace playpen::replay {
+namespace playerlike::replay {
 
 HappeningsWatch::Happenings HappeningsWatch::look(const sim::Simulation& simulation) {
   Happenings found;
@@ -35,4 +35,4 @@ HappeningsWatch::Happenings HappeningsWatch::look(const sim::Simulation& simulat
   return found;
 }
 
-}  // namespace playpen::replay
+}  // namespace playerlike::replay

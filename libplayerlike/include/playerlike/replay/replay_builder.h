@@ -9,19 +9,22 @@
 #include <string_view>
 #include <vector>
 
-#include "replay/happenings.h"
-#include "replay/replay_run.h"
+#include "playerlike/replay/happenings.h"
+#include "playerlike/replay/replay_run.h"
 #include "sim/canvas/layers.h"
 #include "sim/devices/device.h"
 #include "sim/simulation/simulation.h"
 
-namespace playpen::replay {
+namespace playerlike::replay {
 
 /// What a ReplayBuilder records.
 struct ReplayOptions {
   std::string name = {};                    ///< of the run, for people; "": the world's
   std::size_t most_commands = 50000;        ///< further ones are left out, and a note says so
   std::size_t most_output_bytes = 1 << 20;  ///< of printed text; further text is left out
+  /// Whether a run is shown while it goes on: observe() is called now and then instead of after
+  /// each step, each call records a frame, and take() returns what is new.
+  bool live = false;
 };
 
 /// Records a run for a replay.
@@ -52,12 +55,28 @@ class ReplayBuilder {
   /// @param layers  must outlive this object, and have the size of the simulation's at first.
   void watch_layers(const sim::LayerStack& layers) noexcept { layers_ = &layers; }
 
+  /// @name While the run goes on
+  /// For a builder with ReplayOptions::live.
+  /// @{
+
+  /// Time of the last observation [ns].
+  [[nodiscard]] sim::SimTime observed_ns() const noexcept { return last_ns_; }
+  /// What was observed and noted since the last call, for viewers that have all before it: what
+  /// grows over time, without the description of the world. Goals and texts that may still change
+  /// come again.
+  [[nodiscard]] ReplayRun take();
+  /// The run up to the last take(), for new viewers: the world, a thinned history of poses, all
+  /// that happened (of very many, the newest), and otherwise the present state.
+  [[nodiscard]] ReplayRun whole() const;
+  /// @}
+
   /// Ends the recording with the present state as the last frame. The builder is empty then.
   /// @throws std::invalid_argument as observe().
   [[nodiscard]] ReplayRun finish(const sim::Simulation& simulation);
 
  private:
   void add_frame(const sim::Simulation& simulation);
+  void add_poses(const sim::Simulation& simulation);
   void add_obstacles(const sim::Simulation& simulation);
   void add_controller(const sim::Simulation& simulation);
   void add_layers(const sim::LayerStack& layers);
@@ -65,6 +84,8 @@ class ReplayBuilder {
   void add_reading(const sim::Simulation& simulation, sim::Simulation::DeviceId id);
   void add_happenings(const sim::Simulation& simulation);
   void add_goals(const sim::Simulation& simulation);
+  void remember_frames(const ReplayRun& part);
+  void forget_happenings();
 
   ReplayOptions options_;
   const sim::LayerStack* layers_ = nullptr;  ///< that are watched; null: the simulation's
@@ -89,11 +110,37 @@ class ReplayBuilder {
   std::optional<sim::SimTime> layers_ns_;  ///< when they were looked at last
   bool observed_ = false;
   sim::SimTime last_ns_ = 0;
+  std::optional<sim::SimTime> last_frame_ns_;
+  std::vector<std::uint64_t> newest_reading_;  ///< of each device: its sequence number
+  // For take() and whole():
+  std::vector<sim::Pose> places_;            ///< of the robots, in the last frame
+  std::vector<std::size_t> taken_readings_;  ///< of each device: 0, or 1 that is kept
+  struct Known {
+    std::size_t series = 0;
+    std::size_t lists = 0;
+  };
+  std::vector<Known> known_;  ///< of each device: how many take() has returned
+  /// Elements of the lists of run_ that take() has returned, up to the first one that may change.
+  struct Taken {
+    std::size_t collisions = 0;
+    std::size_t events = 0;
+    std::size_t spoken = 0;
+    std::size_t goals = 0;
+    std::size_t texts = 0;
+    std::size_t notes = 0;
+  };
+  Taken taken_;
+  std::vector<sim::SimTime> history_ns_;  ///< thinned, and the newest frame
+  std::vector<RobotLog> history_;         ///< of each robot: motion at these times
+  sim::SimTime history_period_ns_ = sim::kNanosecondsPerSecond / 5;
 };
+
+/// Whether a part of a run, see ReplayBuilder::take(), has anything in it.
+[[nodiscard]] bool has_news(const ReplayRun& part);
 
 /// The runs of cells in which two RGBA pictures of equal size differ, with the colours of `now`.
 /// Cells with alpha 0 are equal whatever their colour. O(cells).
 [[nodiscard]] std::vector<CellRun> cell_runs(const std::vector<std::uint8_t>& before,
                                              const std::vector<std::uint8_t>& now);
 
-}  // namespace playpen::replay
+}  // namespace playerlike::replay

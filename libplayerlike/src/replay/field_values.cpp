@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "replay/field_values.h"
+#include "playerlike/replay/field_values.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include "sim/core/pose.h"
 #include "sim/devices/builtin.h"
 
-namespace playpen::replay {
+namespace playerlike::replay {
 namespace {
 
 using sim::Field;
@@ -150,4 +150,4 @@ std::string text_of(const sim::Command& command) {
   return text;
 }
 
-}  // namespace playpen::replay
+}  // namespace playerlike::replay

@@ -5,9 +5,9 @@
 #include <span>
 #include <utility>
 
-#include "replay/replay_builder.h"
+#include "playerlike/replay/replay_builder.h"
 
-namespace playpen::replay {
+namespace playerlike::replay {
 
 std::vector<CellRun> cell_runs(const std::vector<std::uint8_t>& before,
                                const std::vector<std::uint8_t>& now) {
@@ -34,7 +34,7 @@ std::vector<CellRun> cell_runs(const std::vector<std::uint8_t>& before,
 void ReplayBuilder::add_layers(const sim::LayerStack& layers) {
   // Comparing a huge canvas takes long; of such a one, a picture per second must do.
   constexpr std::size_t kHugeCells = 4'000'000;
-  const sim::SimTime now_ns = run_.frames_ns.back();
+  const sim::SimTime now_ns = *last_frame_ns_;
   if (layers.cell_count() > kHugeCells && layers_ns_ &&
       now_ns < *layers_ns_ + sim::kNanosecondsPerSecond) {
     return;
@@ -86,7 +86,7 @@ void ReplayBuilder::begin_layers(const sim::CanvasDescription& canvas) {
     std::vector<CellRun> runs =
         cell_runs(cells_[i], std::vector<std::uint8_t>(cells_[i].size(), 0));
     if (runs.empty()) continue;
-    run_.layers[first_layer_ + i].changes.push_back({run_.frames_ns.back(), std::move(runs)});
+    run_.layers[first_layer_ + i].changes.push_back({*last_frame_ns_, std::move(runs)});
   }
   layer_ids_.clear();
   cells_.clear();
@@ -99,4 +99,4 @@ void ReplayBuilder::begin_layers(const sim::CanvasDescription& canvas) {
   layers_ended_ = true;
 }
 
-}  // namespace playpen::replay
+}  // namespace playerlike::replay

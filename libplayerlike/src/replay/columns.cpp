@@ -1,14 +1,11 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "replay/columns.h"
-
-#include <zlib.h>
+#include "playerlike/replay/columns.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 
-namespace playpen::replay {
+namespace playerlike::replay {
 
 std::size_t Columns::add(std::span<const std::int64_t> values, std::size_t lag) {
   constexpr std::int64_t kGreatest = std::int64_t{1} << 52;
@@ -34,14 +31,4 @@ std::int64_t quantised(double value, double unit) {
   return std::abs(number) <= kGreatest ? static_cast<std::int64_t>(number) : kNoNumber;
 }
 
-std::vector<std::uint8_t> deflated(std::string_view bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::vector<std::uint8_t> packed(size);
-  const int result = compress2(packed.data(), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                               static_cast<uLong>(bytes.size()), Z_DEFAULT_COMPRESSION);
-  if (result != Z_OK) throw std::bad_alloc();
-  packed.resize(size);
-  return packed;
-}
-
-}  // namespace playpen::replay
+}  // namespace playerlike::replay

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "replay/replay_run.h"
+#include "playerlike/replay/replay_run.h"
 
-namespace playpen::replay {
+namespace playerlike::replay {
 
 /// What is left out to make a replay smaller. Each stride keeps every n-th element.
 struct Thinning {
@@ -31,4 +31,18 @@ struct Thinning {
 [[nodiscard]] std::string encoded(const std::vector<ReplayRun>& runs, const Thinning& thinning,
                                   const std::string& note = "");
 
-}  // namespace playpen::replay
+/// @name A run that goes on
+/// In the same format, for viewers that watch it.
+/// @param live  what is not a part of the run, as a JSON object; it becomes "live" of the text.
+/// @{
+
+/// A run up to now, see ReplayBuilder::whole().
+[[nodiscard]] std::string encoded_whole(const ReplayRun& run, const std::string& live);
+/// What is new, see ReplayBuilder::take(). Its text has "part": true, and its run only what grows:
+/// motions of all robots; obstacles, devices and layers that have changed, each with its index "i"
+/// and without what an earlier part has told of it; lists of what happened. The lists "goals" and
+/// "texts" replace the elements from number "goals_from" and "texts_from" on.
+[[nodiscard]] std::string encoded_part(const ReplayRun& part, const std::string& live);
+/// @}
+
+}  // namespace playerlike::replay

@@ -9,7 +9,7 @@
 #include "sim/simulation/arena_event.h"
 #include "sim/simulation/simulation.h"
 
-namespace playpen::replay {
+namespace playerlike::replay {
 
 /// What a simulation adds to its lists, which keep only the newest elements. Not thread-safe.
 class HappeningsWatch {
@@ -31,4 +31,4 @@ class HappeningsWatch {
   sim::SpokenText newest_;        ///< spoken, if spoken_ > 0
 };
 
-}  // namespace playpen::replay
+}  // namespace playerlike::replay
