@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "isolation.h"
+#include "page_process.h"
 #include "playerlike/host/run_settings.h"
 #include "playerlike/server/server_settings.h"
 #include "run_start.h"
@@ -35,6 +36,7 @@ struct RunRequest {
   playerlike::RunSettings settings;
   bool quiet = false;
   bool view = false;        ///< in a window, in real time unless the settings say otherwise
+  PageRequest page;         ///< likewise for browsers
   bool real_sleep = false;  ///< the program's sleeps take wall time, not simulated time
   bool debug = false;       ///< in gdb
   std::string replay_file;  ///< .html; "": no replay is written
@@ -161,13 +163,14 @@ struct ServeRequest {
   sim::LogLevel log_level = sim::LogLevel::kInfo;
   bool quiet = false;
   bool view = false;  ///< in a window, in real time unless the settings say otherwise
+  PageRequest page;   ///< likewise for browsers
 };
 
 /// Serves a simulation over TCP until a signal arrives, a client requests the end, or the run is
 /// over and its clients have left. Prints the address, and a summary unless the request says quiet.
 /// @return kOk, or kProgramFailed if results could not be written.
 /// @throws sim::ConfigError for a bad world, token file, address or port; std::exception if the
-///         output folder can't be prepared or no window can be opened.
+///         output folder can't be prepared, or no window or page can be opened.
 [[nodiscard]] int serve(ServeRequest request);
 
 /// Validates worlds, tasks and robot models, given as files or names (see find_files()). Prints a

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "debug_call.h"
 #include "debugger_hint.h"
+#include "page_process.h"
 #include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
 #include "playerlike/host/kept_results.h"
@@ -202,6 +203,19 @@ void require_time_of_until(const RunRequest& request, const sim::WorldDescriptio
   }
 }
 
+/// Says what the user may not expect of the run.
+void tell_before(const RunRequest& request, const sim::WorldDescription& world) {
+  const playerlike::RunSettings& settings = request.settings;
+  if (!request.quiet && !settings.duration_s && !world.simulation.duration_ns) {
+    std::cerr << "playpen: the world sets no duration, so the run ends when the program does "
+                 "(or give --duration)\n";
+  }
+  if (request.debug && !in_lockstep(settings, world)) {
+    std::cerr << "playpen: time is real in this run, so it does not stand still at breakpoints "
+                 "(--time lockstep decides otherwise)\n";
+  }
+}
+
 /// Says how to go on from the end of a run of --then save.
 void tell_start(const RunRequest& request) {
   if (!request.until || request.until->then != RunUntil::Then::kSave || request.quiet) return;
@@ -253,7 +267,7 @@ int run(RunRequest request) {
     // Before results of an earlier run are removed; the program's simulation opens the ports.
     playerlike::Server::check(playerlike::onlooker_settings(*settings.player_port), world);
   }
-  if (request.view) pace_for_view(settings, world);
+  if (request.view || request.page.wanted) pace_for_view(settings, world);
   settings.progress = !request.quiet && !request.debug;  // it would mix with gdb's prompt
   settings.quiet_end = true;
   if (request.from) {
@@ -261,16 +275,15 @@ int run(RunRequest request) {
     refuse_same_folder(*request.from, settings.output_folder);
   }
   prepare_outputs(settings, world_file);
-  if (!request.quiet && !settings.duration_s && !world.simulation.duration_ns) {
-    std::cerr << "playpen: the world sets no duration, so the run ends when the program does "
-                 "(or give --duration)\n";
-  }
-  if (request.debug && !in_lockstep(settings, world)) {
-    std::cerr << "playpen: time is real in this run, so it does not stand still at breakpoints "
-                 "(--time lockstep decides otherwise)\n";
-  }
+  tell_before(request, world);
   std::optional<ViewerProcess> viewer;
   if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
+  std::optional<PageProcess> page;
+  if (request.page.wanted) {
+    page.emplace(request.page, "Playpen: " + world.name, playerlike::log_to_stderr());
+    settings.page_socket = page->socket();
+    std::cout << page->links() << std::endl;
+  }
 
   std::optional<PreloadedLibrary> virtual_time;
   settings.virtual_time = !request.real_sleep && in_lockstep(settings, world);
@@ -290,9 +303,10 @@ int run(RunRequest request) {
   watch.kept = &kept;
   watch.desk = &desk;
   watch.is_debugger = request.debug;
-  // With a window, the program's process draws pictures also while time is paused.
-  watch.standstill_s = request.view ? std::numeric_limits<double>::infinity()
-                                    : playerlike::silence_limit_s_of_environment();
+  // With a window or page, the program's process shows the run also while time is paused.
+  watch.standstill_s = request.view || request.page.wanted
+                           ? std::numeric_limits<double>::infinity()
+                           : playerlike::silence_limit_s_of_environment();
   watch.tell = [](const std::string& text) { std::cerr << "playpen: " << text << '\n'; };
   bool completed = false;
   watch.on_end = [&](const playerlike::ProgramEnd& program_end) {
@@ -311,6 +325,7 @@ int run(RunRequest request) {
   const playerlike::ProgramEnd end = playerlike::run_program(command, environment, watch);
 
   viewer.reset();  // the window has nothing left to show
+  page.reset();
 
   const bool replayed = write_replay_of(request);
   const int status = verdict(request, world, end, completed);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "page_options.h"
 #include "parsed_option.h"
 #include "sim/render/render.h"
 #include "sim/world/realism.h"
@@ -78,6 +79,13 @@ void refuse_isolated_debugging(const IsolationSettings& isolation) {
   if (isolation.level == Isolation::kOff) return;
   throw CLI::ValidationError("--debug",
                              "a debugger cannot reach an isolated program: leave out --isolated");
+}
+
+/// @throws CLI::ParseError if a program is to be isolated.
+void refuse_isolated_page(const IsolationSettings& isolation) {
+  if (isolation.level == Isolation::kOff) return;
+  throw CLI::ValidationError("--page",
+                             "an isolated program cannot reach the page: leave out --isolated");
 }
 
 /// Adds --until and --then.
@@ -320,6 +328,7 @@ void add_run(CommandLine& line) {
            request->settings.player_port);
   command.add_flag("--view", request->view,
                    "Watch and steer in a window, in real time unless --time says otherwise");
+  add_page(line, command, request->page);
   command.add_flag("--real-sleep", request->real_sleep,
                    "In lockstep: the program's sleeps and clocks are real, not simulated time");
   add_isolation(line, command, request->isolation);
@@ -341,6 +350,7 @@ void add_run(CommandLine& line) {
     request->command = line.program;
     apply_until(*request);
     if (request->debug) refuse_isolated_debugging(request->isolation);
+    if (request->page.wanted) refuse_isolated_page(request->isolation);
     if (request->from) refuse_settings_of_recording(command);
     if (names_server(request->world)) {
       refuse_settings_of_server(command);

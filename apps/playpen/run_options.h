@@ -46,15 +46,15 @@ void add_isolation(CommandLine& line, CLI::App& command, IsolationSettings& sett
 /// Adds an option that takes a TCP port, 0..65535.
 /// @param port  an int or an optional int that receives the value; must outlive the command.
 template <typename Port>
-void add_port(CLI::App& command, const std::string& name, const std::string& description,
-              Port& port) {
-  add_parsed(command, name, description, "PORT", playerlike::kTcpPortExpected,
-             [&port](const std::string& text) {
-               int parsed = 0;
-               const bool good = playerlike::parse_tcp_port(text, parsed);
-               if (good) port = parsed;
-               return good;
-             });
+CLI::Option* add_port(CLI::App& command, const std::string& name, const std::string& description,
+                      Port& port) {
+  return add_parsed(command, name, description, "PORT", playerlike::kTcpPortExpected,
+                    [&port](const std::string& text) {
+                      int parsed = 0;
+                      const bool good = playerlike::parse_tcp_port(text, parsed);
+                      if (good) port = parsed;
+                      return good;
+                    });
 }
 
 /// Adds the argument for the world's name, see find_world().

@@ -11,6 +11,7 @@
 
 #include "commands.h"
 #include "end_signals.h"
+#include "page_process.h"
 #include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
 #include "playerlike/host/kept_results.h"
@@ -118,7 +119,7 @@ int serve(ServeRequest request) {
   const std::string world_file = find_world(request.world);
   sim::WorldDescription world = load_found_world(world_file);
   playerlike::RunSettings& settings = request.settings;
-  if (request.view) pace_for_view(settings, world);
+  if (request.view || request.page.wanted) pace_for_view(settings, world);
   if (!settings.time_mode && !world.simulation.time_mode_given) {
     settings.time_mode = sim::TimeMode::kPaced;
     settings.time_factor = 1.0;
@@ -143,7 +144,14 @@ int serve(ServeRequest request) {
 
   prepare_outputs(settings, world_file);
   std::optional<ViewerProcess> viewer;
-  if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
+  if (request.view) {
+    settings.view_socket = viewer.emplace("Playpen: " + world.name).copy_of_socket();
+  }
+  std::optional<PageProcess> page;
+  if (request.page.wanted) {
+    settings.page_socket =
+        page.emplace(request.page, "Playpen: " + world.name, log).copy_of_socket();
+  }
   const playerlike::KeptRun kept(kKeptBytes);
   settings.kept_run = kept.file();
   std::shared_ptr<playerlike::Host> host;
@@ -157,11 +165,13 @@ int serve(ServeRequest request) {
     if (request.server.sync_port) std::cout << ", clock synchronisation on " << server.sync_port();
     std::cout << std::endl;
     for (const std::string& line : server.player_port_lines()) std::cout << line << std::endl;
+    if (page) std::cout << page->links() << std::endl;
     wait_for_end(*host, server, signals);
     host->finish();
     server.stop();
   }
   viewer.reset();  // the window has nothing left to show
+  page.reset();
 
   if (!has_report(settings)) return kProgramFailed;  // the log contains the reason
   if (!request.quiet) print_results(settings);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "command_line.h"
+#include "page_options.h"
 #include "parsed_option.h"
 #include "run_options.h"
 
@@ -132,6 +133,7 @@ void add_serve(CommandLine& line) {
   line.takes(log_level, {"debug", "info", "warning", "error"});
   command.add_flag("--view", request->view,
                    "Watch and steer in a window, in real time unless --time says otherwise");
+  add_page(line, command, request->page);
   command.add_flag("--quiet", request->quiet, "No summary");
   command.callback([request, &line, &command] {
     playerlike::ServerSettings& listening = request->server;

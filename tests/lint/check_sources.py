@@ -153,7 +153,7 @@ PLAYERLIKE = arrows({
     "playpen/course": "messages host playpen/grade",
     "playpen/batch": "messages host playpen/grade",
     "playpen/view": "view",
-    "playpen/page": "page server",
+    "playpen/page": "page server replay",
 })
 
 # Includes that belong in a few places only: (start of the include, start of the paths that may have
@@ -165,6 +165,8 @@ PLACES = [(re.compile(include), re.compile(path), why) for include, path, why in
      "OpenCV belongs in the modules of libsim/src/render/modules"),
     (r"lib(av[a-z]+|sw[a-z]+)/", r"libsim/src/render/modules/film_module\.cpp$",
      "FFmpeg belongs in libsim/src/render/modules/film_module.cpp"),
+    (r"boost/", r"apps/playpen/page/|libplayerlike/include/imr-h/|(?!apps/|lib)",
+     "Boost belongs in apps/playpen/page"),
     (r"opencv2/highgui\.hpp$|X11/", r"apps/playpen/view/", "windows belong in apps/playpen/view"),
     (r"png\.h$", r"libsim/src/canvas/png_codec\.cpp$",
      "libpng belongs in libsim/src/canvas/png_codec.cpp"),

@@ -20,31 +20,6 @@ using playerlike::replay::ReplayRun;
 using playerlike::replay::Thinning;
 using playerlike::replay::thinning_steps;
 
-namespace {
-
-std::string joined(std::span<const std::string_view> files) {
-  std::string all;
-  for (const std::string_view file : files) all += file;
-  return all;
-}
-
-// The page without its data, up to the place of the data.
-std::string head_of(const std::string& title) {
-  const std::string policy = "default-src 'none'; script-src 'sha256-" +
-                             std::string(kViewerScriptSha256) + "'; style-src 'sha256-" +
-                             std::string(kViewerStyleSha256) +
-                             "'; img-src data:; base-uri 'none'; form-action 'none'";
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
-         policy +
-         "\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         grade::markup_escaped(sim::escape_invalid_utf8(title)) + "</title>\n<style>" +
-         std::string(kViewerStyle) + "</style>\n</head>\n<body>\n" + std::string(kViewerBody) +
-         "<script type=\"application/octet-stream\" id=\"replay-data\">";
-}
-
-}  // namespace
-
 std::vector<std::uint8_t> deflated(std::string_view bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::vector<std::uint8_t> packed(size);
@@ -59,9 +34,10 @@ std::string html(const std::vector<ReplayRun>& runs, const PageOptions& options)
   if (runs.empty()) throw std::invalid_argument("a replay needs at least one run");
   std::string title;
   for (const ReplayRun& run : runs) title += (title.empty() ? "" : " and ") + run.name;
-  const std::string head = head_of(title);
-  const std::string tail =
-      "</script>\n<script>" + joined(kViewerScripts) + "</script>\n</body>\n</html>\n";
+  const std::string head =
+      viewer_head(grade::markup_escaped(sim::escape_invalid_utf8(title)), viewer_policy()) +
+      "<script type=\"application/octet-stream\" id=\"replay-data\">";
+  const std::string tail = "</script>\n" + viewer_tail();
   const auto page = [&](const Thinning& thinning, const std::string& note) {
     return head + sim::to_base64(deflated(encoded(runs, thinning, note))) + tail;
   };

@@ -1,40 +1,19 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <utility>
 
+#include "playerlike/server/token_equal.h"
 #include "server/peer.h"
 #include "sim/core/error.h"
 
 namespace playerlike::server {
 namespace {
 
-using PaddedToken = std::array<unsigned char, kMaxToken>;
-
-/// The first bytes of a token, padded with zeros.
-PaddedToken padded(const std::string& token) {
-  PaddedToken bytes{};
-  std::copy_n(token.begin(), std::min(token.size(), bytes.size()), bytes.begin());
-  return bytes;
-}
-
-/// Compares two tokens in constant time, so that timing reveals nothing, not even the length.
-bool equal(const std::string& a, const std::string& b) {
-  const PaddedToken left = padded(a);
-  const PaddedToken right = padded(b);
-  // Volatile, so that the compiler cannot leave the loop early.
-  volatile std::size_t difference = a.size() ^ b.size();
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    difference = difference | static_cast<std::size_t>(left[i] ^ right[i]);
-  }
-  return difference == 0;
-}
-
 bool presented(const std::string& token, const std::vector<std::string>& tokens,
                std::size_t count) {
   bool found = false;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool same = equal(token, tokens[i]);
+    const bool same = equal_tokens(token, tokens[i]);
     found = found || same;
   }
   return found;
@@ -107,9 +86,9 @@ bool Access::has_wrong(const std::vector<std::string>& tokens) const {
   if (!has_tokens) return false;
   bool wrong = false;
   for (const std::string& token : tokens) {
-    bool known = !server_token_.empty() && equal(server_token_, token);
+    bool known = !server_token_.empty() && equal_tokens(server_token_, token);
     for (const std::string& own : robot_tokens_) {
-      const bool same = !own.empty() && equal(own, token);
+      const bool same = !own.empty() && equal_tokens(own, token);
       known = known || same;
     }
     wrong = wrong || !known;

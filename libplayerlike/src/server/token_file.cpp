@@ -32,18 +32,14 @@ std::string read_token(sim::io::Reader& object, const std::string& key) {
   return "";
 }
 
-void warn_of_short_tokens(const AccessSettings& settings, const sim::LogHook& log) {
-  if (!log) return;
-  const auto look = [&](const std::string& whose, const std::string& token) {
-    if (token.empty() || token.size() >= kGoodToken) return;
-    log(sim::LogLevel::kWarning,
-        settings.file + ": the token of " + whose + " has " + std::to_string(token.size()) +
-            " characters; less than " + std::to_string(kGoodToken) +
-            " can be guessed, and the next release will refuse them. `playpen token` makes a good "
-            "one");
-  };
-  look("the server", settings.server_token);
-  for (const auto& [robot, token] : settings.robot_tokens) look("the robot " + robot, token);
+void warn_of_short_token(const std::string& file, const std::string& whose,
+                         const std::string& token, const sim::LogHook& log) {
+  if (!log || token.empty() || token.size() >= kGoodToken) return;
+  log(sim::LogLevel::kWarning,
+      file + ": the token of " + whose + " has " + std::to_string(token.size()) +
+          " characters; less than " + std::to_string(kGoodToken) +
+          " can be guessed, and the next release will refuse them. `playpen token` makes a good "
+          "one");
 }
 
 void warn_if_shared(const std::string& file, const sim::LogHook& log) {
@@ -78,8 +74,29 @@ AccessSettings read_token_file(const std::string& file, const sim::LogHook& log)
     root.finish();
   });
   warn_if_shared(file, log);
-  warn_of_short_tokens(settings, log);
+  warn_of_short_token(file, "the server", settings.server_token, log);
+  for (const auto& [robot, token] : settings.robot_tokens) {
+    warn_of_short_token(file, "the robot " + robot, token, log);
+  }
   return settings;
+}
+
+PageTokens read_page_tokens(const std::string& file, const sim::LogHook& log) {
+  PageTokens tokens;
+  sim::io::read_settings(file, "token", [&tokens](sim::io::Reader& root) {
+    if (!root.expect_object()) return;
+    tokens.command = read_token(root, "command");
+    tokens.watch = read_token(root, "watch");
+    if (!tokens.watch.empty() && tokens.watch == tokens.command) {
+      root.issue("access/token", "another token than that for commands", "the same",
+                 "who may watch could command", "watch");
+    }
+    root.finish();
+  });
+  warn_if_shared(file, log);
+  warn_of_short_token(file, "the page's commands", tokens.command, log);
+  warn_of_short_token(file, "the page's watching", tokens.watch, log);
+  return tokens;
 }
 
 }  // namespace playerlike

@@ -20,7 +20,7 @@
 #include "playerlike/server/server.h"
 #include "raw_client.h"
 #include "server/morse_services.h"
-#include "server/token_throttle.h"
+#include "playerlike/server/token_throttle.h"
 #include "sim/core/number_text.h"
 #include "temporary_folder.h"
 

@@ -28,11 +28,13 @@ enum class HostKind : std::uint32_t {
   kPart = 2,    ///< what is new since the last kPart, for all clients that have had a whole; client
                 ///< 0. A whole of the same moment comes after the part, and contains it.
   kAnswer = 3,  ///< a JSON text for one client only
+  kAnew = 4,    ///< a whole for all clients: the simulation has gone back to an earlier time
 };
 
 /// Kinds of messages from the page process.
 enum class PageKind : std::uint32_t {
-  kReady = 1,      ///< it listens; client 0; contents: the TCP port as a decimal number
+  kReady = 1,      ///< it listens; client 0; contents, for the command that has started it: the TCP
+                   ///< port, a blank, and 1 if watching needs no token, otherwise 0
   kTaken = 2,      ///< it has read one kPart: the host may send the next; client 0
   kWantWhole = 3,  ///< a client waits for a whole; client 0. The host answers with the next part
                    ///< and a whole after it.
@@ -58,7 +60,7 @@ inline constexpr std::uint32_t kGreatestPageLength = 4096;
 [[nodiscard]] inline bool is_from_host(const Header& header) noexcept {
   const bool is_answer = header.kind == static_cast<std::uint32_t>(HostKind::kAnswer);
   return header.magic == kMagic && header.kind >= static_cast<std::uint32_t>(HostKind::kWhole) &&
-         header.kind <= static_cast<std::uint32_t>(HostKind::kAnswer) &&
+         header.kind <= static_cast<std::uint32_t>(HostKind::kAnew) &&
          (header.client != 0) == is_answer && header.length <= kGreatestHostLength;
 }
 

@@ -70,4 +70,17 @@ inline constexpr std::size_t kMaxToken = 256;  ///< [bytes]; longer tokens are r
 /// @throws sim::ConfigError with all faults: access/token, or the general errors of settings files.
 [[nodiscard]] AccessSettings read_token_file(const std::string& file, const sim::LogHook& log = {});
 
+/// Tokens for the live page (docs/page.md); "": not given.
+struct PageTokens {
+  std::string command;  ///< for watching and commanding
+  std::string watch;    ///< for watching
+};
+
+/// Reads a file with the live page's tokens, {"command": "...", "watch": "..."}. Messages never
+/// contain tokens.
+/// @param log  as of read_token_file().
+/// @throws sim::ConfigError with all faults, as read_token_file(); access/token also if both tokens
+///         are equal.
+[[nodiscard]] PageTokens read_page_tokens(const std::string& file, const sim::LogHook& log = {});
+
 }  // namespace playerlike

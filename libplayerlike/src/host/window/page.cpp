@@ -129,7 +129,11 @@ std::string Host::Core::Page::frame(bool ends) {
     under_way_ = true;
     sent_live_ = now_live;
   }
-  if (whole) bytes += message(page::HostKind::kWhole, 0, replay::encoded_whole(*whole, now_live));
+  if (whole) {
+    const page::HostKind kind =
+        std::exchange(anew_, false) ? page::HostKind::kAnew : page::HostKind::kWhole;
+    bytes += message(kind, 0, replay::encoded_whole(*whole, now_live));
+  }
   return bytes;
 }
 
@@ -140,6 +144,7 @@ void Host::Core::Page::look() {
   if (builder_ && simulation.now_ns() < builder_->observed_ns()) {
     builder_.reset();
     want_whole_ = true;
+    anew_ = true;
   }
   if (!builder_) builder_.emplace(simulation, replay::ReplayOptions{.live = true});
   for (const auto& [device, command] : commands_) {

@@ -62,6 +62,7 @@ class Host::Core::Page final : public FrameLink {
   bool ready_ = false;       ///< the page process listens
   bool under_way_ = false;   ///< a part was sent, and not taken yet
   bool want_whole_ = false;  ///< a viewer waits for a whole
+  bool anew_ = false;        ///< and all viewers need one
   std::optional<replay::ReplayBuilder> builder_;
   std::string sent_live_;            ///< the last part's `live`
   std::map<int, Steering> steered_;  ///< by robot
