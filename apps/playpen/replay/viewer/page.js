@@ -504,6 +504,7 @@ const Page = (function () {
     const {live, clock, desk} = state;
     const node = byId("link");
     desk.setConnected(name === "live");
+    if (name === "refused") Live.forgetToken(window);
     node.className = name;
     const rights = desk.command ? "commanding" : "watching";
     const now = live !== null && live.paused ? "paused" : "live";
