@@ -353,6 +353,9 @@ run({
     assert.strictEqual(view.address, "/#t=3");
     view.location.hash = "#t=3"; // after a reload
     assert.strictEqual(Live.takeToken(view), "ab=c");
+    view.sessionStorage.removeItem = (key) => store.delete(key);
+    Live.forgetToken(view);
+    assert.strictEqual(Live.takeToken(view), null);
     const blocked = () => { throw new Error("blocked"); };
     view.sessionStorage = {getItem: blocked, setItem: blocked};
     view.address = null;
@@ -360,6 +363,7 @@ run({
     view.location.hash = "#token=x";
     assert.strictEqual(Live.takeToken(view), "x");
     assert.strictEqual(view.address, null);
+    Live.forgetToken(view);
   },
   aLinkShowsItsTokenAndReads() {
     const made = connection();

@@ -389,6 +389,7 @@ const Page = (function () {
   function open(file) {
     Scene.setPalette(file.head.palette);
     state.runs = file.head.runs.map((json) => new Runs.Run(json, file));
+    state.runs[0].ended = state.live === null;
     setText(byId("title"), state.runs.map((run) => run.name).join(" and "));
     const longest = state.runs.reduce((a, b) => (b.end > a.end ? b : a));
     state.clock = new Clocks.Clock(longest.frames, longest.end, changed);
@@ -464,13 +465,13 @@ const Page = (function () {
     } else {
       const selected = state.runs[0].robots[state.options.selected];
       const [run] = state.runs = [new Runs.Run(head.runs[0], file)];
+      run.ended = false;
       state.clock.frames = run.frames;
       state.panelRun = run;
       state.stages.forEach((stage) => stage.show(state.runs));
       showRuns(head);
       select(selected === undefined ? -1 : run.robotNamed(selected.name));
     }
-    state.runs[0].ended = false;
     grown();
   }
 
@@ -503,6 +504,7 @@ const Page = (function () {
     const {live, clock, desk} = state;
     const node = byId("link");
     desk.setConnected(name === "live");
+    if (name === "refused") Live.forgetToken(window);
     node.className = name;
     const rights = desk.command ? "commanding" : "watching";
     const now = live !== null && live.paused ? "paused" : "live";
