@@ -216,6 +216,18 @@ void tell_before(const RunRequest& request, const sim::WorldDescription& world) 
   }
 }
 
+/// Says where the user sees why something was not as expected.
+void tell_of_results(RunRequest request) {
+  const std::string& folder = request.settings.output_folder;
+  std::cerr << "playpen: results: " << folder << '\n';
+  if (request.replay_file.empty()) {
+    request.replay_file = folder + "/replay.html";
+    request.quiet = false;
+    static_cast<void>(write_replay_of(request));
+  }
+  std::cerr << "playpen: reasons: playpen why " << folder << '\n';
+}
+
 /// Says how to go on from the end of a run of --then save.
 void tell_start(const RunRequest& request) {
   if (!request.until || request.until->then != RunUntil::Then::kSave || request.quiet) return;
@@ -258,6 +270,7 @@ int run(RunRequest request) {
   const std::string world_file = start ? start->world_file() : find_world(request.world);
   sim::WorldDescription world = load_found_world(world_file);
   request.settings.apply_to(world);  // reports settings that do not match the world before the run
+  for (const expect::Expectation& one : request.expectations) one.require_robot_of(world);
   require_time_of_until(request, world, start ? start->time_s() : 0.0);
   request.command.front() = playerlike::find_program(request.command.front());
   const std::string gdb = request.debug ? find_gdb() : std::string();
@@ -328,8 +341,13 @@ int run(RunRequest request) {
   page.reset();
 
   const bool replayed = write_replay_of(request);
-  const int status = verdict(request, world, end, completed);
+  int status = verdict(request, world, end, completed);
   if (status == kOk) tell_start(request);
+  if (status == kOk && !request.expectations.empty() &&
+      print_unmet(request.expectations, settings.output_folder) > 0) {
+    tell_of_results(request);
+    status = kProgramFailed;
+  }
   return desk.conflict().empty() && replayed ? status : kProgramFailed;
 }
 
