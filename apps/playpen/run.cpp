@@ -216,6 +216,24 @@ void tell_before(const RunRequest& request, const sim::WorldDescription& world) 
   }
 }
 
+/// The processes that show the run while it goes on.
+class Displays {
+ public:
+  /// Starts those that the request wants, and sets their sockets in its settings.
+  Displays(RunRequest& request, const std::string& world) {
+    const std::string title = "Playpen: " + world;
+    if (request.view) request.settings.view_socket = viewer_.emplace(title).socket();
+    if (!request.page.wanted) return;
+    page_.emplace(request.page, title, playerlike::log_to_stderr());
+    request.settings.page_socket = page_->socket();
+    std::cout << page_->links() << std::endl;
+  }
+
+ private:
+  std::optional<ViewerProcess> viewer_;
+  std::optional<PageProcess> page_;
+};
+
 /// Says where the user sees why something was not as expected.
 void tell_of_results(RunRequest request) {
   const std::string& folder = request.settings.output_folder;
@@ -289,14 +307,7 @@ int run(RunRequest request) {
   }
   prepare_outputs(settings, world_file);
   tell_before(request, world);
-  std::optional<ViewerProcess> viewer;
-  if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
-  std::optional<PageProcess> page;
-  if (request.page.wanted) {
-    page.emplace(request.page, "Playpen: " + world.name, playerlike::log_to_stderr());
-    settings.page_socket = page->socket();
-    std::cout << page->links() << std::endl;
-  }
+  std::optional<Displays> displays(std::in_place, request, world.name);
 
   std::optional<PreloadedLibrary> virtual_time;
   settings.virtual_time = !request.real_sleep && in_lockstep(settings, world);
@@ -337,8 +348,7 @@ int run(RunRequest request) {
   if (request.debug) command = debug_call(gdb, command, environment, stops_in_gdb(request));
   const playerlike::ProgramEnd end = playerlike::run_program(command, environment, watch);
 
-  viewer.reset();  // the window has nothing left to show
-  page.reset();
+  displays.reset();  // they have nothing left to show
 
   const bool replayed = write_replay_of(request);
   int status = verdict(request, world, end, completed);
