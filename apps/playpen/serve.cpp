@@ -128,6 +128,8 @@ int serve(ServeRequest request) {
   if (settings.robot_port && !request.server.player_port) {
     request.server.player_port = playerlike::kPlayerPort;
   }
+  // People at the page can drive robots without programs.
+  if (request.page.wanted) settings.start_at_once = true;
   settings.apply_to(world);
   if (request.own_sensors_only) world.simulation.own_sensors_only = true;
   if (request.clients) {

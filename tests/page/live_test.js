@@ -34,7 +34,8 @@ function replay() {
     lists: [{name: "ranges", unit: "m", scale: 1e-3, n: numbers(150, (i) => i % 4),
       v: numbers(225, (i) => 1000 + i)}],
     beams: {mounts: [[0.1, 0, 0]], first: -1, step: 0.5, cone: 0, most: [4], poses: poses(2)}};
-  const motion = {robot: 0, name: "motion", type: "motion", t: times([]), series: [], lists: []};
+  const motion = (of) => ({robot: of, name: "motion", type: "motion", t: times([]), series: [],
+    lists: []});
   const head = {format: 1, thinned: "", palette: {}, runs: [{name: "one", world: "room", notes: [],
     end: micro(kFrames * kFrame), canvas: {cell: 0.1, origin: [0, 0]},
     arena: {walls: {n: file.add([3]), solid: file.add([1]), xy: file.add([0, 0, 1, 0, 0, 1])}},
@@ -44,14 +45,15 @@ function replay() {
     obstacles: [{name: "block", shape: "box", outline: [], size: [1, 1], height: 160, dynamic: true,
       log: log([0, 1000, 1020], [[0, 0, 0, 1, 1, 0, 1, -1, -1], [0, 0, 0, 1, 1, 80, 2, -1, 0xffffff00],
         [0, 0, 0, 1, 1, 160, 0, -1, -1]])}],
-    devices: [laser, motion],
+    devices: [laser, motion(0), motion(1)],
     collisions: [{t: micro(900), robot: 0, partner: "border", place: [0, 0]}],
     events: range(40, (i) => ({t: micro(100 * i), kind: "placed", what: "", who: "", text: "event " + i})),
     spoken: [{t: micro(2500), robot: 0, text: "hello"}],
     goals: [{t: 0, robot: 0, place: [1, 1], reached: micro(3000)},
       {t: micro(3100), robot: 0, place: [2, 2], reached: null}],
     texts: [{t: micro(10), gone: micro(2000), text: "open", place: [0, 0], colour: "#000000"}],
-    commands: {t: times(every(1)), device: numbers(kFrames, () => 1), text: numbers(kFrames, (i) => i % 7),
+    commands: {t: times(every(1)), device: numbers(kFrames, (i) => (i % 3 === 0 ? 2 : 1)),
+      text: numbers(kFrames, (i) => i % 7),
       texts: range(7, (i) => "go " + i)},
     output: range(50, (i) => [micro(77 * i), "line " + i, i % 2]),
     layers: [{name: "map", colour: "#000000", visible: true, priority: 0, grey: false, width: 4, height: 3,
@@ -73,7 +75,8 @@ function shown(one, t) {
       : device.series.map(({numbers}) => numbers.at(device.times.before(t))),
     device.lists.map((list) => device.list(list, Math.max(device.times.before(t), 0)))]),
     one.commandsBefore(0, t, 8), one.outputBefore(t, 5), one.countdownsAt(t),
-    Array.from(one.trapStates.at(t)), Array.from(one.scores.at(t)), one.layers.map((tape) => Array.from(tape.cells))]);
+    Array.from(one.trapStates.at(t)), Array.from(one.scores.at(t)),
+    one.layers.map((tape) => Array.from(tape.cells))]);
 }
 
 // A run in memory whose last frame is at `until` [s], and a function that appends a part.
@@ -139,6 +142,30 @@ function node() {
       listeners[name]({clientX, clientY, pointerId, preventDefault() {}})};
 }
 
+// A Desk with a page of elements that remember; it has the right to command robot r1 of a run.
+function desk() {
+  const elements = new Map();
+  const byId = (id) => {
+    if (!elements.has(id)) {
+      elements.set(id, Object.assign(node(), {appendChild: (child) => child, classList: {toggle() {}}}));
+    }
+    return elements.get(id);
+  };
+  const listeners = {};
+  const hears = {addEventListener: (name, action) => { listeners[name] = action; }};
+  const made = {sent: [], said: [], byId, listeners};
+  const browser = load({document: Object.assign({getElementById: byId, body: byId("body")}, hears),
+    window: hears, Option: class {}, performance: {now: () => 0}, setInterval: () => 1, clearInterval() {}});
+  made.state = {runs: [grown(1000).one], clock: {t: 10, following: true, follow() {}},
+    options: {selected: -1}, live: Object.assign({}, kLive, {can: {place: true, blocks: ["block"]}})};
+  made.desk = new browser.Commands.Desk({state: made.state, changed() {},
+    say: (text) => made.said.push(text)}, (command) => made.sent.push(plain(command)));
+  made.desk.setRights({command: true});
+  made.desk.setConnected(true);
+  made.key = (key, shiftKey = false) => made.desk.key({key, shiftKey, target: {matches: () => false}});
+  return made;
+}
+
 run({
   partsGiveTheWholeRun() {
     const {head, file} = replay();
@@ -158,6 +185,13 @@ run({
     }
     assert.deepStrictEqual(plain(happened), plain(complete.happenings()).slice(0, -1));
     assert.deepStrictEqual(plain(one.happenings()), plain(happened));
+  },
+  aPartMayBeAlmostEmpty() {
+    const {one} = grown(500);
+    const before = shown(one, 500);
+    assert.deepStrictEqual(plain(one.append({end: 510e6}, null)), []);
+    assert.strictEqual(one.end, 510);
+    assert.deepStrictEqual(shown(one, 500), before);
   },
   headingsGoOnOverParts() {
     const {one, grow} = grown(100);
@@ -188,7 +222,8 @@ run({
     const laser = one.devices[0];
     const before = laser.times.length;
     laser.append({t: added([110e6]),
-      series: [{v: added([1]), scale: 0.5}, {name: "volts", unit: "V", words: [], v: added([12]), scale: 0.1}],
+      series: [{v: added([1]), scale: 0.5},
+        {name: "volts", unit: "V", words: [], v: added([12]), scale: 0.1}],
       lists: [{n: added([1]), v: added([7]), scale: 1e-3},
         {name: "echoes", unit: "", n: added([2]), v: added([5, 6]), scale: 1}],
       beams: {poses: {x: added([0]), y: added([0]), a: added([0])}}}, (index) =>
@@ -218,7 +253,7 @@ run({
       for (let t = one.devices[0].times.at(0); t < 5980; t += 30) {
         const [now, then] = [shown(one, t), shown(complete, t)];
         for (const i of [1, 2, 5, 6, 7, 8]) assert.deepStrictEqual(now[i], then[i], i + " at " + t);
-        if (t > one.commands.times.at(8)) assert.deepStrictEqual(now[3], then[3], "commands at " + t);
+        if (t > one.commands.times.at(12)) assert.deepStrictEqual(now[3], then[3], "commands at " + t);
         close(now[0][0][0].x, then[0][0][0].x);
       }
     });
@@ -250,6 +285,8 @@ run({
       one.replace("goals", 4, [goal(4e6, 5e6), goal(6e6)]);
       assert.deepStrictEqual(plain(one.goals.map(({t}) => t)), [2, 3, 4, 6]);
       assert.strictEqual(one.goals[2].reached, 5);
+      one.replace("goals", 0, range(8, (i) => goal(i * 1e6)));
+      assert.deepStrictEqual(plain(one.goals.map(({t}) => t)), [2, 3, 4, 5, 6, 7]);
     });
   },
   oldChangesBecomeTheBase() {
@@ -316,6 +353,9 @@ run({
     assert.strictEqual(view.address, "/#t=3");
     view.location.hash = "#t=3"; // after a reload
     assert.strictEqual(Live.takeToken(view), "ab=c");
+    view.sessionStorage.removeItem = (key) => store.delete(key);
+    Live.forgetToken(view);
+    assert.strictEqual(Live.takeToken(view), null);
     const blocked = () => { throw new Error("blocked"); };
     view.sessionStorage = {getItem: blocked, setItem: blocked};
     view.address = null;
@@ -323,6 +363,7 @@ run({
     view.location.hash = "#token=x";
     assert.strictEqual(Live.takeToken(view), "x");
     assert.strictEqual(view.address, null);
+    Live.forgetToken(view);
   },
   aLinkShowsItsTokenAndReads() {
     const made = connection();
@@ -437,6 +478,71 @@ run({
     pad.send("lostpointercapture", 100, 200);
     assert.deepStrictEqual(driven, [[1, 0], [0, 1], [0, 0]]);
     assert.strictEqual(made.knob.style.transform, "translate(0%,0%)");
+  },
+  keysDriveThePresentRobot() {
+    const made = desk();
+    assert.ok(made.key("ArrowUp", true));
+    made.listeners.keyup({key: "ArrowUp"});
+    assert.ok(made.key(" "));
+    assert.ok(!made.key("x"));
+    assert.deepStrictEqual(made.sent, [{steer: {robot: 0, ahead: 1, left: 0}},
+      {steer: {robot: 0, ahead: 0, left: 0}}, {pause: true}]);
+    // Which one, if there are two?
+    made.state.runs[0].robots.push(made.state.runs[0].robots[0]);
+    made.key("ArrowUp");
+    assert.strictEqual(made.sent.length, 3);
+    assert.ok(made.said[0].startsWith("Select the robot to drive"));
+  },
+  whatIsHeldIsReleased() {
+    for (const release of [(made) => made.listeners.blur(), (made) => made.listeners.visibilitychange(),
+      (made) => made.desk.setConnected(false)]) {
+      const made = desk();
+      made.key("ArrowLeft");
+      release(made);
+      release(made);
+      assert.deepStrictEqual(made.sent.map(({steer}) => steer.left), [0.6, 0]);
+    }
+  },
+  noCommandsToThePastOrWithoutRights() {
+    const made = desk();
+    const nothing = () => {
+      assert.ok(!made.key("ArrowUp") && !made.key(" ") && !made.desk.clicked([0, 0]));
+      assert.deepStrictEqual(made.sent, []);
+    };
+    made.state.clock.following = false;
+    nothing();
+    made.desk.show();
+    assert.ok(made.byId("pad").hidden && !made.byId("live-bar").hidden);
+    made.state.clock.following = true;
+    made.desk.setRights({command: false});
+    nothing();
+    assert.ok(made.byId("pad").hidden && made.byId("live-bar").hidden);
+  },
+  aDragPlacesARobot() {
+    const made = desk();
+    const view = {scale: 100};
+    assert.strictEqual(made.desk.tool(view), null);
+    made.desk.startPlacing();
+    assert.ok(made.key("Escape"));
+    assert.strictEqual(made.desk.tool(view), null);
+    made.desk.startPlacing();
+    const tool = made.desk.tool(view);
+    tool.down([1, 2]);
+    tool.move([1.05, 2.05]); // by 7 pixels: not meant as a drag
+    tool.move([1, 3]);
+    tool.up();
+    assert.strictEqual(made.desk.tool(view), null);
+    assert.deepStrictEqual(made.sent, [{place: {robot: 0, x: 1, y: 2, a: Math.PI / 2}}]);
+    made.state.live.can.place = "a program drives it";
+    made.desk.show();
+    assert.ok(made.byId("place").disabled);
+    assert.strictEqual(made.byId("place").title, "a program drives it");
+  },
+  aClickRaisesABlock() {
+    const made = desk();
+    assert.ok(made.desk.clicked([0, 0]));
+    assert.ok(!made.desk.clicked([3, 0]));
+    assert.deepStrictEqual(made.sent, [{block: {name: "block", up: true}}]);
   },
   clicksMeanBlocks() {
     const {one} = grown(1000);

@@ -13,12 +13,13 @@ const list = /set\(viewer_scripts ([a-z\s]+)\)/.exec(
 const names = list[1].split(/\s+/);
 
 // The namespaces of all scripts except the last one, which needs a document.
-function load() {
-  const source = names.map((name) => fs.readFileSync(path.join(folder, "viewer", name + ".js"), "utf8"))
-    .join("");
+// @param globals  what a browser has and a test needs
+function load(globals = {}) {
+  const texts = names.slice(0, -1).map((name) =>
+    fs.readFileSync(path.join(folder, "viewer", name + ".js"), "utf8"));
   const context = vm.createContext({atob, Blob, Response, DecompressionStream, TextDecoder, URL,
-    console});
-  return vm.runInContext(source +
+    console, ...globals});
+  return vm.runInContext(texts.join("") +
     "\n({Columns, Runs, Layers, Views, Scene, Robots, Marks, Plots, Panels, Stages, Clocks, Live, " +
     "Joystick, Commands});", context);
 }

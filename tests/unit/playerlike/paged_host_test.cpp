@@ -177,6 +177,7 @@ TEST_F(PagedHostTest, Viewer_GetsWholeAndThenParts) {
   EXPECT_EQ(whole["runs"][0]["robots"].size(), 2U);
   EXPECT_EQ(whole["live"]["can"]["blocks"], json({"gate"}));
   EXPECT_EQ(whole["live"]["can"]["place"], true);
+  EXPECT_TRUE(whole["live"].contains("waiting_for"));
   std::int64_t end = whole["runs"][0]["end"];
   for (int i = 0; i < 3; ++i) {
     const json part = page.await(HostKind::kPart);
@@ -292,6 +293,8 @@ TEST_F(PagedHostTest, LockedWorld_NothingIsMoved) {
 TEST_F(PagedHostTest, Lockstep_CanBePausedAndSlowed) {
   start(R"({"time": "lockstep"})");
   const std::unique_ptr<Session> session = host->connect(6665);
+  static_cast<void>(page.await(HostKind::kPart,
+                               [](const json& head) { return head["live"]["waiting_for"] == 1; }));
   page.command(R"({"speed": 0.5})");
   page.command(R"({"pause": true})");
   synchronise();

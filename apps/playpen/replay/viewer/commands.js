@@ -104,13 +104,24 @@ const Commands = (function () {
       Panels.setText(pause, live.paused ? "► Continue" : "❚❚ Pause");
       byId("factor-box").hidden = !live.can.speed;
       if (performance.now() - this.chosenAt > kSettle) {
-        byId("factor").value = live.factor === null ? "full" : String(live.factor);
+        this.showFactor(live.factor);
       }
       const place = byId("place");
       place.disabled = live.can.place !== true || !this.connected;
       place.title = live.can.place === true ? "Click in the picture; drag for the heading"
         : String(live.can.place);
       Panels.setText(place, this.placing === null ? "Place robot" : "Cancel placing");
+    }
+
+    // @param now  null: as fast as possible.
+    showFactor(now) {
+      const factor = byId("factor");
+      const value = now === null ? "full" : String(now);
+      if (factor.value === value) return;
+      factor.value = value;
+      if (factor.value === value) return;
+      factor.appendChild(new Option(now + "×", value));
+      factor.value = value;
     }
 
     pause() {
@@ -157,10 +168,16 @@ const Commands = (function () {
       return true;
     }
 
+    // The command to the block at a place of the world; null: there is none now.
+    blockAt(place) {
+      const {runs, clock, live} = this.state;
+      if (!this.isOn() || this.placing !== null) return null;
+      return blockAt(runs[0], live.can.blocks, place, clock.t);
+    }
+
     // A click beside robots. Returns whether it was for a block.
     clicked(place) {
-      const {runs, clock, live} = this.state;
-      const block = this.isOn() ? blockAt(runs[0], live.can.blocks, place, clock.t) : null;
+      const block = this.blockAt(place);
       if (block !== null) this.send({block});
       return block !== null;
     }

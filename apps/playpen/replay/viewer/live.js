@@ -26,6 +26,15 @@ const Live = (function () {
     return said.slice(6);
   }
 
+  // After a refusal: a reload may watch without a token.
+  function forgetToken(view) {
+    try {
+      view.sessionStorage.removeItem(kKey);
+    } catch (error) {
+      return; // it was never stored
+    }
+  }
+
   class Link {
     // @param connect  () => a new WebSocket
     // @param token  () => the token or null
@@ -149,5 +158,5 @@ const Live = (function () {
     }
   }
 
-  return {takeToken, Link, Steering};
+  return {takeToken, forgetToken, Link, Steering};
 })();

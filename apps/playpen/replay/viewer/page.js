@@ -49,7 +49,9 @@ const Page = (function () {
       }
       const stage = new Stages.Stage(canvas, runs);
       stage.listen({changed, picked: (robot, place) => picked(robot, place, runs[0]),
-        tool: (view) => (state.desk === null ? null : state.desk.tool(view))}, () => state.clock.t);
+        tool: (view) => (state.desk === null ? null : state.desk.tool(view)),
+        cursor: (place) => (state.desk !== null && state.desk.blockAt(place) !== null ? "pointer" : "")},
+      () => state.clock.t);
       return stage;
     });
     changed();
@@ -387,6 +389,7 @@ const Page = (function () {
   function open(file) {
     Scene.setPalette(file.head.palette);
     state.runs = file.head.runs.map((json) => new Runs.Run(json, file));
+    state.runs[0].ended = state.live === null;
     setText(byId("title"), state.runs.map((run) => run.name).join(" and "));
     const longest = state.runs.reduce((a, b) => (b.end > a.end ? b : a));
     state.clock = new Clocks.Clock(longest.frames, longest.end, changed);
@@ -405,6 +408,7 @@ const Page = (function () {
       changed();
     });
     document.body.classList.add("ready");
+    byId("link").hidden = state.live === null;
     byId("status").remove();
     requestAnimationFrame(draw);
   }
@@ -433,7 +437,6 @@ const Page = (function () {
     document.body.classList.add("is-live");
     byId("picture").appendChild(byId("live"));
     byId("live-keys").hidden = false;
-    byId("link").hidden = false;
     byId("trail").value = "short";
     state.options.trail = kTrails.short;
     setText(byId("title"), "Live");
@@ -462,13 +465,13 @@ const Page = (function () {
     } else {
       const selected = state.runs[0].robots[state.options.selected];
       const [run] = state.runs = [new Runs.Run(head.runs[0], file)];
+      run.ended = false;
       state.clock.frames = run.frames;
       state.panelRun = run;
       state.stages.forEach((stage) => stage.show(state.runs));
       showRuns(head);
       select(selected === undefined ? -1 : run.robotNamed(selected.name));
     }
-    state.runs[0].ended = false;
     grown();
   }
 
@@ -476,10 +479,11 @@ const Page = (function () {
     const [run] = state.runs;
     const layers = run.layers.filter((tape) => tape.times.length > 0).length;
     const [json] = file.head.runs;
+    const known = [run.verdict, run.notes.length].join();
     state.happened.push(...run.append(json, file));
     if (state.happened.length > 2 * kMostHappenings) state.happened.splice(0, kMostHappenings);
     if (run.layers.filter((tape) => tape.times.length > 0).length > layers) makeLayers();
-    if (json.verdict || json.notes.length > 0) showHead("");
+    if ([run.verdict, run.notes.length].join() !== known) showHead("");
     state.live = file.head.live;
     grown();
   }
@@ -500,6 +504,7 @@ const Page = (function () {
     const {live, clock, desk} = state;
     const node = byId("link");
     desk.setConnected(name === "live");
+    if (name === "refused") Live.forgetToken(window);
     node.className = name;
     const rights = desk.command ? "commanding" : "watching";
     const now = live !== null && live.paused ? "paused" : "live";

@@ -16,6 +16,8 @@ const Runs = (function () {
     commands: 5000, output: 4000, events: 4000, spoken: 2000, collisions: 1000, goals: 1000,
     texts: 1000};
 
+  const isWide = (array) => array.BYTES_PER_ELEMENT === 8;
+
   // Numbers in a typed array, times a unit. The array may be longer than the numbers.
   class Numbers {
     constructor(values, unit = 1) {
@@ -29,8 +31,11 @@ const Runs = (function () {
       return value === kNoNumber ? NaN : value * this.unit;
     }
 
-    reserve(length, Type = this.values.constructor) {
-      if (length <= this.values.length && this.values instanceof Type) return;
+    // Makes room for `length` numbers. @param wide  of 64 bits
+    reserve(length, wide = isWide(this.values)) {
+      const widens = wide && !isWide(this.values);
+      if (length <= this.values.length && !widens) return;
+      const Type = widens ? Float64Array : this.values.constructor;
       const room = new Type(Math.max(length, 2 * this.length));
       room.set(this.values.subarray(0, this.length));
       this.values = room;
@@ -40,7 +45,7 @@ const Runs = (function () {
     append(values, unit = this.unit) {
       const length = this.length + values.length;
       if (unit !== this.unit) {
-        if (this.unit !== 1 || !(this.values instanceof Float64Array)) {
+        if (this.unit !== 1 || !isWide(this.values)) {
           this.values = Float64Array.from({length: this.length}, (none, i) => this.at(i));
           this.unit = 1;
         }
@@ -48,7 +53,7 @@ const Runs = (function () {
         const added = new Numbers(values, unit);
         for (let i = 0; i < values.length; ++i) this.values[this.length + i] = added.at(i);
       } else {
-        this.reserve(length, values instanceof Float64Array ? Float64Array : undefined);
+        this.reserve(length, isWide(values));
         this.values.set(values, this.length);
       }
       this.length = length;
@@ -390,7 +395,7 @@ const Runs = (function () {
       for (const name of ["collisions", "events", "spoken", "goals", "texts"]) {
         this[name] = json[name].map(timed);
       }
-      this.dropped = {goals: 0, texts: 0};
+      this.dropped = {goals: json.goals_from || 0, texts: json.texts_from || 0};
       this.traps = json.traps;
       this.trapStates = log(json.trap_states);
       this.timers = json.timers;
@@ -411,41 +416,45 @@ const Runs = (function () {
       this.textIndices = null; // see appendCommands()
     }
 
-    // Adds what is new in a live run. Returns what happened, as happenings() does.
+    // Adds what is new in a live run; what is not is left out. Returns what happened, as happenings().
     append(json, file) {
       const column = (index) => file.column(index);
+      const all = (name) => json[name] || [];
       this.end = json.end * kMicrosecond;
-      this.frames.append(column(json.frames));
-      json.robots.forEach((one, i) => this.robots[i].append(one, column));
-      for (const {i, log} of json.obstacles) this.obstacles[i].log.append(log, column);
-      for (const one of json.devices) this.devices[one.i].append(one, column);
-      this.appendCommands(json.commands, column);
-      this.trapStates.append(json.trap_states, column);
-      this.timerDues.append(json.timer_dues, column);
-      this.scores.append(json.scores, column);
-      this.notes.push(...json.notes);
-      this.output.push(...json.output.map(printed));
+      if (json.frames !== undefined) this.frames.append(column(json.frames));
+      all("robots").forEach((one, i) => this.robots[i].append(one, column));
+      for (const {i, log} of all("obstacles")) this.obstacles[i].log.append(log, column);
+      for (const one of all("devices")) this.devices[one.i].append(one, column);
+      if (json.commands) this.appendCommands(json.commands, column);
+      if (json.trap_states) this.trapStates.append(json.trap_states, column);
+      if (json.timer_dues) this.timerDues.append(json.timer_dues, column);
+      if (json.scores) this.scores.append(json.scores, column);
+      this.notes.push(...all("notes"));
+      this.output.push(...all("output").map(printed));
       this.verdict = json.verdict || this.verdict;
-      for (const one of json.layers) {
+      for (const one of all("layers")) {
         if (one.i < this.layers.length) this.layers[one.i].append(one, column);
         else this.layers.push(new Layers.Tape(one, column));
       }
-      const added = {};
+      const added = {goals: []};
       for (const name of ["collisions", "events", "spoken"]) {
-        added[name] = json[name].map(timed);
+        added[name] = all(name).map(timed);
         this[name].push(...added[name]);
       }
-      const goals = this.replace("goals", json.goals_from, json.goals);
-      added.goals = this.goals.slice(json.goals_from - this.dropped.goals)
-        .filter((goal, i) => goals[i] === undefined || goals[i].reached === Infinity);
-      this.replace("texts", json.texts_from, json.texts);
+      if (json.goals) {
+        const old = this.replace("goals", json.goals_from, json.goals);
+        added.goals = this.goals.slice(Math.max(json.goals_from - this.dropped.goals, 0))
+          .filter((goal, i) => old[i] === undefined || old[i].reached === Infinity);
+      }
+      if (json.texts) this.replace("texts", json.texts_from, json.texts);
       this.trim();
       return this.happeningsIn(added);
     }
 
     // Replaces a list's elements from an index on. Returns the replaced ones.
     replace(name, from, json) {
-      return this[name].splice(Math.max(from - this.dropped[name], 0), Infinity, ...json.map(timed));
+      const at = from - this.dropped[name];
+      return this[name].splice(Math.max(at, 0), Infinity, ...json.slice(Math.max(-at, 0)).map(timed));
     }
 
     appendCommands(json, column) {

@@ -250,7 +250,8 @@ const Stages = (function () {
     }
 
     // Lets pointers move and zoom the picture. @param on  {changed(), picked(robot, place)}; tool(view)
-    //     may return {hover, down, move, up}, which get the place in the world instead.
+    //     may return {hover, down, move, up}, which get the place in the world instead; cursor(place)
+    //     gives the pointer's look.
     listen(on, time) {
       const canvas = this.canvas;
       const pointers = new Map();
@@ -269,7 +270,11 @@ const Stages = (function () {
         if (pointers.size === 1) moved = 0;
       });
       canvas.addEventListener("pointermove", (event) => {
-        if (pointers.size === 0 && on.tool(this.view) !== null) on.tool(this.view).hover(place(event));
+        if (pointers.size === 0) {
+          const hovering = on.tool(this.view);
+          if (hovering !== null) hovering.hover(place(event));
+          canvas.style.cursor = on.cursor(place(event));
+        }
         if (!pointers.has(event.pointerId)) return;
         if (tool !== null) {
           tool.move(place(event));

@@ -169,7 +169,10 @@ json Host::Core::Page::live(bool ends) const {
   }
   json can = {{"speed", core_.mirror_ == nullptr}, {"place", true}, {"blocks", std::move(blocks)}};
   if (locked) can["place"] = "this world locks its robots and obstacles (\"lock_objects\")";
+  const int clients = world.simulation.start_gate_clients;
+  const bool waits = !core_.progress_.first_step() && !core_.stands_still();
   return {{"paused", core_.pace_.paused()},
+          {"waiting_for", waits ? std::max(clients, 1) : 0},
           {"factor", has_speed ? json(core_.pace_.factor()) : json()},
           {"paced", core_.paced()},
           {"steered", std::move(steered)},
