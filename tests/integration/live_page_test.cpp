@@ -245,7 +245,7 @@ TEST_F(LivePage, BadOptions_Errors) {
   EXPECT_THAT(error({"--page", "--page-port", "65536"}), HasSubstr("65535"));
   EXPECT_THAT(error({"--page", "--page-name", "http://lab"}),
               HasSubstr("a name of letters, digits, '-' and '.'"));
-  EXPECT_THAT(error({"--page", "--isolated"}), HasSubstr("leave out --isolated"));
+  EXPECT_THAT(error({"--page", "--isolated", "required"}), HasSubstr("leave out --isolated"));
 }
 
 TEST(PagePrograms, StartedByHand_SaysWhoStartsIt) {
