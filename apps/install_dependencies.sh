@@ -37,7 +37,7 @@ build_packages=(
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
   libopencv-highgui-dev libavformat-dev libavcodec-dev
   libx11-dev libpng-dev libjpeg-dev libfreetype-dev fonts-dejavu-core
-  libasio-dev nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev zlib1g-dev
+  libasio-dev libboost-dev nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev zlib1g-dev
 )
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev locales ffmpeg=ffprobe gdb=gdb xvfb=Xvfb xdotool=xdotool

@@ -296,13 +296,19 @@ Findings check_installation() {
     findings.push_back({Health::kBroken, error.what(), kInstallAgain});
   }
 
-  const fs::path viewer = folder / "playpen-view";
-  if (access(viewer.c_str(), X_OK) == 0) {
-    findings.push_back({Health::kGood, "the program of the live window: " + viewer.string(), ""});
-  } else {
-    findings.push_back(
-        {Health::kWarning, "--view lacks its program, " + viewer.string(), kInstallAgain});
-  }
+  const auto look_for = [&](const char* name, const char* what, const char* option) {
+    const fs::path program = folder / name;
+    if (access(program.c_str(), X_OK) == 0) {
+      findings.push_back(
+          {Health::kGood, std::string("the program of the ") + what + ": " + program.string(), ""});
+    } else {
+      findings.push_back({Health::kWarning,
+                          std::string(option) + " lacks its program, " + program.string(),
+                          kInstallAgain});
+    }
+  };
+  look_for("playpen-view", "live window", "--view");
+  look_for("playpen-page", "live page", "--page");
 
   std::string missing;
   for (const ProjectTemplate& kind : kProjectTemplates) {

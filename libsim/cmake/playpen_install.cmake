@@ -92,8 +92,8 @@ endforeach()
 playpen_install_links("${_playpen_links}" programs)
 
 if(TARGET playpen)
-  # The window's program is looked for beside the command.
-  install(TARGETS playpen playpen-view
+  # The programs of window and page are looked for beside the command.
+  install(TARGETS playpen playpen-page playpen-view
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   # `playpen run --debug` loads it.
   install(FILES "${PROJECT_SOURCE_DIR}/apps/playpen/playpen_gdb.py" COMPONENT programs

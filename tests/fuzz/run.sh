@@ -49,7 +49,7 @@ if ((${#programs[@]} == 0)); then
   fi
   cmake --preset fuzz "${launcher[@]}"
   cmake --build --preset fuzz
-  programs=(build/fuzz/bin/fuzz_{lines,cbor,player,stage,world})
+  programs=(build/fuzz/bin/fuzz_{lines,cbor,page,player,stage,world})
 fi
 
 failed=()

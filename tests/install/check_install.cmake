@@ -55,6 +55,7 @@ if(EXISTS "${prefix}/bin/playpen")
   if(NOT EXISTS "${prefix}/bin/playpen-view")
     message(FATAL_ERROR "playpen-view, the program of the live window, was not installed")
   endif()
+  run("the installed program of the live page" "${prefix}/bin/playpen-page" --version)
   # The client's sleeps are simulated time, through a library that is found in a folder with blanks.
   run("running the sleeping client" "${prefix}/bin/playpen" run default
     --out ${STAGE_DIR}/sleeper_out -- ${STAGE_DIR}/consumer/sleeper)

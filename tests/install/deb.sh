@@ -55,7 +55,7 @@ holds() {
     grep -qxF -- "$file" "$folder/$1.list" || fail "$1 has no $file:" "$(<"$folder/$1.list")"
   done
 }
-holds playpen ./usr/bin/playpen ./usr/bin/playpen-view "$libraries/libplaypen_playerlike.so.0.1" \
+holds playpen ./usr/bin/playpen ./usr/bin/playpen-page ./usr/bin/playpen-view "$libraries/libplaypen_playerlike.so.0.1" \
   "$libraries/playpen/libplaypen_virtual_time.so" ./usr/share/playpen/worlds/cave.json \
   ./usr/share/playpen/templates/intro/robot.cc ./usr/share/man/man1/playpen.1.gz \
   ./usr/share/bash-completion/completions/playpen ./usr/share/playpen/docs/start_here.md \

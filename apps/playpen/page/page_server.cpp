@@ -159,6 +159,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void refuse(std::string_view reason, close_code code);
   void close(close_code code);
   void leave();
+  void tell_gone();
   void set_limit(PageLimits::Time time);
 
   PageServer::Impl& server_;
@@ -443,6 +444,7 @@ void Connection::close(close_code code) {
   set_limit(limits_.closing_time);
   phase_ = Phase::kClosing;
   code_ = code;
+  tell_gone();
   send_next();
 }
 
@@ -452,8 +454,12 @@ void Connection::leave() {
   error_code ignored;
   stream_.next_layer().close(ignored);
   if (delay_) delay_->cancel();
-  if (has_commanded_) server_.gone(number_);
+  tell_gone();
   server_.forget(*this);
+}
+
+void Connection::tell_gone() {
+  if (std::exchange(has_commanded_, false)) server_.gone(number_);
 }
 
 void Connection::set_limit(PageLimits::Time time) {
@@ -536,6 +542,7 @@ bool PageServer::Impl::command(std::uint32_t client, std::string_view text) {
 }
 
 void PageServer::Impl::want_whole() {
+  if (whole_asked_) return;  // that one is for this client too
   whole_wanted_ = true;
   ask_for_whole();
 }
