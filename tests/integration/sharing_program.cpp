@@ -23,10 +23,15 @@ int drive(int port, const std::string& other, double duration_s, bool hold = fal
   simulation.GetPose2d(const_cast<char*>(other.c_str()), x, y, yaw);
   const double begin = x;
   position.SetSpeed(0.2, 0.0);
+  robot.Read();
+  const double own_begin = position.GetXPos();
+  // The robot stops when this client ends, and the other program waits until it has moved, too. On
+  // a busy machine this program may begin late.
   do {
     robot.Read();
     simulation.GetPose2d(const_cast<char*>(other.c_str()), x, y, yaw);
-  } while (position.GetDataTime() < duration_s || std::abs(x - begin) < 0.05);
+  } while (position.GetDataTime() < duration_s || std::abs(x - begin) < 0.05 ||
+           position.GetXPos() - own_begin < 0.07);
   std::cout << other << " has moved, as port " << port << " sees it" << std::endl;
   std::string line;
   if (hold) std::getline(std::cin, line);

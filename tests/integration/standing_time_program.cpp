@@ -89,11 +89,15 @@ bool sleeps(pid_t thread) {
 
 int command_in_a_thread() {
   Robot robot;
-  std::thread([&] {
-    // Wait until main() is inside join(); before that it might be about to read.
-    while (!sleeps(getpid())) std::this_thread::yield();
+  std::atomic<bool> joins{false};
+  std::thread commands([&] {
+    // Wait until main() is inside join(); before that it might be about to read. It may sleep for
+    // a moment elsewhere, too.
+    while (!joins || !sleeps(getpid())) std::this_thread::yield();
     for (int i = 0; i < 100000; ++i) robot.position.SetSpeed(0.2, 0.0);
-  }).join();
+  });
+  joins = true;
+  commands.join();
   return 0;
 }
 

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "connect/prepared_process.h"
 #include "connect/run_desk.h"
 #include "host/stepping/onlookers.h"
 #include "playerlike/process/log.h"
@@ -261,6 +262,9 @@ std::map<std::string, std::string> run_variables() {
   }
   return variables;
 }
+
+// Copies of a prepared process go on from here, with their own environment.
+[[maybe_unused]] const bool kIsNoPreparedProcess = serve_if_prepared();
 
 // The values at the start of the program, read before main(), where programs may change them. Never
 // destroyed, since clients at namespace scope may need them.

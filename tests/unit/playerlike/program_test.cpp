@@ -46,6 +46,7 @@ TEST(RunEnvironment, UnsetVariables_Removed) {
           Pair("PLAYPEN_HIDE", std::nullopt), Pair("PLAYPEN_COLOUR_BY", std::nullopt),
           Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt), Pair("PLAYPEN_VIEW_MODE", std::nullopt),
           Pair("PLAYPEN_VIEW", std::nullopt), Pair("PLAYPEN_PAGE", std::nullopt),
+          Pair("PLAYPEN_RESULTS", std::nullopt), Pair("PLAYPEN_PREPARED", std::nullopt),
           Pair("PLAYPEN_CLIENTS", std::nullopt), Pair("PLAYPEN_INTERFACES", std::nullopt),
           Pair("PLAYPEN_GRADE", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt),
           Pair("PLAYPEN_STATE", std::nullopt), Pair("PLAYPEN_REALISM", std::nullopt),

@@ -92,6 +92,8 @@ struct RunSettings {
   bool take_over = false;  ///< real robots from other clients that are in charge of them
   /// Connects to the real robots of the world; empty: a world with real robots is refused.
   OpenRealRobot open_real_robot;
+  /// The results are report.json and trajectory.csv only, for searches over very many runs.
+  bool figures_only = false;
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
   std::optional<int> view_socket;
   /// Descriptor of a socket to a process that offers the run's page (playerlike/page/protocol.h).
@@ -129,7 +131,7 @@ struct RunSettings {
   /// PLAYPEN_RECORD_SPEED, PLAYPEN_RECORD_FROM, PLAYPEN_RECORD_SIZE, PLAYPEN_FOLLOW, PLAYPEN_CROP,
   /// PLAYPEN_HIDE, PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE
   /// (ground, mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW
-  /// and PLAYPEN_PAGE (descriptors' numbers), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
+  /// and PLAYPEN_PAGE (descriptors' numbers), PLAYPEN_PROGRESS, PLAYPEN_RESULTS (figures), PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
   /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_TASK,
   /// PLAYPEN_START (a snapshot's file), PLAYPEN_UNTIL (seconds) with PLAYPEN_THEN (debug or view),
   /// PLAYPEN_TAKE_OVER, PLAYPEN_INTERFACES and PLAYPEN_REAL (choices, separated by commas).

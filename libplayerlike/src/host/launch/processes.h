@@ -5,6 +5,9 @@
 
 #include <map>
 #include <string>
+#include <vector>
+
+#include "playerlike/host/program.h"
 
 namespace playerlike {
 
@@ -17,5 +20,17 @@ struct ProcessState {
 
 /// All living processes, without zombies.
 [[nodiscard]] std::map<pid_t, ProcessState> living_processes();
+
+/// How a program ended, by its wait status.
+[[nodiscard]] ProgramEnd program_end(int wait_state);
+
+/// @name For exec
+/// @{
+
+/// The environment of this process with changes, as "NAME=value".
+[[nodiscard]] std::vector<std::string> changed_environment(const EnvironmentChanges& changes);
+/// Pointers to the texts, which must outlive them, with a null pointer at the end.
+[[nodiscard]] std::vector<char*> pointers(std::vector<std::string>& texts);
+/// @}
 
 }  // namespace playerlike

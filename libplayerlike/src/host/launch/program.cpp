@@ -244,6 +244,18 @@ class GroupedProgram {
   bool killed_ = false;
 };
 
+std::optional<std::string> text_unless_empty(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(text);
+}
+
+void add_picture_settings(EnvironmentChanges& changes, const RunSettings& settings) {
+  changes["PLAYPEN_RECORD_SIZE"] = text_unless_empty(film_size_text(settings.pictures));
+  changes["PLAYPEN_FOLLOW"] = text_unless_empty(follow_text(settings.pictures));
+  changes["PLAYPEN_CROP"] = text_unless_empty(crop_text(settings.pictures));
+  changes["PLAYPEN_HIDE"] = text_unless_empty(hide_text(settings.pictures));
+  changes["PLAYPEN_COLOUR_BY"] = text_unless_empty(colour_by_text(settings.pictures));
+}
+
 }  // namespace
 
 std::string ProgramEnd::text() const {
@@ -288,6 +300,8 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   EnvironmentChanges changes;
   changes["PLAYPEN_WORLD"] = path_or_nothing(world_file);
   changes["PLAYPEN_OUT"] = path_or_nothing(settings.output_folder);
+  changes["PLAYPEN_RESULTS"] =
+      settings.figures_only ? std::optional<std::string>("figures") : std::nullopt;
   changes["PLAYPEN_RECORD"] = path_or_nothing(settings.film);
   changes["PLAYPEN_VIEW"] =
       settings.view_socket ? std::optional(std::to_string(*settings.view_socket)) : std::nullopt;
@@ -311,14 +325,7 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   changes["PLAYPEN_SNAPSHOT_EVERY"] =
       settings.snapshot_period_s ? std::optional(sim::shortest_text(*settings.snapshot_period_s))
                                  : std::nullopt;
-  const auto text_unless_empty = [](const std::string& text) {
-    return text.empty() ? std::nullopt : std::optional(text);
-  };
-  changes["PLAYPEN_RECORD_SIZE"] = text_unless_empty(film_size_text(settings.pictures));
-  changes["PLAYPEN_FOLLOW"] = text_unless_empty(follow_text(settings.pictures));
-  changes["PLAYPEN_CROP"] = text_unless_empty(crop_text(settings.pictures));
-  changes["PLAYPEN_HIDE"] = text_unless_empty(hide_text(settings.pictures));
-  changes["PLAYPEN_COLOUR_BY"] = text_unless_empty(colour_by_text(settings.pictures));
+  add_picture_settings(changes, settings);
   changes["PLAYPEN_VIEW_MODE"] =
       settings.view_mode ? std::optional(std::string(sim::to_string(*settings.view_mode)))
                          : std::nullopt;
@@ -358,6 +365,7 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
                           settings.stop->then == RunStop::Then::kView ? "view" : "debug")
                     : std::nullopt;
   changes["PLAYPEN_DESK"] = std::nullopt;
+  changes["PLAYPEN_PREPARED"] = std::nullopt;
   changes["PLAYPEN_RUN"] = settings.quiet_end ? std::optional<std::string>("1") : std::nullopt;
   return changes;
 }

@@ -379,6 +379,10 @@ RunSettings RunSettings::from_environment() {
   variables.read("PLAYPEN_SILENCE_LIMIT", "a number of seconds in (0, 1e9]",
                  into<double>(settings.silence_limit_s, parse_positive_seconds));
   read_sockets(variables, settings);
+  variables.read("PLAYPEN_RESULTS", "figures", [&settings](const std::string& text) {
+    settings.figures_only = text == "figures";
+    return settings.figures_only;
+  });
   settings.output_folder = environment("PLAYPEN_OUT");
   settings.kept_run = environment("PLAYPEN_STATE");
   settings.film = environment("PLAYPEN_RECORD");

@@ -54,6 +54,8 @@ struct SupervisorCommand {
 
 std::string between_quotes(const std::string& text) { return "'" + text + "'"; }
 
+}  // namespace
+
 ProgramEnd program_end(int wait_state) {
   ProgramEnd end;
   if (WIFSIGNALED(wait_state)) {
@@ -64,7 +66,6 @@ ProgramEnd program_end(int wait_state) {
   return end;
 }
 
-/// The environment of this process with changes, as "NAME=value".
 std::vector<std::string> changed_environment(const EnvironmentChanges& changes) {
   std::vector<std::string> result;
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
@@ -77,7 +78,6 @@ std::vector<std::string> changed_environment(const EnvironmentChanges& changes) 
   return result;
 }
 
-/// Pointers to the texts with a null pointer at the end, for exec.
 std::vector<char*> pointers(std::vector<std::string>& texts) {
   std::vector<char*> result;
   result.reserve(texts.size() + 1);
@@ -85,8 +85,6 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   result.push_back(nullptr);
   return result;
 }
-
-}  // namespace
 
 std::map<pid_t, ProcessState> living_processes() {
   std::map<pid_t, ProcessState> processes;

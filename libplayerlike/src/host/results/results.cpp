@@ -35,7 +35,7 @@ Results::Results(const RunSettings& settings, sim::Simulation& simulation,
   if (!settings.output_folder.empty()) std::filesystem::create_directories(settings.output_folder);
   recorder_ = std::make_unique<Recorder>(settings, simulation, mirror, &commands);
   // What a real robot does cannot be made again.
-  if (!settings.output_folder.empty() && mirror == nullptr) {
+  if (!settings.output_folder.empty() && mirror == nullptr && !settings.figures_only) {
     recording_ = std::make_unique<RecordingWriter>(settings, simulation);
   }
   kept_ = KeptWriter::open(settings.kept_run);
@@ -161,7 +161,7 @@ void Results::write(Last* last) {
     });
   }
   set_phase(KeptRun::Phase::kReported);
-  if (last != nullptr) {
+  if (last != nullptr && !settings_.figures_only) {
     attempt(warn_, kMissingResults, [&] {
       last->scene.canvas = last->layers.take_composed();
       last->scene.layers = last->layers.layers();

@@ -1,0 +1,113 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "connect/prepared_process.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "playerlike/host/prepared_program.h"
+
+namespace playerlike {
+namespace {
+
+using prepared::kMagic;
+
+bool read_all(int socket, void* to, std::size_t size) {
+  auto* bytes = static_cast<char*>(to);
+  while (size > 0) {
+    const ssize_t count = read(socket, bytes, size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes += count;
+    size -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+bool send_number(int socket, std::uint32_t number) {
+  return send(socket, &number, sizeof number, MSG_NOSIGNAL) == sizeof number;
+}
+
+// The output of a copy goes into a file.
+void redirect_output(const char* file) {
+  const int descriptor = open(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (descriptor < 0) return;
+  dup2(descriptor, STDOUT_FILENO);
+  dup2(descriptor, STDERR_FILENO);
+  close(descriptor);
+}
+
+// Sets the environment of a copy: NAME=VALUE, each with a zero byte after it.
+void become_copy(std::string_view variables) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  unsetenv("PLAYPEN_PREPARED");
+  while (!variables.empty()) {
+    const std::size_t end = variables.find('\0');
+    const std::string entry(variables.substr(0, end));
+    variables.remove_prefix(end == std::string_view::npos ? variables.size() : end + 1);
+    const std::size_t equals = entry.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string name = entry.substr(0, equals);
+    if (name == prepared::kOutputVariable) {
+      redirect_output(entry.c_str() + equals + 1);
+    } else {
+      setenv(name.c_str(), entry.c_str() + equals + 1, 1);
+    }
+  }
+}
+
+// Serves the next request. @return false: there is none; true in a copy.
+std::optional<bool> serve_one(int socket) {
+  std::uint32_t size = 0;
+  if (!read_all(socket, &size, sizeof size) || size > prepared::kGreatestRequest) return false;
+  std::string variables(size, '\0');
+  if (!read_all(socket, variables.data(), size)) return false;
+  const pid_t copy = fork();
+  if (copy == 0) {
+    close(socket);
+    become_copy(variables);
+    return true;
+  }
+  if (copy > 0) setpgid(copy, copy);
+  if (!send_number(socket, copy < 0 ? 0U : static_cast<std::uint32_t>(copy))) return false;
+  if (copy < 0) return std::nullopt;
+  int status = 0;
+  while (waitpid(copy, &status, 0) < 0 && errno == EINTR) {
+  }
+  kill(-copy, SIGKILL);  // what it has left behind
+  if (!send_number(socket, static_cast<std::uint32_t>(status))) return false;
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool serve_if_prepared() noexcept {
+  const char* const text = std::getenv("PLAYPEN_PREPARED");
+  if (text == nullptr) return true;
+  int socket = -1;
+  const char* const end = text + std::strlen(text);
+  if (std::from_chars(text, end, socket).ptr != end || socket < 3) return true;
+  fcntl(socket, F_SETFD, FD_CLOEXEC);
+  if (!send_number(socket, kMagic)) _exit(0);
+  for (;;) {
+    const std::optional<bool> served = serve_one(socket);
+    if (!served) continue;
+    if (*served) return true;
+    _exit(0);
+  }
+}
+
+}  // namespace playerlike
