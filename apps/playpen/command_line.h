@@ -69,6 +69,7 @@ void add_check(CommandLine& line);
 void add_render(CommandLine& line);
 void add_plot(CommandLine& line);
 void add_diff(CommandLine& line);
+void add_expect(CommandLine& line);
 void add_why(CommandLine& line);
 void add_replay(CommandLine& line);
 void add_list(CommandLine& line);

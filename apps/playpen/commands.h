@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "expect/expectation.h"
 #include "isolation.h"
 #include "page_process.h"
 #include "playerlike/host/run_settings.h"
@@ -43,7 +44,8 @@ struct RunRequest {
   double replay_megabytes = 5.0;
   std::optional<RunUntil> until;
   IsolationSettings isolation;
-  std::vector<std::string> command;  ///< program and arguments
+  std::vector<expect::Expectation> expectations;  ///< of its figures
+  std::vector<std::string> command;               ///< program and arguments
   /// the call of `playpen run` up to "--", as the user wrote it, for advice
   std::vector<std::string> call;
 };
@@ -219,6 +221,21 @@ struct DiffRequest {
 /// @throws std::runtime_error naming the folder that does not contain a run, the file that cannot
 ///         be read or written, or the grades that have no runs of the same names.
 [[nodiscard]] int compare_runs(const DiffRequest& request);
+
+/// Arguments of `playpen expect`.
+struct ExpectRequest {
+  std::vector<expect::Expectation> expectations;  ///< at least one
+  std::string folder;                             ///< of a run; "": only the form is checked
+};
+
+/// Prints what is not as expected in a run, or, without a run, the expectations.
+/// @return kOk if all is as expected, else kProgramFailed.
+/// @throws std::exception if the folder has no readable results.
+[[nodiscard]] int check_expectations(const ExpectRequest& request);
+/// Prints to the standard error what is not as expected in the results of a folder.
+/// @return number of these lines. @throws std::exception as check_expectations().
+[[nodiscard]] std::size_t print_unmet(const std::vector<expect::Expectation>& expectations,
+                                      const std::string& folder);
 
 /// Arguments of `playpen why`.
 struct WhyRequest {

@@ -216,6 +216,36 @@ void tell_before(const RunRequest& request, const sim::WorldDescription& world) 
   }
 }
 
+/// The processes that show the run while it goes on.
+class Displays {
+ public:
+  /// Starts those that the request wants, and sets their sockets in its settings.
+  Displays(RunRequest& request, const std::string& world) {
+    const std::string title = "Playpen: " + world;
+    if (request.view) request.settings.view_socket = viewer_.emplace(title).socket();
+    if (!request.page.wanted) return;
+    page_.emplace(request.page, title, playerlike::log_to_stderr());
+    request.settings.page_socket = page_->socket();
+    std::cout << page_->links() << std::endl;
+  }
+
+ private:
+  std::optional<ViewerProcess> viewer_;
+  std::optional<PageProcess> page_;
+};
+
+/// Says where the user sees why something was not as expected.
+void tell_of_results(RunRequest request) {
+  const std::string& folder = request.settings.output_folder;
+  std::cerr << "playpen: results: " << folder << '\n';
+  if (request.replay_file.empty()) {
+    request.replay_file = folder + "/replay.html";
+    request.quiet = false;
+    static_cast<void>(write_replay_of(request));
+  }
+  std::cerr << "playpen: reasons: playpen why " << folder << '\n';
+}
+
 /// Says how to go on from the end of a run of --then save.
 void tell_start(const RunRequest& request) {
   if (!request.until || request.until->then != RunUntil::Then::kSave || request.quiet) return;
@@ -258,6 +288,7 @@ int run(RunRequest request) {
   const std::string world_file = start ? start->world_file() : find_world(request.world);
   sim::WorldDescription world = load_found_world(world_file);
   request.settings.apply_to(world);  // reports settings that do not match the world before the run
+  for (const expect::Expectation& one : request.expectations) one.require_robot_of(world);
   require_time_of_until(request, world, start ? start->time_s() : 0.0);
   request.command.front() = playerlike::find_program(request.command.front());
   const std::string gdb = request.debug ? find_gdb() : std::string();
@@ -276,14 +307,7 @@ int run(RunRequest request) {
   }
   prepare_outputs(settings, world_file);
   tell_before(request, world);
-  std::optional<ViewerProcess> viewer;
-  if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
-  std::optional<PageProcess> page;
-  if (request.page.wanted) {
-    page.emplace(request.page, "Playpen: " + world.name, playerlike::log_to_stderr());
-    settings.page_socket = page->socket();
-    std::cout << page->links() << std::endl;
-  }
+  std::optional<Displays> displays(std::in_place, request, world.name);
 
   std::optional<PreloadedLibrary> virtual_time;
   settings.virtual_time = !request.real_sleep && in_lockstep(settings, world);
@@ -324,12 +348,16 @@ int run(RunRequest request) {
   if (request.debug) command = debug_call(gdb, command, environment, stops_in_gdb(request));
   const playerlike::ProgramEnd end = playerlike::run_program(command, environment, watch);
 
-  viewer.reset();  // the window has nothing left to show
-  page.reset();
+  displays.reset();  // they have nothing left to show
 
   const bool replayed = write_replay_of(request);
-  const int status = verdict(request, world, end, completed);
+  int status = verdict(request, world, end, completed);
   if (status == kOk) tell_start(request);
+  if (status == kOk && !request.expectations.empty() &&
+      print_unmet(request.expectations, settings.output_folder) > 0) {
+    tell_of_results(request);
+    status = kProgramFailed;
+  }
   return desk.conflict().empty() && replayed ? status : kProgramFailed;
 }
 

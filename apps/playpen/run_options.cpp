@@ -343,8 +343,19 @@ void add_run(CommandLine& line) {
              ValueKind::Kind::kFile);
   add_replay_size(command, request->replay_megabytes);
   add_until(line, command, request->until);
+  const auto expectations = std::make_shared<std::vector<std::string>>();
+  command
+      .add_option("--expect", *expectations,
+                  "Fail unless a figure of the results is so, such as \"collisions == 0\" (see "
+                  "'playpen expect'); can be repeated")
+      ->expected(1)
+      ->take_all()
+      ->type_name("EXPECTATION");
   command.add_flag("--quiet", request->quiet, "No progress, no summary");
-  command.callback([request, &line, &command, world] {
+  command.callback([request, expectations, &line, &command, world] {
+    for (const std::string& text : *expectations) {
+      request->expectations.push_back(parsed_expectation("--expect", text));
+    }
     if (world->count() == 0 && !request->from) throw CLI::RequiredError("world");
     if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
     request->command = line.program;

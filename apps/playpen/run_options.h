@@ -40,6 +40,11 @@ void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::View
 /// Adds --realism.
 void add_realism(CommandLine& line, CLI::App& command, std::optional<sim::Realism>& level);
 
+/// An expectation that the user wrote. @throws CLI::ParseError with the reason.
+/// @param option  where it was written, for the message.
+[[nodiscard]] expect::Expectation parsed_expectation(const std::string& option,
+                                                     const std::string& text);
+
 /// Adds --isolated and --readable.
 void add_isolation(CommandLine& line, CLI::App& command, IsolationSettings& settings);
 

@@ -13,12 +13,14 @@ export(TARGETS ${_playpen_build_targets} NAMESPACE playpen::
 file(READ "${CMAKE_CURRENT_LIST_DIR}/playpenConfig.cmake.in" _playpen_config)
 string(REPLACE "@PACKAGE_CMAKE_INSTALL_DATADIR@/playpen/worlds" "${PROJECT_SOURCE_DIR}/worlds"
   _playpen_config "${_playpen_config}")
+string(REPLACE "@PACKAGE_CMAKE_INSTALL_BINDIR@" "${PROJECT_BINARY_DIR}/bin"
+  _playpen_config "${_playpen_config}")
 file(WRITE "${PROJECT_BINARY_DIR}/package/playpenBuildConfig.cmake.in" "${_playpen_config}")
 configure_package_config_file("${PROJECT_BINARY_DIR}/package/playpenBuildConfig.cmake.in"
   "${_playpen_build_package_dir}/playpenConfig.cmake"
   INSTALL_DESTINATION "${_playpen_build_package_dir}"
   INSTALL_PREFIX "${PROJECT_BINARY_DIR}")
-foreach(_file IN ITEMS FindPlaypenBox2D.cmake)
+foreach(_file IN ITEMS FindPlaypenBox2D.cmake playpenTesting.cmake)
   configure_file("${CMAKE_CURRENT_LIST_DIR}/${_file}" "${_playpen_build_package_dir}/${_file}"
     COPYONLY)
 endforeach()

@@ -49,11 +49,12 @@ function(playpen_install_libraries libdir component)
   configure_package_config_file("${PROJECT_SOURCE_DIR}/libsim/cmake/playpenConfig.cmake.in"
     "${PROJECT_BINARY_DIR}/package/${component}/playpenConfig.cmake"
     INSTALL_DESTINATION "${package_dir}"
-    PATH_VARS CMAKE_INSTALL_DATADIR)
+    PATH_VARS CMAKE_INSTALL_DATADIR CMAKE_INSTALL_BINDIR)
   install(FILES
     "${PROJECT_BINARY_DIR}/package/${component}/playpenConfig.cmake"
     "${PROJECT_BINARY_DIR}/package/playpenConfigVersion.cmake"
     "${PROJECT_SOURCE_DIR}/libsim/cmake/FindPlaypenBox2D.cmake"
+    "${PROJECT_SOURCE_DIR}/libsim/cmake/playpenTesting.cmake"
     DESTINATION "${package_dir}" ${development})
   if(BUILD_SHARED_LIBS OR TARGET playpen_player)
     playpen_install_player_names("${libdir}" ${component}_dev ${ARGN})

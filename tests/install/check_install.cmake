@@ -62,6 +62,11 @@ if(EXISTS "${prefix}/bin/playpen")
   if(NOT run_output MATCHES "3.5 s simulated")
     message(FATAL_ERROR "the sleeping client's run printed:\n${run_output}")
   endif()
+  run("the consumer's tests" ${CMAKE_CTEST_COMMAND} --test-dir ${STAGE_DIR}/consumer --no-tests=error)
+  if(NOT EXISTS "${STAGE_DIR}/consumer/playpen/drives_far/seed1/replay.html"
+      OR NOT EXISTS "${STAGE_DIR}/consumer/playpen/drives/seed2/report.json")
+    message(FATAL_ERROR "the consumer's tests did not write their results:\n${run_output}")
+  endif()
 endif()
 
 # A task of the course, copied out of the tree, then built and run by the installed command on an

@@ -174,6 +174,34 @@ TEST_F(PlaypenRun, Solutions_DriveFarWithoutCollision) {
   }
 }
 
+TEST_F(PlaypenRun, ExpectationsUnmet_FailAndSayWhere) {
+  const ProcessResult result = run({"--duration", "1", "--quiet", "--expect", "collisions == 0",
+                                    "--expect", "r1.path_length > 1", "--expect", "sim_time <= 1"},
+                                   {TEMPLATE_PROGRAM});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("expected r1.path_length > 1, but r1 has 0\n"));
+  EXPECT_THAT(result.err, HasSubstr("results: " + out_));
+  EXPECT_THAT(result.err, Not(HasSubstr("expected collisions")));
+  EXPECT_THAT(output("replay.html"), HasSubstr("<!DOCTYPE html>"));
+  EXPECT_EQ(playpen({"expect", "collisions == 0", "--in", out_}).status, 0);
+  EXPECT_EQ(playpen({"expect", "collisions > 0", "--in", out_}).status, 1);
+}
+
+TEST_F(PlaypenRun, WrongExpectation_RefusedBeforeProgramStarts) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"collision == 0", "--expect: there is no figure 'collision'"},
+      {"r7.collisions == 0", "the world has no robot 'r7'; its robots are r1"}};
+  for (const auto& [expectation, words] : cases) {
+    const ProcessResult result = run({"--expect", expectation}, {TEMPLATE_PROGRAM});
+    EXPECT_EQ(result.status, 2) << expectation;
+    EXPECT_THAT(result.err, HasSubstr(words));
+    EXPECT_FALSE(fs::exists(out_));
+  }
+  const ProcessResult nowhere = playpen({"expect", "collisions == 0", "--in", folder_ / "nowhere"});
+  EXPECT_EQ(nowhere.status, 2);
+  EXPECT_THAT(nowhere.err, HasSubstr("found no folder"));
+}
+
 TEST_F(PlaypenRun, WallFollower_AcceptsLeftOrRightHandOnly) {
   world_ = kIntroWorld;
   const ProcessResult right = run({"--duration", "60"}, {WALL_PROGRAM, "--side", "right"});

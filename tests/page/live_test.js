@@ -381,6 +381,13 @@ run({
       ["answer", "block b3 cannot rise"]]);
     assert.deepStrictEqual(made.sent.slice(1), [{pause: true}]);
   },
+  aRunMayWaitForPrograms() {
+    const doing = (live) => Live.doing(Object.assign({}, kLive, live));
+    assert.strictEqual(doing({}), "live");
+    assert.strictEqual(doing({waiting_for: 1}), "waiting for a program");
+    assert.strictEqual(doing({waiting_for: 3}), "waiting for 3 programs");
+    assert.strictEqual(doing({waiting_for: 3, paused: true}), "paused");
+  },
   watchersSendNoCommands() {
     const made = connection(null);
     made.sockets[0].onopen();
@@ -492,6 +499,11 @@ run({
     made.key("ArrowUp");
     assert.strictEqual(made.sent.length, 3);
     assert.ok(made.said[0].startsWith("Select the robot to drive"));
+    made.desk.show();
+    assert.ok(made.byId("pad").hidden);
+    made.state.options.selected = 1;
+    made.desk.show();
+    assert.ok(!made.byId("pad").hidden);
   },
   whatIsHeldIsReleased() {
     for (const release of [(made) => made.listeners.blur(), (made) => made.listeners.visibilitychange(),

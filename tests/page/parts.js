@@ -159,7 +159,7 @@ class Slicer {
   }
 }
 
-const kLive = {paused: false, factor: 1, paced: true, steered: [], over: false,
+const kLive = {paused: false, waiting_for: 0, factor: 1, paced: true, steered: [], over: false,
   can: {speed: true, place: true, blocks: []}};
 
 // The bytes of a message with a run until `to`. @param head  of the replay.

@@ -96,9 +96,10 @@ const Commands = (function () {
     show() {
       const {live} = this.state;
       byId("live-bar").hidden = !this.command;
-      byId("pad").hidden = !this.isOn() || this.placing !== null;
+      byId("pad").hidden = !this.isOn() || this.placing !== null || this.robot() < 0;
+      Panels.setText(byId("hint"), "Click a robot in the picture" +
+        (this.command ? " to drive it and to see its readings." : "."));
       if (live === null || !this.command) return;
-      byId("pad").classList.toggle("idle", this.robot() < 0);
       const pause = byId("pause");
       for (const name of ["pause", "factor"]) byId(name).disabled = !this.connected;
       Panels.setText(pause, live.paused ? "► Continue" : "❚❚ Pause");

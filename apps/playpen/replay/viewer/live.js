@@ -35,6 +35,13 @@ const Live = (function () {
     }
   }
 
+  // What the simulation does, in words. @param live  see `state.live` of the page.
+  function doing(live) {
+    if (live.paused) return "paused";
+    if (live.waiting_for === 0) return "live";
+    return "waiting for " + (live.waiting_for === 1 ? "a program" : live.waiting_for + " programs");
+  }
+
   class Link {
     // @param connect  () => a new WebSocket
     // @param token  () => the token or null
@@ -158,5 +165,5 @@ const Live = (function () {
     }
   }
 
-  return {takeToken, forgetToken, Link, Steering};
+  return {takeToken, forgetToken, doing, Link, Steering};
 })();

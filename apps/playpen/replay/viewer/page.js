@@ -79,7 +79,10 @@ const Page = (function () {
     state.panel.show(run, robot);
     setText(byId("of-run"), state.runs.length > 1 && robot >= 0 ? "in " + run.name : "");
     byId("hint").hidden = robot >= 0;
-    if (state.desk !== null) state.desk.release();
+    if (state.desk !== null) {
+      state.desk.release();
+      state.desk.show();
+    }
     changed();
   }
 
@@ -507,8 +510,7 @@ const Page = (function () {
     if (name === "refused") Live.forgetToken(window);
     node.className = name;
     const rights = desk.command ? "commanding" : "watching";
-    const now = live !== null && live.paused ? "paused" : "live";
-    setText(node, name === "live" ? now + " · " + rights : text);
+    setText(node, name === "live" ? Live.doing(live) + " · " + rights : text);
     if (clock === null) {
       if (name !== "live") setText(byId("status"), text);
       return;

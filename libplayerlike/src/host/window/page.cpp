@@ -68,8 +68,12 @@ std::string message(page::HostKind kind, std::uint32_t client, const std::string
 }  // namespace
 
 Host::Core::Page::Page(Core& core, int socket) : FrameLink(socket, "the page"), core_(core) {
+  for (const RobotInfo& robot : core_.robots_) commands_.emplace_back(robot.devices.size());
   core_.inputs_.on_command = [this](DeviceId device, const sim::Command& command) {
-    commands_.insert_or_assign({device.robot, device.device}, command);
+    NewestCommand& newest =
+        commands_[static_cast<std::size_t>(device.robot)][static_cast<std::size_t>(device.device)];
+    newest.command = command;
+    newest.is_new = true;
   };
   start();
 }
@@ -147,10 +151,14 @@ void Host::Core::Page::look() {
     anew_ = true;
   }
   if (!builder_) builder_.emplace(simulation, replay::ReplayOptions{.live = true});
-  for (const auto& [device, command] : commands_) {
-    builder_->note_command(simulation.now_ns(), {device.first, device.second}, command);
+  for (std::size_t robot = 0; robot < commands_.size(); ++robot) {
+    for (std::size_t device = 0; device < commands_[robot].size(); ++device) {
+      NewestCommand& newest = commands_[robot][device];
+      if (!std::exchange(newest.is_new, false)) continue;
+      builder_->note_command(simulation.now_ns(),
+                             {static_cast<int>(robot), static_cast<int>(device)}, newest.command);
+    }
   }
-  commands_.clear();
   builder_->observe(simulation);
 }
 

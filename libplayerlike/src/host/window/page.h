@@ -66,8 +66,12 @@ class Host::Core::Page final : public FrameLink {
   std::optional<replay::ReplayBuilder> builder_;
   std::string sent_live_;            ///< the last part's `live`
   std::map<int, Steering> steered_;  ///< by robot
-  /// The newest command to each device since the last frame. The host's mutex guards it.
-  std::map<std::pair<int, int>, sim::Command> commands_;
+  /// The newest command to each device of each robot. The host's mutex guards it.
+  struct NewestCommand {
+    sim::Command command;
+    bool is_new = false;  ///< since the last frame
+  };
+  std::vector<std::vector<NewestCommand>> commands_;
 };
 
 }  // namespace playerlike
