@@ -11,6 +11,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -94,7 +95,7 @@ class LivePage : public testing::Test {
     PageClient client(links.port);
     EXPECT_THAT(client.upgrade("Host: 127.0.0.1:" + std::to_string(links.port)),
                 testing::StartsWith("HTTP/1.1 101"));
-    client.text(json{{"token", token}}.dump());
+    client.text(token.empty() ? "{}" : json{{"token", token}}.dump());
     return client;
   }
 
@@ -162,6 +163,47 @@ TEST_F(LivePage, TokenFile_ItsTokensCount) {
   EXPECT_EQ(joined(links, "wwwwwwwwwwwwwwww").message().contents,
             R"({"rights": {"command": false}})");
   EXPECT_EQ(stop().status, 0);
+}
+
+// The commands of docs/page.md that serve a world, with its token file.
+TEST_F(LivePage, CommandsOfItsPage_Work) {
+  const std::string text = content_of(PLAYPEN_SOURCE_DIR "/docs/page.md");
+  const std::string fence = "```json\n";
+  const std::size_t json_begin = text.find(fence) + fence.size();
+  folder.write("tokens.json", text.substr(json_begin, text.find("```", json_begin) - json_begin));
+  int count = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::vector<std::string> call{std::istream_iterator<std::string>(words), {}};
+    if (!line.starts_with("    playpen serve ")) continue;
+    ++count;
+    call.front() = PLAYPEN_COMMAND;
+    call.insert(call.end(), {"--tcp-port", "0", "--page-port", "0", "--out", folder / "out"});
+    test_support::ProcessOptions options;
+    options.folder = folder.path().string();
+    Process process(call, options);
+    ASSERT_TRUE(process.read_until("commands: http://")) << line << process.finish().err;
+    process.send_signal(SIGINT);
+    EXPECT_EQ(process.finish().status, 0) << line;
+  }
+  EXPECT_EQ(count, 2);
+}
+
+TEST_F(LivePage, SignalToGroup_EndsInGoodOrder) {
+  const Links links = start();
+  PageClient client = joined(links, "");
+  client.message();
+  server->send_signal_to_group(SIGTERM);
+  PageClient::Message last;
+  do {
+    last = client.message();
+  } while (last.kind == 2);
+  EXPECT_EQ(last.contents, R"({"over": true})");
+  client.leave();
+  const ProcessResult result = server->finish();
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, Not(HasSubstr("ended before the run")));
 }
 
 TEST_F(LivePage, PageOpenAndName_LinkWithoutToken) {

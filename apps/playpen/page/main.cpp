@@ -21,6 +21,12 @@ namespace {
 
 constexpr int kSocket = STDIN_FILENO;
 
+/// Ends this process, by SIGALRM, if the run does not end soon.
+void end_soon(int) {
+  constexpr unsigned kEndOfRun_s = 3;
+  alarm(kEndOfRun_s);
+}
+
 /// Reads the first line of the socket and nothing after it.
 std::string first_line() {
   constexpr std::size_t kMostBytes = 65536;
@@ -49,8 +55,11 @@ int main(int argc, char** argv) {
     std::cerr << "playpen-page is started by 'playpen run --page' and 'playpen serve --page'\n";
     return 2;
   }
-  // Ctrl-C in a terminal reaches all processes of the run; this one ends when the run has ended.
+  // Ctrl-C in a terminal reaches all processes of the run; this one ends when the run has ended,
+  // and tells the browsers. Other signals may have been sent to it alone.
   signal(SIGINT, SIG_IGN);
+  signal(SIGTERM, end_soon);
+  signal(SIGHUP, end_soon);
   signal(SIGPIPE, SIG_IGN);
   try {
     const playpen::page::PageSettings settings = playpen::page::settings_of_line(first_line());

@@ -43,7 +43,6 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
-namespace wire = playerlike::page;
 
 using asio::ip::tcp;
 using beast::error_code;
@@ -259,7 +258,7 @@ void Connection::respond(int status, std::string body, const char* type, const s
   if (status == 426) response.set(http::field::upgrade, "websocket");
   response.content_length(body.size());
   if (!is_head) response.body() = std::move(body);
-  set_limit(limits_.stalled_time);
+  set_limit(limits_.answer_time);
   http::async_write(stream_.next_layer(), response,
                     [self = shared_from_this()](const error_code& error, std::size_t) {
                       if (error || self->phase_ != Phase::kAnswered) return self->leave();

@@ -40,6 +40,7 @@ struct PageLimits {
   Time queued_time{2000};                ///< that a part may wait for a client
   std::size_t host_bytes = 1U << 20U;    ///< that wait for the host
   Time request_time{5000};               ///< for an HTTP request
+  Time answer_time{30'000};              ///< for its answer
   Time greeting_time{5000};              ///< for a client's first message
   Time stalled_time{10'000};             ///< in which a client takes nothing of a message
   Time idle_time{30'000};                ///< in which a client answers no ping

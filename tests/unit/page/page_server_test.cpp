@@ -83,8 +83,8 @@ class PageServerTest : public testing::Test {
     settings.watch_token = kWatchToken;
     settings.title_markup = "Playpen: a &lt; b";
     // No verdict by the wall clock: a test that is about one of these times sets it.
-    limits.queued_time = limits.request_time = limits.greeting_time = limits.stalled_time =
-        limits.idle_time = limits.whole_period = milliseconds(0);
+    limits.queued_time = limits.request_time = limits.answer_time = limits.greeting_time =
+        limits.stalled_time = limits.idle_time = limits.whole_period = milliseconds(0);
     limits.closing_time = std::chrono::hours(1);
     limits.message_period = std::chrono::hours(1);
     limits.look_period = milliseconds(1);
