@@ -7,7 +7,7 @@ usage: live_browser_test.py PLAYPEN WORLD [--keep FOLDER]
 The world has robots and dynamic blocks. Needs chromium and chromedriver. Checks: who may watch, who
 may command, and that a page of another origin gets nothing; keys, the joystick, a click on a block,
 a placed robot, a pause; that every part of the run is drawn while all robots drive, in less than
-LIMIT_MS on average; and that the page can be scrubbed after the end of the run. The frames per
+LIMIT_MS of processor time each; and that the page can be scrubbed after the end of the run. The frames per
 second are printed only, because they depend on the machine's load.
 """
 
@@ -24,7 +24,8 @@ import threading
 from browser import Browser, missing_program
 from page_of import PageOf
 
-LIMIT_MS = 40  # of a picture, on average: 25 pictures a second
+# Of the main thread's processor time per picture, with all else that the page does: 25 a second.
+LIMIT_MS = 40
 PARTS = 150  # of the run, for which the pictures are counted: about 5 s
 ARROW_UP, HOME = "\ue013", "\ue011"
 
@@ -206,8 +207,10 @@ def check_block(browser):
     browser.wait("return test.block(arguments[0]).state === 'standing'", name)
 
 
-def check_placing(browser, robot, target):
-    assert distance(browser.run("return test.pose(arguments[0])", robot), target) > 0.2
+def check_placing(browser, robot, begin):
+    """Places the robot in the free corridor in which it has been driven: far from where it is now."""
+    now = browser.run("return test.pose(arguments[0])", robot)
+    target = max(begin, {"x": begin["x"] - 1.0, "y": begin["y"]}, key=lambda place: distance(now, place))
     browser.click(*browser.place_in("place"))
     browser.click(*browser.run("return test.pixel(arguments[0])", target))
     # A pixel is about 6 mm.
@@ -232,18 +235,20 @@ def check_pictures(browser):
     browser.run(STEER_ALL)
     browser.wait("return Page.state.live.steered.length === 13")
     browser.run(COUNT, PARTS)
+    work_s = browser.work_s()
     browser.wait("return window.counts.seconds !== undefined")
     counts = browser.run("return window.counts")
+    work_ms = 1000 * (browser.work_s() - work_s) / counts["drawn"]
     browser.wait("""const before = arguments[0];
         return test.poses().every((X, i) => Math.hypot(X.x - before[i].x, X.y - before[i].y) +
           Math.abs(X.a - before[i].a) > 0.1);""", before)
     browser.run("clearInterval(window.steering)")
-    ms = counts["ms"] / counts["drawn"]
-    print(f"13 robots drive: {counts['drawn'] / counts['seconds']:.1f} frames/s, {ms:.1f} ms each; "
+    print(f"13 robots drive: {counts['drawn'] / counts['seconds']:.1f} frames/s, "
+          f"{counts['ms'] / counts['drawn']:.1f} ms each, {work_ms:.1f} ms of the processor; "
           f"{counts['parts']} parts, {counts['together']} of them drawn with the one before")
     assert counts["behind"] == 0 and counts["missed"] == 0, counts
     assert counts["drawn"] >= counts["parts"] - counts["together"] - 1, counts  # the last is under way
-    assert ms < LIMIT_MS, f"a picture takes {ms:.1f} ms"
+    assert work_ms < LIMIT_MS, f"a picture takes {work_ms:.1f} ms of the processor"
     browser.wait("return Page.state.live.steered.length === 0")
 
 
