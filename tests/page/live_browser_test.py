@@ -7,8 +7,8 @@ usage: live_browser_test.py PLAYPEN WORLD [--keep FOLDER]
 The world has robots and dynamic blocks. Needs chromium and chromedriver. Checks: who may watch, who
 may command, and that a page of another origin gets nothing; keys, the joystick, a click on a block,
 a placed robot, a pause; that every part of the run is drawn while all robots drive, in less than
-LIMIT_MS of processor time each; and that the page can be scrubbed after the end of the run. The frames per
-second are printed only, because they depend on the machine's load.
+LIMIT_MS of processor time each; and that the page can be scrubbed after the end of the run. The
+frames per second are printed only, because they depend on the machine's load.
 """
 
 import argparse
