@@ -170,3 +170,12 @@ take camera0000.ppm devices_camera
 "$images/picture_live_window.sh" "$bin/playpen" worlds/examples/thirteen_robots.json "$out/window" \
   "$images/live_window.png" "$bin/docs_thirteen"
 echo "$images/live_window.png"
+
+# The live page of the same robots.
+for look in 'page --size 1200x760' 'page_phone --size 390x844 --phone --dark'; do
+  read -r name options <<<"$look"
+  # shellcheck disable=SC2086 # several options
+  "$images/picture_page.py" "$bin/playpen" worlds/examples/thirteen_robots.json "$out/page" \
+    "$out/$name.png" "$bin/docs_thirteen" $options
+  take "$name.png" "$name"
+done

@@ -14,90 +14,19 @@ import argparse
 import base64
 import json
 import pathlib
-import shutil
 import struct
 import subprocess
 import sys
 import tempfile
-import time
-import urllib.request
 import zlib
+
+from browser import Browser, missing_program
 
 LIMIT_MS = 100  # of the median moment; a loaded machine may delay a single one
 # The pictures have different fonts, anti-aliasing, and opacities where shapes overlap.
 # The page does not smooth the edges of cells; with 13 robots that draw, this alone makes up 1.
 MEAN_DIFFERENCE = 2  # mean of the absolute differences of channels, of 255
 MOST_DIFFERENT = 0.01  # share of the pixels with a channel that differs by more than 64
-
-
-class Browser:
-    """A session of chromedriver."""
-
-    def __init__(self, width, height):
-        self.driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=subprocess.PIPE, text=True)
-        port = None
-        for line in self.driver.stdout:
-            if "started successfully on port" in line:
-                port = int(line.rsplit(" ", 1)[1].rstrip(".\n"))
-                break
-        if port is None:
-            raise RuntimeError("chromedriver did not start")
-        self.base = f"http://127.0.0.1:{port}/session"
-        arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
-                     f"--window-size={width},{height}", "--disable-background-networking"]
-        made = self.call("POST", "", {"capabilities": {"alwaysMatch": {
-            "goog:chromeOptions": {"args": arguments}, "goog:loggingPrefs": {"browser": "ALL"}}}})
-        self.base += "/" + made["sessionId"]
-
-    def call(self, method, path, body=None):
-        data = None if body is None else json.dumps(body).encode()
-        request = urllib.request.Request(self.base + path, data=data, method=method,
-                                         headers={"Content-Type": "application/json"})
-        with urllib.request.urlopen(request, timeout=120) as answer:
-            return json.load(answer)["value"]
-
-    def open(self, page, fragment=""):
-        self.call("POST", "/url", {"url": "about:blank"})
-        self.call("POST", "/url", {"url": page.resolve().as_uri() + fragment})
-        self.wait("return document.body.classList.contains('ready') && "
-                  "Page.state.stages.every((stage) => stage.view.width > 1)")  # and drawn
-
-    def wait(self, condition):
-        """Waits until a script returns true."""
-        deadline = time.monotonic() + 60
-        while not self.run(condition):
-            if time.monotonic() > deadline:
-                raise AssertionError(f"never true: {condition}; the page says: " +
-                                     self.run("return document.body.innerText"))
-            time.sleep(0.05)
-
-    def run(self, script, *arguments):
-        return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
-
-    def keys(self, text):
-        """Types into the page, whatever has the focus."""
-        actions = [{"type": kind, "value": key} for key in text for kind in ("keyDown", "keyUp")]
-        self.call("POST", "/actions", {"actions": [{"type": "key", "id": "k", "actions": actions}]})
-
-    def click(self, x, y):
-        self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "p", "actions": [
-            {"type": "pointerMove", "x": x, "y": y}, {"type": "pointerDown", "button": 0},
-            {"type": "pointerUp", "button": 0}]}]})
-
-    def messages(self):
-        """Errors on the console since the last call, with what the page's policy refused."""
-        return [entry["message"] for entry in self.call("POST", "/se/log", {"type": "browser"})
-                if entry["level"] == "SEVERE"]
-
-    def screenshot(self, path):
-        path.write_bytes(base64.b64decode(self.call("GET", "/screenshot")))
-
-    def close(self):
-        try:
-            self.call("DELETE", "")
-        finally:
-            self.driver.terminate()
-            self.driver.wait(30)
 
 
 def pixels_of(png):
@@ -240,16 +169,15 @@ def check_labels(browser):
 def look_at(sample, world, folder):
     subprocess.run([sample, world, "20", str(folder)], check=True, stdout=subprocess.DEVNULL)
     end = json.loads((folder / "scene.json").read_text())["end"]
+    address = (folder / "replay.html").resolve().as_uri()
     browser = Browser(1400, 900)
     try:
-        browser.open(folder / "replay.html", "#t=12.5")
+        browser.open(address + "#t=12.5")
         assert browser.run("return Page.state.clock.t") == 12.5
         check_labels(browser)
         check_moments(browser, end)
         check_controls(browser, end)
-        browser.run("""const robot = document.getElementById("robot");
-            robot.value = "0";
-            robot.dispatchEvent(new Event("change"));""")
+        browser.choose("robot", "0")
         browser.wait("return document.querySelectorAll('#panel tr').length > 4")
         assert "<b>of</b>" in browser.run("return document.getElementById('output').textContent")
         assert browser.run("return document.querySelectorAll('#output b').length") == 0
@@ -257,9 +185,9 @@ def look_at(sample, world, folder):
         check_picture(browser, folder)
         check_no_messages(browser, "replay.html")
         name = browser.run("return Page.state.runs[0].robots[0].name")
-        browser.open(folder / "replay.html", f"#t=1&robot={name}")
+        browser.open(f"{address}#t=1&robot={name}")
         assert browser.run("return Page.state.options.selected") == 0
-        browser.open(folder / "two.html", "#t=5")
+        browser.open((folder / "two.html").resolve().as_uri() + "#t=5")
         assert browser.run("return document.querySelectorAll('#stages canvas').length") == 2
         # A click on a robot of the second picture shows that robot.
         where = browser.run("""const {canvas, view, runs} = Page.state.stages[1];
@@ -268,9 +196,7 @@ def look_at(sample, world, folder):
             return [box.left + view.px(X.x), box.top + view.py(X.y)].map(Math.round);""")
         browser.click(*where)
         assert browser.run("return document.getElementById('of-run').textContent") == "in second run"
-        browser.run("""const mode = document.getElementById("mode");
-            mode.value = "over";
-            mode.dispatchEvent(new Event("change"));""")
+        browser.choose("mode", "over")
         assert browser.run("return document.querySelectorAll('#stages canvas').length") == 1
         check_moments(browser, end)
         check_no_messages(browser, "two.html")
@@ -286,10 +212,9 @@ def main():
     parser.add_argument("world")
     parser.add_argument("--keep", type=pathlib.Path, help="write the pages and pictures here")
     arguments = parser.parse_args()
-    for program in ("chromedriver", "chromium"):
-        if shutil.which(program) is None:
-            print(f"skipped: there is no {program}")
-            return 77
+    if missing_program() is not None:
+        print(f"skipped: there is no {missing_program()}")
+        return 77
     with tempfile.TemporaryDirectory() as temporary:
         look_at(arguments.sample, arguments.world, arguments.keep or pathlib.Path(temporary))
     print("passed")

@@ -97,6 +97,7 @@ const Commands = (function () {
       const {live} = this.state;
       byId("live-bar").hidden = !this.command;
       byId("pad").hidden = !this.isOn() || this.placing !== null || this.robot() < 0;
+      byId("live-bar").classList.toggle("with-pad", !byId("pad").hidden);
       Panels.setText(byId("hint"), "Click a robot in the picture" +
         (this.command ? " to drive it and to see its readings." : "."));
       if (live === null || !this.command) return;

@@ -9,6 +9,7 @@ const Page = (function () {
   const kPanelPeriod = 100; // between updates of the panel during a playback [ms]
   const kMarksPeriod = 1000; // between pictures of the marks of a live run [ms]
   const kLivePlot = 60; // what plots of a live run show [s]
+  const kLeastPlot = 10; // and at its begin [s]
   const kMostHappenings = 500; // in the list of a live run
   const kShownMessage = 6000; // [ms]
 
@@ -385,7 +386,9 @@ const Page = (function () {
   // Plots show a whole replay, but the last minute of a live run.
   function plotSpan(t) {
     const {begin, end, live} = state.clock;
-    return live ? [t - kLivePlot, t] : [begin, end];
+    if (!live) return [begin, end];
+    const from = Math.max(t - kLivePlot, begin);
+    return [from, Math.max(t, from + kLeastPlot)];
   }
 
   // Shows the first runs of the page.

@@ -85,6 +85,7 @@ const Panels = (function () {
       const i = device.times.before(t);
       setText(this.brief, device.times.length === 0 ? "no readings"
         : i < 0 ? "none yet" : "at " + device.times.at(i).toFixed(2) + " s");
+      if (this.rows !== null) this.node.lastChild.hidden = i < 0;
       if (!this.node.open || i < 0) return;
       const {series, lists} = device;
       // A live run's devices may get new ones.

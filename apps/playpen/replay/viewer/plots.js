@@ -32,7 +32,7 @@ const Plots = (function () {
     return parts;
   }
 
-  // A plot whose curve is drawn once; only the cursor moves.
+  // A plot whose curve is drawn again only if it has grown or the span has changed. The cursor moves.
   class Plot {
     // @param curve  {times, numbers()}
     // @param spanAt  (t) => [begin, end], what is shown at t [s].
@@ -50,7 +50,7 @@ const Plots = (function () {
       const [width, height] = [Math.round(box.width * ratio), Math.round(box.height * ratio)];
       const style = getComputedStyle(this.canvas);
       const span = this.spanAt(t);
-      const key = [width, height, style.color, span].join();
+      const key = [width, height, style.color, span, this.curve.times.length].join();
       if (this.cache === null || this.cache.key !== key) this.drawCurve(key, width, height, style, span);
       if (this.canvas.width !== width || this.canvas.height !== height) {
         this.canvas.width = width;
