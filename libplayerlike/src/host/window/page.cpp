@@ -20,6 +20,9 @@ using nlohmann::json;
 
 // How long a robot is steered by a command that is not repeated.
 constexpr std::chrono::seconds kSteeringTime{1};
+// Nobody watches if a part is not taken for so long; then the run is looked at with the period.
+constexpr std::chrono::seconds kUntakenLimit{1};
+constexpr std::chrono::milliseconds kLookPeriod{200};
 constexpr double kLeastSpeed = 1.0 / 16.0;
 constexpr double kGreatestSpeed = 64.0;
 
@@ -124,11 +127,12 @@ std::string Host::Core::Page::frame(bool ends) {
     const Lock lock = core_.lock_with_priority();
     look();
     part = builder_->take();
-    if (std::exchange(want_whole_, false)) whole = builder_->whole();
+    if (std::exchange(want_whole_, false) || anew_) whole = builder_->whole();
     now_live = live(ends).dump();
   }
   std::string bytes;
-  if (replay::has_news(part) || now_live != sent_live_) {
+  // For those who begin anew, the part has no meaning.
+  if (!anew_ && (replay::has_news(part) || now_live != sent_live_)) {
     bytes = message(page::HostKind::kPart, 0, replay::encoded_part(part, now_live));
     under_way_ = true;
     sent_live_ = now_live;
@@ -138,6 +142,7 @@ std::string Host::Core::Page::frame(bool ends) {
         std::exchange(anew_, false) ? page::HostKind::kAnew : page::HostKind::kWhole;
     bytes += message(kind, 0, replay::encoded_whole(*whole, now_live));
   }
+  next_look_ = Clock::now() + kUntakenLimit;
   return bytes;
 }
 
@@ -147,7 +152,6 @@ void Host::Core::Page::look() {
   // After a reset all viewers begin anew.
   if (builder_ && simulation.now_ns() < builder_->observed_ns()) {
     builder_.reset();
-    want_whole_ = true;
     anew_ = true;
   }
   if (!builder_) builder_.emplace(simulation, replay::ReplayOptions{.live = true});
@@ -285,6 +289,14 @@ void Host::Core::Page::end_steering(int robot) {
 
 void Host::Core::Page::tick() {
   const auto now = Clock::now();
+  // Whoever comes later wants to see the trails and events from before.
+  if (ready_ && under_way_ && now >= next_look_) {
+    next_look_ = now + kLookPeriod;
+    const Lock lock = core_.lock_with_priority();
+    look();
+    static_cast<void>(builder_->take());
+    anew_ = true;  // also for viewers that have merely not got the last part yet
+  }
   for (auto it = steered_.begin(); it != steered_.end();) {
     const auto [robot, steering] = *it++;
     if (steering.until <= now) end_steering(robot);
@@ -292,7 +304,7 @@ void Host::Core::Page::tick() {
 }
 
 FrameLink::Clock::time_point Host::Core::Page::awake_until() const {
-  Clock::time_point last{};
+  Clock::time_point last = ready_ && under_way_ ? next_look_ + kUntakenLimit : Clock::time_point{};
   for (const auto& [robot, steering] : steered_) {
     last = std::max(last, steering.until + std::chrono::seconds(1));
   }

@@ -64,6 +64,7 @@ class Host::Core::Page final : public FrameLink {
   bool want_whole_ = false;  ///< a viewer waits for a whole
   bool anew_ = false;        ///< and all viewers need one
   std::optional<replay::ReplayBuilder> builder_;
+  Clock::time_point next_look_{};    ///< of tick()
   std::string sent_live_;            ///< the last part's `live`
   std::map<int, Steering> steered_;  ///< by robot
   /// The newest command to each device of each robot. The host's mutex guards it.
