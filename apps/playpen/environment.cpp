@@ -24,7 +24,7 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"PLAYPEN_PORT", "The Player port of the first robot; others keep their distance to it.",
        true},
       {"PLAYPEN_PREPARED",
-       "The number of the descriptor over which playpen fuzz starts copies of the program.", true},
+       "The number of the descriptor over which copies of the program are started.", true},
       {"PLAYPEN_PROGRESS", "If it is 1, a line on the terminal shows the progress.", true},
       {"PLAYPEN_REAL", "The real robots that robots of the world mirror.", true},
       {"PLAYPEN_REALISM", "The level of realism: ideal, course or real.", true},

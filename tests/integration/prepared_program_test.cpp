@@ -89,11 +89,9 @@ TEST_F(PreparedProgramTest, KilledCopy_NextOneRuns) {
 }
 
 TEST_F(PreparedProgramTest, ProgramWithoutPlaypen_Error) {
-  EXPECT_THAT([&] { PreparedProgram("/bin/true" ? std::vector<std::string>{"/bin/true"}
-                                                : std::vector<std::string>{},
-                                    environment_); },
+  EXPECT_THAT([&] { const PreparedProgram program({"/bin/true"}, environment_); },
               ThrowsMessage<ProgramError>(HasSubstr("linked with Playpen")));
-  EXPECT_THAT([&] { PreparedProgram({"/no/such/program"}, environment_); },
+  EXPECT_THAT([&] { const PreparedProgram program({"/no/such/program"}, environment_); },
               ThrowsMessage<ProgramError>(HasSubstr("cannot be started")));
 }
 

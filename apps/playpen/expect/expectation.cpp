@@ -48,7 +48,7 @@ Report full_report() {
   robot.driven_time_s = 0.0;
   robot.distance_m = 0.0;
   robot.visited_area_m2 = 0.0;
-  robot.commanded.emplace();
+  robot.commanded.emplace(Report::Commanded{});
   return report;
 }
 

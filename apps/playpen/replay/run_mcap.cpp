@@ -34,7 +34,7 @@ namespace playpen::replay {
 using playerlike::replay::HappeningsWatch;
 namespace {
 
-using json = nlohmann::json;
+using nlohmann::json;
 
 constexpr sim::SimTime kPosePeriod_ns = sim::kNanosecondsPerSecond / 20;
 constexpr double kUnitsPerMetre = 1e4;  // resolution of ranges in pictures
