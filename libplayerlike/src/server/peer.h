@@ -14,8 +14,8 @@
 
 #include "playerlike/host/host.h"
 #include "playerlike/server/server_settings.h"
-#include "protocol/framing.h"
 #include "playerlike/server/token_throttle.h"
+#include "protocol/framing.h"
 #include "server/worker_thread.h"
 #include "sim/core/log.h"
 

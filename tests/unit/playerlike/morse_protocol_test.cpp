@@ -18,9 +18,9 @@
 #include "patience.h"
 #include "patient_host.h"
 #include "playerlike/server/server.h"
+#include "playerlike/server/token_throttle.h"
 #include "raw_client.h"
 #include "server/morse_services.h"
-#include "playerlike/server/token_throttle.h"
 #include "sim/core/number_text.h"
 #include "temporary_folder.h"
 

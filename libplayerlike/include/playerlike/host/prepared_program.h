@@ -59,8 +59,8 @@ class PreparedProgram {
 
 /// What both sides must know.
 namespace prepared {
-inline constexpr std::uint32_t kMagic = 0x31505050;  ///< "PPP1"
-inline constexpr std::uint32_t kGreatestRequest = 1U << 16U;
+inline constexpr std::uint32_t kMagic = 0x31505050;           ///< "PPP1"
+inline constexpr std::uint32_t kGreatestRequest = 1U << 16U;  ///< [bytes]
 /// A variable that a copy does not get: the file for its output.
 inline constexpr const char* kOutputVariable = "PLAYPEN_PREPARED_OUTPUT";
 }  // namespace prepared
