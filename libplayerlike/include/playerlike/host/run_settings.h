@@ -16,6 +16,7 @@
 namespace playerlike {
 
 class Session;
+struct HostState;
 
 /// Where a real robot is.
 struct RealRobotPlace {
@@ -117,6 +118,9 @@ struct RunSettings {
   /// File with a snapshot of the world (sim::Snapshot) in which the run begins, with the snapshot's
   /// clock; "": the run begins at the beginning.
   std::string start_state;
+  /// State in which the run begins, as for start_state but from Host::save() of a run of the same
+  /// world and seed; null: none. Its commands are executed before the first step.
+  std::shared_ptr<const HostState> start;
   std::optional<RunStop> stop;
   /// Wall time after which the lockstep no longer waits for a silent client, and processor time
   /// after which a program gets a warning that it lets no simulated time pass [s].
@@ -131,10 +135,11 @@ struct RunSettings {
   /// PLAYPEN_RECORD_SPEED, PLAYPEN_RECORD_FROM, PLAYPEN_RECORD_SIZE, PLAYPEN_FOLLOW, PLAYPEN_CROP,
   /// PLAYPEN_HIDE, PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE
   /// (ground, mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW
-  /// and PLAYPEN_PAGE (descriptors' numbers), PLAYPEN_PROGRESS, PLAYPEN_RESULTS (figures), PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
-  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT, PLAYPEN_GRADE, PLAYPEN_TASK,
-  /// PLAYPEN_START (a snapshot's file), PLAYPEN_UNTIL (seconds) with PLAYPEN_THEN (debug or view),
-  /// PLAYPEN_TAKE_OVER, PLAYPEN_INTERFACES and PLAYPEN_REAL (choices, separated by commas).
+  /// and PLAYPEN_PAGE (descriptors' numbers), PLAYPEN_PROGRESS, PLAYPEN_RESULTS (figures),
+  /// PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME, PLAYPEN_SILENCE_LIMIT, PLAYPEN_PORT, PLAYPEN_PLAYER_PORT,
+  /// PLAYPEN_GRADE, PLAYPEN_TASK, PLAYPEN_START (a snapshot's file), PLAYPEN_UNTIL (seconds) with
+  /// PLAYPEN_THEN (debug or view), PLAYPEN_TAKE_OVER, PLAYPEN_INTERFACES and PLAYPEN_REAL (choices,
+  /// separated by commas).
   /// @throws sim::ConfigError naming the variable, the expected value and the actual value.
   [[nodiscard]] static RunSettings from_environment();
 
