@@ -140,6 +140,7 @@ PLAYERLIKE = arrows({
     "imr": "virtual_time libplayerc++ imr-h",
     # Programs.
     "client": "libplayerc++",
+    "test": "libplayerc++ testing",
     "par_common": "",
     "par_intro": "imr-h libCCMorse",
     "par_planning": "imr-h libCCMorse par_common",
