@@ -21,12 +21,12 @@ void Wanderer::step() {
   double right = laser_.GetMaxRange();  // and on the right [m]
   for (unsigned i = 0; i < laser_.GetCount(); ++i) {
     const double bearing = laser_.GetBearing(i);  // [rad], to the left
-    if (std::abs(bearing) > 1.0) continue;
+    if (std::abs(bearing) > 0.9) continue;
     double& side = bearing > 0.0 ? left : right;
     side = std::min(side, laser_.GetRange(i));
   }
   const double nearest = std::min(left, right);
-  if (nearest > 0.4) {
+  if (nearest > 0.25) {
     turn_ = 0.0;
   } else if (turn_ == 0.0) {
     turn_ = left > right ? 1.0 : -1.0;  // until the way is free, or corners would hold it
