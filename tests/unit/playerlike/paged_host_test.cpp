@@ -178,7 +178,7 @@ TEST_F(PagedHostTest, Viewer_GetsWholeAndThenParts) {
   EXPECT_FALSE(whole.contains("part"));
   EXPECT_EQ(whole["runs"][0]["world"], "two");
   EXPECT_EQ(whole["runs"][0]["robots"].size(), 2U);
-  EXPECT_EQ(whole["live"]["can"]["blocks"], json({"gate"}));
+  EXPECT_EQ(whole["live"]["can"]["blocks"], json::array({"gate"}));
   EXPECT_EQ(whole["live"]["can"]["place"], true);
   EXPECT_TRUE(whole["live"].contains("waiting_for"));
   std::int64_t end = whole["runs"][0]["end"];
@@ -220,7 +220,7 @@ TEST_F(PagedHostTest, NobodyTakesParts_HistoryGoesOn) {
 TEST_F(PagedHostTest, Stick_DrivesUntilItsClientLeaves) {
   start();
   page.command(R"({"steer": {"robot": 1, "ahead": 1, "left": 0}})");
-  const auto drives = [](const json& head) { return head["live"]["steered"] == json({1}); };
+  const auto drives = [](const json& head) { return head["live"]["steered"] == json::array({1}); };
   static_cast<void>(page.await(HostKind::kPart, drives));
   page.say(PageKind::kGone, 1);
   static_cast<void>(page.await(HostKind::kPart,
@@ -232,7 +232,7 @@ TEST_F(PagedHostTest, Stick_DrivesUntilItsClientLeaves) {
 TEST_F(PagedHostTest, StickWithoutRepetition_EndsByItself) {
   start();
   page.command(R"({"steer": {"robot": 0, "ahead": 0.5, "left": 0.5}})");
-  const auto drives = [](const json& head) { return head["live"]["steered"] == json({0}); };
+  const auto drives = [](const json& head) { return head["live"]["steered"] == json::array({0}); };
   static_cast<void>(page.await(HostKind::kPart, drives));
   static_cast<void>(page.await(HostKind::kPart,
                                [](const json& head) { return head["live"]["steered"].empty(); }));
