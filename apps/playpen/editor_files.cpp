@@ -65,6 +65,12 @@ ordered_json tasks_file(const ProjectTemplate& kind) {
     grade["group"] = {{"kind", "test"}, {"isDefault", true}};
     list.push_back(std::move(grade));
   }
+  if (kind.has_tests) {
+    ordered_json test =
+        task("test", "ctest", {"--test-dir", "build", "--output-on-failure"}, "build");
+    test["group"] = {{"kind", "test"}, {"isDefault", true}};
+    list.push_back(std::move(test));
+  }
   list.push_back(task("configure for debugging", "cmake",
                       {"-S", ".", "-B", "build/debug", "-DCMAKE_BUILD_TYPE=Debug"}, ""));
   ordered_json debug =

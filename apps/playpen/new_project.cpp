@@ -27,8 +27,12 @@ void print_next_steps(const ProjectTemplate& kind, const std::string& folder,
   const std::string world = *kind.task == '\0' ? "cave --duration 60" : kind.task;
   std::cout << "'" << folder << "' holds a template of " << kind.what << ". Next:\n"
             << "  cmake -S " << dir << " -B " << build << '\n'
-            << "  cmake --build " << build << '\n'
-            << "  " << playpen << " run " << world << " -- " << program << '\n';
+            << "  cmake --build " << build << '\n';
+  if (kind.has_tests) {
+    std::cout << "  ctest --test-dir " << build << " --output-on-failure\n";
+  } else {
+    std::cout << "  " << playpen << " run " << world << " -- " << program << '\n';
+  }
   if (*kind.task != '\0') {
     std::cout << "  " << playpen << " grade " << kind.task << " -- " << program << '\n';
   }
@@ -76,7 +80,7 @@ void add_new(CommandLine& line) {
     list += (list.empty() ? "" : ", ") + std::string(one.name);
   }
   CLI::Option* const kind =
-      command.add_option("template", request->kind, "A task of the course, or client");
+      command.add_option("template", request->kind, "A task of the course, client or test");
   line.takes(kind->required()->type_name(""), names);
   kind->check([names, list](const std::string& text) {
     for (const std::string& name : names) {
@@ -92,7 +96,8 @@ void add_new(CommandLine& line) {
   command.footer(
       "intro, planning, exploration, traps, exploration_changing, chase and\n"
       "localization are the course's tasks ('playpen doc course_guide'), client is\n"
-      "the smallest client program, with CMakeLists.txt and Makefile.\n"
+      "the smallest client program, with CMakeLists.txt and Makefile, test is a\n"
+      "program with tests for ctest and for CI ('playpen doc testing').\n"
       "For example:\n"
       "  playpen new intro my_robot");
   command.callback([request, &line] {

@@ -47,8 +47,8 @@ std::string cmake_text(const fs::path& path) {
 void name_the_package(const fs::path& folder, const fs::path& prefix) {
   const fs::path cmake_file = folder / "CMakeLists.txt";
   std::string text = read_text(cmake_file);
-  replace_all(text, "find_package(playpen 0.1 REQUIRED)",
-              "find_package(playpen 0.1 REQUIRED HINTS \"" + cmake_text(prefix) + "\")");
+  replace_all(text, "find_package(playpen 0.1 REQUIRED",
+              "find_package(playpen 0.1 REQUIRED HINTS \"" + cmake_text(prefix) + "\"");
   write_text(cmake_file, text);
   const fs::path makefile = folder / "Makefile";
   if (!fs::exists(makefile)) return;

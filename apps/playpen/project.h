@@ -16,9 +16,10 @@ struct ProjectTemplate {
   const char* source_folder;  ///< path of the template from the root of the source tree
   const char* program;        ///< the name of its executable
   const char* task;           ///< the task that it is for; "": none
+  bool has_tests = false;     ///< for ctest
 };
 
-inline constexpr std::array<ProjectTemplate, 8> kProjectTemplates{{
+inline constexpr std::array<ProjectTemplate, 9> kProjectTemplates{{
     {"intro", "the introduction task", "apps/par_intro/template", "par_intro_template",
      "par_intro"},
     {"planning", "the planning task", "apps/par_planning/template", "par_planning_template",
@@ -33,6 +34,7 @@ inline constexpr std::array<ProjectTemplate, 8> kProjectTemplates{{
     {"localization", "the localization task", "apps/par_localization/template",
      "par_localization_template", "par_localization"},
     {"client", "a Player client program", "apps/client/template", "my_robot", ""},
+    {"test", "a robot program with tests", "apps/test/template", "robot", "", true},
 }};
 
 /// The template with that name, which must exist.

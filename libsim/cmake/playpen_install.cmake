@@ -99,7 +99,7 @@ if(TARGET playpen)
   install(FILES "${PROJECT_SOURCE_DIR}/apps/playpen/playpen_gdb.py" COMPONENT programs
     DESTINATION "${CMAKE_INSTALL_DATADIR}/playpen")
   foreach(_template IN ITEMS par_intro par_planning par_exploration par_traps
-      par_exploration_changing par_chase par_localization client)
+      par_exploration_changing par_chase par_localization client test)
     string(REPLACE "par_" "" _name "${_template}")
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/${_template}/template/" COMPONENT programs
       DESTINATION "${CMAKE_INSTALL_DATADIR}/playpen/templates/${_name}"

@@ -87,6 +87,25 @@ if(EXISTS "${prefix}/bin/playpen")
   endif()
 endif()
 
+# A project with tests of its controller class and of its program, made by the installed command.
+if(EXISTS "${prefix}/bin/playpen")
+  set(tested "${STAGE_DIR}/tested robot")
+  file(REMOVE_RECURSE "${tested}.new")
+  run("making a project with tests" "${prefix}/bin/playpen" new test "${tested}.new")
+  file(REMOVE_RECURSE "${tested}.new/.vscode")
+  file(COPY "${tested}.new/" DESTINATION "${tested}")
+  run("configuring the project with tests" ${CMAKE_COMMAND}
+    -S ${tested} -B ${tested}/build -G ${GENERATOR}
+    -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+    "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}")
+  run("building the project with tests" ${CMAKE_COMMAND} --build ${tested}/build --config "${CONFIG}")
+  run("the project's tests" ${CMAKE_CTEST_COMMAND} --test-dir ${tested}/build --no-tests=error
+    --output-on-failure)
+  if(NOT run_output MATCHES "Wanderer\\.LaserDies_Stops" OR NOT run_output MATCHES "robot_in_arena\\.seed3")
+    message(FATAL_ERROR "not all tests of the project ran:\n${run_output}")
+  endif()
+endif()
+
 # Old programs for Player, with their original build files.
 find_program(bash bash REQUIRED)
 run("building by old build files" ${CMAKE_COMMAND} -E env

@@ -109,6 +109,11 @@ mkdir flags && cp "$folder/root/usr/share/playpen/templates/client/main.cc" flag
 g++ flags/main.cc $(pkg-config --cflags --libs playerc++) -o flags/wander
 "$playpen" run cave --duration 5 --out flags/out -- flags/wander | grep '5.0 s simulated'
 
+"$playpen" new test tested
+cmake -S tested -B tested/build
+cmake --build tested/build
+ctest --test-dir tested/build --output-on-failure --no-tests=error
+
 headline "Installed and removed again"
 cmake --install "$build" --prefix "$folder/prefix" >/dev/null
 "$folder/prefix/bin/playpen" doc laser >/dev/null

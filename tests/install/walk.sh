@@ -144,6 +144,10 @@ for kind in "${kinds[@]}"; do
   says . cmake -S "new_$kind" -B "new_$kind/build"
   says . cmake --build "new_$kind/build"
 done
+says . "$playpen" new test tested
+says . cmake -S tested -B tested/build
+says . cmake --build tested/build
+says '100% tests passed' ctest --test-dir tested/build --no-tests=error
 says . "$playpen" doctor
 
 headline "The walk is at its end"

@@ -58,7 +58,7 @@ std::vector<std::string> make_project(const std::string& kind, const TemporaryFo
   EXPECT_EQ(made.status, 0) << made.err;
   EXPECT_TRUE(fs::exists(folder / "my robot/README.md"));
   std::vector<std::string> commands = commands_of(made.out);
-  EXPECT_EQ(commands.size(), kind == "client" ? 3U : 4U) << made.out;
+  EXPECT_EQ(commands.size(), kind == "client" || kind == "test" ? 3U : 4U) << made.out;
   return commands;
 }
 
@@ -122,6 +122,18 @@ TEST(PlaypenNew, ChangingArenaTemplates_BuildAndRun) {
   build_and_run("exploration_changing", "out/par_exploration_changing/report.json");
   build_and_run("chase", "out/par_chase/report.json");
   build_and_run("localization", "out/par_localization/report.json");
+}
+
+TEST(PlaypenNew, TestTemplate_HasFilesForCi) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> commands = make_project("test", folder);
+  ASSERT_EQ(commands.size(), 3U);
+  EXPECT_THAT(commands[2], HasSubstr("ctest --test-dir 'my robot/build'"));
+  EXPECT_TRUE(fs::exists(folder / "my robot/.github/workflows/tests.yml"));
+  EXPECT_TRUE(fs::exists(folder / "my robot/.gitlab-ci.yml"));
+  EXPECT_THAT(read_bytes(folder / "my robot/CMakeLists.txt"),
+              ContainsRegex("REQUIRED HINTS \".+\" COMPONENTS testing"));
+  EXPECT_THAT(read_bytes(folder / "my robot/.vscode/tasks.json"), HasSubstr("\"ctest\""));
 }
 
 TEST(PlaypenNew, Client_BuildsAndDrives) { build_and_run("client", "out/cave/report.json"); }

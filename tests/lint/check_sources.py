@@ -115,6 +115,7 @@ PLAYERLIKE = arrows({
     "host": "messages process protocol session view page replay virtual_time",
     "remote": "messages process protocol session virtual_time",
     "connect": "messages process session virtual_time host remote",
+    "testing": "messages process session host connect",
     "server": "messages process protocol session virtual_time host wire proxies libplayerinterface",
     # Headers that clients include.
     "libplayerinterface": "",
@@ -139,6 +140,7 @@ PLAYERLIKE = arrows({
     "imr": "virtual_time libplayerc++ imr-h",
     # Programs.
     "client": "libplayerc++",
+    "test": "libplayerc++ testing",
     "par_common": "",
     "par_intro": "imr-h libCCMorse",
     "par_planning": "imr-h libCCMorse par_common",

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "connect/named_hosts.h"
 #include "connect/prepared_process.h"
 #include "connect/run_desk.h"
 #include "host/stepping/onlookers.h"
@@ -334,6 +335,7 @@ void warn_of_host(const std::string& host, const std::string& world) {
 std::unique_ptr<Session> open_session(const std::string& host, int port) {
   const virtual_time::Inside inside;
   refuse_other_worlds(host);
+  if (const std::shared_ptr<Host> named = named_host(host)) return named->connect(port);
   if (host.starts_with(kFilePrefix)) {
     const std::string file = host.substr(kFilePrefix.size());
     if (file.empty()) {

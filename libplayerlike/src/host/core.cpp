@@ -61,6 +61,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       clock_(std::make_unique<VirtualClock>(*this)),
       mode_chosen_(simulation_.world().simulation.time_mode_given) {
   if (settings_.stop) stop_ns_ = sim::from_seconds(settings_.stop->time_s);
+  if (settings_.start) inputs_.registry = settings_.start->layers;
 }
 
 Host::Core::~Core() { stop(); }
@@ -455,6 +456,7 @@ bool Host::Core::advance(Lock& lock) {
   now_ns_.store(simulation_.now_ns(), std::memory_order_release);
   if (watches_program_) note_step_for_alarm(simulation_.now_ns());
   pace_.count_step();
+  if (step_watch_) step_watch_(simulation_);
   results_.observe();
   clients_.distribute(results_.logs);
   const bool finished = simulation_.finished();

@@ -289,6 +289,7 @@ class Host::Core {
   std::mutex copy_mutex_;  ///< for copies in pieces, one at a time; locked before the mutex
 
   std::optional<sim::SimTime> stop_ns_;  ///< when the stop of the settings is due, until then
+  std::function<void(const sim::Simulation&)> step_watch_;  ///< see Host::watch_steps()
   bool watches_program_ = false;         ///< the program in whose process this is
   bool tells_of_endless_run_ = false;
   bool had_client_ = false;

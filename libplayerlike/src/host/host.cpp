@@ -103,6 +103,29 @@ bool Host::cancel_alarm(AlarmId alarm) {
 void Host::look_at_simulation(const std::function<void(const sim::Simulation&)>& look) const {
   core_->locked([&] { look(core_->simulation_); });
 }
+void Host::change_simulation(const std::function<void(sim::Simulation&)>& act) {
+  core_->locked([&] {
+    for (const auto& client : core_->clients_) core_->inputs_.apply_drawings(*client);
+    act(core_->simulation_);
+  });
+}
+void Host::watch_steps(std::function<void(const sim::Simulation&)> watch) {
+  core_->locked([&] { core_->step_watch_ = std::move(watch); });
+}
+HostState Host::save() {
+  return core_->locked([this] {
+    HostState state;
+    for (const auto& client : core_->clients_) {
+      core_->inputs_.apply_drawings(*client);
+      const std::lock_guard input(client->input_mutex);
+      state.commands.insert(state.commands.end(), client->commands.begin(), client->commands.end());
+    }
+    state.snapshot = core_->simulation_.save();
+    state.layers = core_->inputs_.registry;
+    state.layers.leave_all();
+    return state;
+  });
+}
 sim::SharedReading Host::newest_reading(DeviceId sensor) const {
   return core_->locked([&] { return core_->clients_.newest(sensor); });
 }

@@ -157,6 +157,10 @@ void LayerRegistry::leave(int client) noexcept {
   }
 }
 
+void LayerRegistry::leave_all() noexcept {
+  for (Entry& entry : entries_) entry.client = kNobody;
+}
+
 void require_cells(const sim::CellRect& rect, std::size_t count) {
   if (rect.width >= 0 && rect.height >= 0 && cells_of(rect.width, rect.height) == count) return;
   reject(SessionError::Code::kBadArgument, "a rectangle of " + std::to_string(rect.width) + " x " +

@@ -14,6 +14,7 @@ namespace playerlike {
 ///   world file; without it, the default world is used. If PLAYPEN_WORLD is "tcp://HOST[:PORT]",
 ///   "unix:PATH" or "player://HOST[:PORT]", that server is used instead. A Player server there has
 ///   the robot on port 6665 at PORT, and others at the same distance to it;
+/// - "test:N": a run of a test, see name_host(). A test can also make "localhost" its name;
 /// - "sim:FILE": an embedded simulation of that file;
 /// - "tcp://HOST[:PORT]" or "HOST:PORT": a Playpen server (`playpen serve`). Its default TCP
 ///   port is 4000. An IPv6 address is written in brackets. PLAYPEN_TOKEN contains the client's

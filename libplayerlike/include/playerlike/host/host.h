@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "playerlike/host/event_client.h"
+#include "playerlike/host/host_state.h"
 #include "playerlike/host/run_settings.h"
 #include "playerlike/session/session.h"
 #include "sim/simulation/simulation.h"
@@ -109,6 +110,17 @@ class Host : public std::enable_shared_from_this<Host> {
       return *std::move(result);
     }
   }
+
+  /// Changes the simulation between two steps, beside the clients' commands and without their
+  /// permissions: for tests. The clients' pending drawings are executed first.
+  /// @param act  must not call the host.
+  void change_simulation(const std::function<void(sim::Simulation&)>& act);
+  /// Sets what is called after each step, with the simulation locked; it replaces the earlier
+  /// function, and an empty one ends the calls. It must not call the host.
+  void watch_steps(std::function<void(const sim::Simulation&)> watch);
+  /// The state between two steps, for RunSettings::start of other hosts. The clients' pending
+  /// drawings are executed first, their pending commands become part of the state.
+  [[nodiscard]] HostState save();
 
   /// The newest reading of a sensor: as its subscribers get it, so of the real robot if the device
   /// mirrors one. @return null before the first.

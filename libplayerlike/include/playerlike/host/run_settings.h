@@ -16,6 +16,7 @@
 namespace playerlike {
 
 class Session;
+struct HostState;
 
 /// Where a real robot is.
 struct RealRobotPlace {
@@ -117,6 +118,9 @@ struct RunSettings {
   /// File with a snapshot of the world (sim::Snapshot) in which the run begins, with the snapshot's
   /// clock; "": the run begins at the beginning.
   std::string start_state;
+  /// State in which the run begins, as for start_state but from Host::save() of a run of the same
+  /// world and seed; null: none. Its commands are executed before the first step.
+  std::shared_ptr<const HostState> start;
   std::optional<RunStop> stop;
   /// Wall time after which the lockstep no longer waits for a silent client, and processor time
   /// after which a program gets a warning that it lets no simulated time pass [s].

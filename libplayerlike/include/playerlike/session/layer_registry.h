@@ -49,6 +49,8 @@ class LayerRegistry {
   void require(int client, sim::LayerId layer) const;
   /// Notes that a session has ended. Its layers remain, without an owner.
   void leave(int client) noexcept;
+  /// The same for all sessions.
+  void leave_all() noexcept;
 
  private:
   static constexpr int kNobody = -1;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "playerlike/host/host_state.h"
 #include "playerlike/messages/driver_settings.h"
 #include "playerlike/messages/messages.h"
 #include "sim/core/error.h"
@@ -20,6 +21,15 @@ sim::Simulation simulation_at_start(sim::WorldDescription world, const RunSettin
   check_interfaces(world);
   settings.apply_to(world);
   sim::Simulation simulation(std::move(world), log);
+  if (settings.start) {
+    simulation.restore(settings.start->snapshot);
+    for (const auto& [device, command] : settings.start->commands) {
+      if (const auto refusal = simulation.apply(device, command)) {
+        if (log) log(sim::LogLevel::kWarning, *refusal);
+      }
+    }
+    return simulation;
+  }
   if (settings.start_state.empty()) return simulation;
   constexpr std::size_t kMostState = std::size_t{1} << 30U;
   const auto refuse = [&settings](const std::string& found) {
