@@ -234,6 +234,7 @@ struct FuzzRequest {
   std::size_t most_findings = 5;
   int jobs = 1;                     ///< programs that run side by side, >= 1
   std::optional<double> timeout_s;  ///< of a run
+  fuzz::Freedom freedom;            ///< what of the world may be changed
   std::vector<fuzz::Kind> kinds;    ///< that count; empty: all, as the task allows
   std::vector<expect::Expectation> expectations;
   bool random = false;  ///< instead of guided

@@ -140,6 +140,14 @@ class FoundWorlds {
     // With pictures and a recording; how it ends is known.
     run.quiet = true;
     static_cast<void>(playpen::run(run));
+    if (finding.failure.kind >= fuzz::Kind::kCollision) {
+      const auto again = fuzz::failure_of(fuzz::result_in(run.settings.output_folder),
+                                          subject_.rules, base_, finding.world);
+      if (!again || again->kind != finding.failure.kind) {
+        std::cout << "   It did not happen again in a process of its own: the program depends on "
+                     "more than its world.\n";
+      }
+    }
     std::cout << "   picture: " << run.settings.output_folder << "/scene.png\n"
               << "   reasons: playpen why " << run.settings.output_folder << std::endl;
     if (!request_.keep_folder.empty()) keep(finding, file, expectation);
@@ -188,7 +196,8 @@ class FoundWorlds {
       test += " \"" + subject_.program[i] + '"';
     }
     test += "\n  WORLD \"${CMAKE_CURRENT_LIST_DIR}/" + name + ".json\" DURATION " +
-            sim::shortest_text(duration_of(finding));
+            sim::shortest_text(duration_of(finding)) + " SEEDS " +
+            std::to_string(finding.scenario.seed);
     if (!expectation.empty()) test += " EXPECT \"" + expectation + '"';
     std::ofstream tests(folder / "found.cmake", std::ios::app);
     tests << test << ")\n";
@@ -229,7 +238,7 @@ fuzz::RunnerSettings runner_settings(const FuzzRequest& request, const Subject& 
 int fuzz_program(FuzzRequest request) {
   Subject subject = subject_of(request);
   subject.program.front() = playerlike::find_program(subject.program.front());
-  const fuzz::Base base(subject.world_file, subject.robot);
+  const fuzz::Base base(subject.world_file, subject.robot, request.freedom);
   for (const expect::Expectation& one : request.expectations) one.require_robot_of(base.world());
   if (request.output_folder.empty()) request.output_folder = "out/fuzz/" + subject.name;
   const RunFolder folder;

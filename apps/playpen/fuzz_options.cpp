@@ -36,6 +36,25 @@ bool parse_kinds(const std::string& text, std::vector<fuzz::Kind>& kinds) {
   return true;
 }
 
+bool parse_without(const std::string& text, fuzz::Freedom& freedom) {
+  const std::pair<const char*, bool fuzz::Freedom::*> all[] = {
+      {"starts", &fuzz::Freedom::starts},
+      {"obstacles", &fuzz::Freedom::obstacles},
+      {"moving", &fuzz::Freedom::moving},
+      {"blocks", &fuzz::Freedom::blocks},
+      {"noise", &fuzz::Freedom::noise}};
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string name = text.substr(begin, end - begin);
+    const auto* const found =
+        std::ranges::find_if(all, [&name](const auto& one) { return name == one.first; });
+    if (found == std::end(all)) return false;
+    freedom.*(found->second) = false;
+    begin = end + 1;
+  }
+  return true;
+}
+
 std::string kind_names() {
   std::string names;
   for (const fuzz::Kind kind : fuzz::all_kinds()) {
@@ -99,6 +118,9 @@ void add_fuzz(CommandLine& line) {
       ->expected(1)
       ->take_all()
       ->type_name("EXPECTATION");
+  add_parsed(command, "--without", "What is not changed: starts, obstacles, moving, blocks, noise",
+             "LIST", "a list of starts, obstacles, moving, blocks and noise",
+             [request](const std::string& text) { return parse_without(text, request->freedom); });
   command.add_flag("--random", request->random, "Do not learn from earlier runs");
   CLI::Option* const out =
       command.add_option("--out", request->output_folder, "Folder for findings [out/fuzz/<world>]");

@@ -30,6 +30,19 @@ std::string end_of(const fs::path& file) {
 
 }  // namespace
 
+RunResult result_in(const fs::path& folder) {
+  RunResult result;
+  std::string text;
+  if (sim::read_whole_file((folder / "report.json").string(), {}, text)) return result;
+  try {
+    result.report = playerlike::report_from(text);
+    result.trajectories = grade::read_trajectories(folder / "trajectory.csv");
+  } catch (const std::exception&) {
+    result.report.reset();  // the program died while it was written
+  }
+  return result;
+}
+
 struct Runner::Slot {
   Slot(const RunnerSettings& settings, std::size_t number)
       : folder(settings.folder / ("slot" + std::to_string(number))),
@@ -79,19 +92,10 @@ std::optional<RunResult> Runner::poll(Slot& slot) {
     }
     return std::nullopt;
   }
-  RunResult result;
+  RunResult result = result_in(slot.folder / "out");
   result.end = *end;
   result.hangs = slot.killed;
   result.printed = end_of(slot.folder / "printed.txt");
-  std::string text;
-  if (!sim::read_whole_file((slot.folder / "out/report.json").string(), {}, text)) {
-    try {
-      result.report = playerlike::report_from(text);
-      result.trajectories = grade::read_trajectories(slot.folder / "out/trajectory.csv");
-    } catch (const std::exception&) {
-      result.report.reset();  // the program died while it was written
-    }
-  }
   return result;
 }
 

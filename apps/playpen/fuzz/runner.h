@@ -33,6 +33,10 @@ struct RunResult {
   std::string printed;                          ///< the last of it
 };
 
+/// Reads what a run has written into its output folder. @return without a report if there is no
+/// whole one.
+[[nodiscard]] RunResult result_in(const std::filesystem::path& folder);
+
 /// Runs a program in many worlds, in copies of processes that were started once. Not thread-safe.
 class Runner {
  public:

@@ -124,8 +124,8 @@ std::string text_of(const Element& element) {
 
 }  // namespace
 
-Base::Base(const std::string& file, const std::string& robot)
-    : json_(grade::read_json_world(file, "playpen fuzz adds to it")) {
+Base::Base(const std::string& file, const std::string& robot, const Freedom& freedom)
+    : freedom_(freedom), json_(grade::read_json_world(file, "playpen fuzz adds to it")) {
   const std::vector<sim::RobotDescription>& robots = world().robots;
   const auto found = robot.empty() ? robots.begin()
                                    : std::ranges::find(robots, robot, &sim::RobotDescription::name);
@@ -140,12 +140,14 @@ Base::Base(const std::string& file, const std::string& robot)
   if (root.contains(list)) obstacles_ = root[list].dump();
   for (const sim::DeviceDescription& device : found->devices) {
     const std::string pointer = "/robots/" + std::to_string(robot_) + "/devices/" + device.name;
-    if (device.type == "laser" && root.contains(ordered_json::json_pointer(pointer))) {
+    if (freedom_.noise && device.type == "laser" &&
+        root.contains(ordered_json::json_pointer(pointer))) {
       laser_ = pointer;
     }
   }
   for (const sim::ObstacleDescription& obstacle : world().arena.obstacles) {
-    if (obstacle.type == sim::ObstacleType::kDynamic) blocks_.push_back(obstacle.name);
+    const bool is_block = obstacle.type == sim::ObstacleType::kDynamic;
+    if (freedom_.blocks && is_block) blocks_.push_back(obstacle.name);
   }
 }
 
@@ -206,7 +208,10 @@ Element Base::random_element(const Scenario& scenario, sim::RandomStream& random
   for (int i = 0; i < kTries; ++i) {
     element = {};
     const double kind = random.uniform();
-    element.shape = kind < 0.3    ? Element::Shape::kBox
+    // Doors do not move.
+    element.shape = !freedom_.obstacles
+                        ? (kind < 0.5 ? Element::Shape::kBox : Element::Shape::kCircle)
+                    : kind < 0.3  ? Element::Shape::kBox
                     : kind < 0.6  ? Element::Shape::kCircle
                     : kind < 0.75 ? Element::Shape::kTriangle
                                   : Element::Shape::kDoor;
@@ -221,7 +226,7 @@ Element Base::random_element(const Scenario& scenario, sim::RandomStream& random
     if (element.shape == Element::Shape::kDoor) {
       element.opening_m = centimetres(between(random, 1.6, 5.0) * robot_radius_m_);
       element.size = {centimetres(element.opening_m + size(0.2, 1.6)), 0.05};
-    } else if (chance(random, 0.2)) {
+    } else if (freedom_.moving && (!freedom_.obstacles || chance(random, 0.2))) {
       element.moves = true;
       element.goes_to = random_place(random, 0.1);
       element.speed_mps = centimetres(between(random, 0.05, 0.4));
@@ -235,8 +240,8 @@ Element Base::random_element(const Scenario& scenario, sim::RandomStream& random
 Scenario Base::random(sim::RandomStream& random) const {
   Scenario scenario;
   scenario.seed = 1 + index_below(random, 1000);
-  if (chance(random, 0.6)) scenario.start = random_start(random);
-  const std::size_t count = index_below(random, 5);
+  if (freedom_.starts && chance(random, 0.6)) scenario.start = random_start(random);
+  const std::size_t count = freedom_.obstacles || freedom_.moving ? index_below(random, 5) : 0;
   for (std::size_t i = 0; i < count; ++i) {
     scenario.elements.push_back(random_element(scenario, random));
   }
@@ -246,7 +251,7 @@ Scenario Base::random(sim::RandomStream& random) const {
       if (chance(random, 0.4)) scenario.extended->insert(block);
     }
   }
-  scenario.real = chance(random, 0.2);
+  scenario.real = freedom_.noise && chance(random, 0.2);
   if (has_laser_settings() && chance(random, 0.15)) {
     scenario.latency_s = centimetres(between(random, 0.05, 0.3));
   }
@@ -261,7 +266,8 @@ Scenario Base::mutated(Scenario scenario, sim::RandomStream& random) const {
   for (std::size_t i = 0; i < changes; ++i) {
     const double kind = random.uniform();
     const bool has_elements = !scenario.elements.empty();
-    if (kind < 0.25 && scenario.elements.size() < kMostElements) {
+    const bool may_add = freedom_.obstacles || freedom_.moving;
+    if (kind < 0.25 && may_add && scenario.elements.size() < kMostElements) {
       scenario.elements.push_back(random_element(scenario, random));
     } else if (kind < 0.35 && has_elements) {
       const std::size_t at = index_below(random, scenario.elements.size());
@@ -271,7 +277,7 @@ Scenario Base::mutated(Scenario scenario, sim::RandomStream& random) const {
       element.center += sim::Vec2(random.gaussian(0.15), random.gaussian(0.15));
       element.center = {centimetres(element.center.x()), centimetres(element.center.y())};
       element.yaw_deg = (element.yaw_deg + static_cast<int>(5 * index_below(random, 36))) % 180;
-    } else if (kind < 0.85) {
+    } else if (kind < 0.85 && freedom_.starts) {
       grade::StartPose start = scenario.start.value_or(grade::StartPose{
           robot_description().pose.x_m, robot_description().pose.y_m,
           static_cast<int>(std::lround(robot_description().pose.yaw_rad / sim::kDegrees))});

@@ -49,6 +49,15 @@ struct Scenario {
   double dropouts = 0.0;  ///< share of its beams that measure nothing; 0: the world's
 };
 
+/// What scenarios may change.
+struct Freedom {
+  bool starts = true;
+  bool obstacles = true;  ///< that stand
+  bool moving = true;     ///< obstacles that move
+  bool blocks = true;     ///< which dynamic blocks are raised
+  bool noise = true;      ///< levels of realism, latency and dropouts
+};
+
 /// The base of all scenarios, and what they may change.
 class Base {
  public:
@@ -57,7 +66,7 @@ class Base {
   /// @throws sim::ConfigError as grade::read_json_world(); std::invalid_argument for a world
   /// without
   ///     the robot.
-  Base(const std::string& file, const std::string& robot);
+  Base(const std::string& file, const std::string& robot, const Freedom& freedom = {});
 
   [[nodiscard]] const sim::WorldDescription& world() const noexcept { return json_.description; }
   /// Index of the robot under test.
@@ -88,6 +97,7 @@ class Base {
   [[nodiscard]] sim::Vec2 random_place(sim::RandomStream& random, double margin_m) const;
   [[nodiscard]] sim::Vec2 start_of(const Scenario& scenario) const;
 
+  const Freedom freedom_;
   grade::JsonWorld json_;
   std::string obstacles_;            ///< JSON of the list in the file; "": none
   std::string laser_;                ///< JSON pointer of the laser's settings; "": none
