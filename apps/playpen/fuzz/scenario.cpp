@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "grade/map_score.h"
 #include "sim/core/degrees.h"
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"
@@ -20,7 +21,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t kMostElements = 8;
-constexpr double kStartRoom_m = 0.12;  // between the robot at its start and what is added
 
 double rounded(double value, double unit) { return std::round(value / unit) * unit; }
 double centimetres(double value) { return std::round(value * 100.0) / 100.0; }
@@ -172,14 +172,25 @@ std::optional<Base::World> Base::world_of(const Scenario& scenario) const {
     }
     patch.values.push_back({"/arena/obstacles", list.dump()});
   }
+  World made;
   try {
-    World made;
     made.text = grade::patched_world(json_.text, world(), patch);
     made.description = sim::load_world_text(made.text);
-    return made;
   } catch (const sim::ConfigError&) {
     return std::nullopt;
   }
+  made.room = sim::distance_field(grade::make_truth(made.description.arena), kFarthestRoom_m);
+  const bool has_room = !scenario.start || room_at(made.room, scenario.start->position()) >=
+                                               robot_radius_m_ + kStartRoom_m;
+  return has_room ? std::optional(std::move(made)) : std::nullopt;
+}
+
+double room_at(const sim::DistanceField& room, const sim::Vec2& place) {
+  const sim::Vec2 p = place - room.origin;
+  const auto column = static_cast<int>(std::floor(p.x() / room.cell_size_m));
+  const int row = room.height - 1 - static_cast<int>(std::floor(p.y() / room.cell_size_m));
+  const bool is_inside = column >= 0 && row >= 0 && column < room.width && row < room.height;
+  return is_inside ? static_cast<double>(room.at(column, row)) : 0.0;
 }
 
 sim::Vec2 Base::random_place(sim::RandomStream& random, double margin_m) const {

@@ -11,6 +11,7 @@
 #include "grade/world_patch.h"
 #include "sim/core/pose.h"
 #include "sim/core/random_stream.h"
+#include "sim/navigation/distance_field.h"
 #include "sim/world/description.h"
 
 /// The search for worlds in which a program fails (docs/fuzz.md).
@@ -49,6 +50,11 @@ struct Scenario {
   double dropouts = 0.0;  ///< share of its beams that measure nothing; 0: the world's
 };
 
+/// Distances in Base::World::room are at most this [m].
+inline constexpr double kFarthestRoom_m = 0.8;
+/// Between the robot at a start of a scenario and everything solid [m].
+inline constexpr double kStartRoom_m = 0.1;
+
 /// What scenarios may change.
 struct Freedom {
   bool starts = true;
@@ -79,12 +85,14 @@ class Base {
   /// Whether the world's file states settings of the robot's laser, so that these can be changed.
   [[nodiscard]] bool has_laser_settings() const noexcept { return !laser_.empty(); }
 
-  /// The world file of a scenario, and what it describes; nullopt if there is no such world,
-  /// because the robot would stand in an obstacle.
+  /// The world file of a scenario, and what it describes.
   struct World {
     std::string text;
     sim::WorldDescription description;
+    sim::DistanceField room;  ///< from the solids that stand; limited to kFarthestRoom_m
   };
+  /// @return nullopt if there is no such world, or if the scenario puts its robot closer to a solid
+  ///     than kStartRoom_m.
   [[nodiscard]] std::optional<World> world_of(const Scenario& scenario) const;
 
   /// A scenario of its own, and a change of a scenario. Both may be no worlds.
@@ -105,6 +113,9 @@ class Base {
   std::size_t robot_ = 0;
   double robot_radius_m_ = 0.0;
 };
+
+/// The distance of a place to the nearest solid [m]; 0 outside of the field.
+[[nodiscard]] double room_at(const sim::DistanceField& room, const sim::Vec2& place);
 
 /// Scenarios that are a little simpler, the simplest first.
 [[nodiscard]] std::vector<Scenario> simpler(const Scenario& scenario);

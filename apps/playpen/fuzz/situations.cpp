@@ -5,14 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "grade/map_score.h"
-#include "sim/navigation/distance_field.h"
-
 namespace playpen::fuzz {
 namespace {
 
 constexpr int kDirections = 8;
-constexpr double kFar_m = 0.8;
+constexpr double kFar_m = kFarthestRoom_m;
 constexpr double kNear_m = 0.25;
 constexpr double kLook_s = 0.5;  // between situations
 
@@ -22,11 +19,7 @@ double free_m(const sim::DistanceField& field, const sim::Vec2& from, double ang
   const sim::Vec2 way(std::cos(angle_rad), std::sin(angle_rad));
   double driven_m = 0.0;
   while (driven_m < kFar_m) {
-    const sim::Vec2 p = from + driven_m * way - field.origin;
-    const auto column = static_cast<int>(std::floor(p.x() / field.cell_size_m));
-    const int row = field.height - 1 - static_cast<int>(std::floor(p.y() / field.cell_size_m));
-    if (column < 0 || row < 0 || column >= field.width || row >= field.height) return driven_m;
-    const double room_m = field.at(column, row);
+    const double room_m = room_at(field, from + driven_m * way);
     if (room_m < field.cell_size_m) return driven_m;
     driven_m += room_m;
   }
@@ -43,8 +36,6 @@ std::size_t Situations::add(const RunResult& result, const Base& base, const Bas
   const auto way = std::ranges::find(result.trajectories, base.robot_description().name,
                                      &grade::Trajectory::robot);
   if (way == result.trajectories.end()) return 0;
-  const sim::DistanceField field =
-      sim::distance_field(grade::make_truth(world.description.arena), kFar_m);
   const std::size_t before = seen_.size();
   double next_s = 0.0;
   for (std::size_t i = 0; i < way->time_s.size(); ++i) {
@@ -54,7 +45,7 @@ std::size_t Situations::add(const RunResult& result, const Base& base, const Bas
     for (int k = 0; k < kDirections; ++k) {
       const double angle_rad = way->X_WB[i].yaw_rad + 2.0 * std::numbers::pi * k / kDirections;
       const double room_m =
-          free_m(field, way->X_WB[i].position(), angle_rad) - base.robot_radius_m();
+          free_m(world.room, way->X_WB[i].position(), angle_rad) - base.robot_radius_m();
       situation = 3 * situation + level(room_m, kNear_m - base.robot_radius_m(), kFar_m / 2);
     }
     situation = 3 * situation + level(way->v_mps[i], -0.02, 0.05);
