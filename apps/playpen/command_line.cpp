@@ -64,6 +64,7 @@ CommandLine::CommandLine(std::string name)
   add_plot(*this);
   add_diff(*this);
   add_expect(*this);
+  add_fuzz(*this);
   add_why(*this);
   add_replay(*this);
   add_token(*this);

@@ -70,6 +70,7 @@ void add_render(CommandLine& line);
 void add_plot(CommandLine& line);
 void add_diff(CommandLine& line);
 void add_expect(CommandLine& line);
+void add_fuzz(CommandLine& line);
 void add_why(CommandLine& line);
 void add_replay(CommandLine& line);
 void add_list(CommandLine& line);

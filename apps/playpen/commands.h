@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "expect/expectation.h"
+#include "fuzz/judgement.h"
 #include "isolation.h"
 #include "page_process.h"
 #include "playerlike/host/run_settings.h"
@@ -221,6 +222,33 @@ struct DiffRequest {
 /// @throws std::runtime_error naming the folder that does not contain a run, the file that cannot
 ///         be read or written, or the grades that have no runs of the same names.
 [[nodiscard]] int compare_runs(const DiffRequest& request);
+
+/// Arguments of `playpen fuzz`.
+struct FuzzRequest {
+  std::string world;                ///< or task, as the user wrote it
+  std::string robot;                ///< name; "": that of the task, or the first
+  std::optional<double> budget_s;   ///< wall time; none: a minute, unless there are `runs`
+  std::optional<std::size_t> runs;  ///< of the search
+  std::uint64_t seed = 1;           ///< of the search
+  double duration_s = 30.0;         ///< simulated, of each run
+  std::size_t most_findings = 5;
+  int jobs = 1;                     ///< programs that run side by side, >= 1
+  std::optional<double> timeout_s;  ///< of a run
+  fuzz::Freedom freedom;            ///< what of the world may be changed
+  std::vector<fuzz::Kind> kinds;    ///< that count; empty: all, as the task allows
+  std::vector<expect::Expectation> expectations;
+  bool random = false;  ///< instead of guided
+  bool quiet = false;
+  std::string output_folder;         ///< "": out/fuzz/NAME
+  std::string keep_folder;           ///< "": findings are not kept elsewhere
+  std::vector<std::string> command;  ///< program and arguments
+};
+
+/// Searches for worlds in which a program fails, prints and writes them.
+/// @return kOk if nothing was found, else kProgramFailed.
+/// @throws sim::ConfigError for a bad world or task, playerlike::ProgramError if the program can't
+///         be started, std::exception if a folder or file can't be written.
+[[nodiscard]] int fuzz_program(FuzzRequest request);
 
 /// Arguments of `playpen expect`.
 struct ExpectRequest {

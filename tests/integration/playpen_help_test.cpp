@@ -34,7 +34,7 @@ using testing::UnorderedElementsAre;
 
 const std::vector<std::string> kCommands = {
     "run",    "grade", "serve",  "new",   "list", "check",  "render",     "plot", "diff",
-    "expect", "why",   "replay", "token", "doc",  "doctor", "completion", "help"};
+    "expect", "fuzz", "why",   "replay", "token", "doc",  "doctor", "completion", "help"};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

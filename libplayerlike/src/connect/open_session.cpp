@@ -264,7 +264,7 @@ std::map<std::string, std::string> run_variables() {
   return variables;
 }
 
-// Copies of a prepared process go on from here, with their own environment.
+// Copies of a prepared process began before, with their own environment.
 [[maybe_unused]] const bool kIsNoPreparedProcess = serve_if_prepared();
 
 // The values at the start of the program, read before main(), where programs may change them. Never

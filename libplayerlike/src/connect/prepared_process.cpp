@@ -92,6 +92,11 @@ std::optional<bool> serve_one(int socket) {
   return std::nullopt;
 }
 
+// Before virtual time begins, which a fork ends; see register_hooks() in virtual_time.cpp.
+__attribute__((constructor(101))) void serve_before_all() {
+  static_cast<void>(serve_if_prepared());
+}
+
 }  // namespace
 
 bool serve_if_prepared() noexcept {

@@ -5,7 +5,8 @@ namespace playerlike {
 
 /// If this process is a prepared one (playerlike/host/prepared_program.h), serves requests for
 /// copies of it, and does not return. It returns in each copy, and in all other processes at once.
-/// To be called while the program is loaded, before main() and before any thread is started.
+/// Called while the program is loaded, before main(), virtual time and any thread begin. Whoever
+/// opens sessions refers to it, so that a statically linked program has it, too.
 /// @return true.
 bool serve_if_prepared() noexcept;
 

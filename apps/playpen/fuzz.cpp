@@ -1,0 +1,272 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "commands.h"
+#include "fuzz/search.h"
+#include "grade/task.h"
+#include "grade/text.h"
+#include "playerlike/host/program.h"
+#include "preload.h"
+#include "shipped.h"
+#include "sim/core/error.h"
+#include "sim/core/number_text.h"
+#include "terminal.h"
+
+namespace playpen {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+/// A folder for the files of the runs, in memory if the system has such a place.
+class RunFolder {
+ public:
+  RunFolder() {
+    std::error_code error;
+    const fs::path memory("/dev/shm");
+    const fs::path base =
+        access(memory.c_str(), W_OK) == 0 ? memory : fs::temp_directory_path(error);
+    std::string name = (base / "playpen_fuzz_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::system_error(errno, std::generic_category(),
+                              "no folder for runs in " + base.string());
+    }
+    path_ = name;
+  }
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+  ~RunFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const fs::path& path() const noexcept { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// What is run, and what counts as a failure.
+struct Subject {
+  std::string name;        ///< of the world or task
+  std::string world_file;  ///< "": the default world
+  std::string robot;       ///< "": the first
+  std::vector<std::string> program;
+  fuzz::Rules rules;
+};
+
+// A task, or otherwise a world.
+Subject subject_of(const FuzzRequest& request) {
+  Subject subject;
+  subject.program = request.command;
+  subject.robot = request.robot;
+  subject.rules.expectations = request.expectations;
+  std::optional<grade::Task> task;
+  try {
+    task = load_task(request.world);
+  } catch (const sim::ConfigError&) {
+    subject.world_file = find_world(request.world);
+  }
+  if (task) {
+    const grade::TaskWorld& world = task->worlds.front();
+    subject.world_file = world.file;
+    subject.rules.goal = world.goal ? world.goal : task->goal;
+    if (subject.robot.empty()) subject.robot = task->robot;
+    for (const std::string& word : task->arguments) subject.program.push_back(word);
+    for (const std::string& word : world.arguments) subject.program.push_back(word);
+    const bool allows_contacts = !task->thresholds.max_collisions;
+    if (allows_contacts) std::erase(subject.rules.kinds, fuzz::Kind::kCollision);
+    subject.name = task->name;
+  } else {
+    subject.name = grade::world_name(subject.world_file);
+  }
+  if (!request.kinds.empty()) subject.rules.kinds = request.kinds;
+  return subject;
+}
+
+// The expectation that a test of a finding has; "": none but that the program ends well.
+std::string expectation_of(const fuzz::Finding& finding, const std::string& robot) {
+  switch (finding.failure.kind) {
+    case fuzz::Kind::kCollision:
+      return robot + ".collisions == 0";
+    case fuzz::Kind::kStall:
+      return robot + ".stalled_time < 3";
+    case fuzz::Kind::kVerdict:
+      return "passed == yes";
+    case fuzz::Kind::kExpectation:
+      return finding.failure.with;
+    default:
+      return "";
+  }
+}
+
+/// Writes what was found.
+class FoundWorlds {
+ public:
+  FoundWorlds(const FuzzRequest& request, const Subject& subject, const fuzz::Base& base)
+      : request_(request), subject_(subject), base_(base), begin_(Clock::now()) {
+    fs::create_directories(request.output_folder);
+  }
+
+  void add(const fuzz::Finding& finding) {
+    const std::string number = std::to_string(++count_);
+    const fs::path file = fs::path(request_.output_folder) / (number + ".json");
+    const std::string robot = base_.robot_description().name;
+    RunRequest run = run_of(finding, file);
+    const std::string expectation = expectation_of(finding, robot);
+    const std::string what = std::string(fuzz::name_of(finding.failure.kind)) + ": " + robot + ' ' +
+                             finding.failure.text;
+    const std::string call = call_of(run, expectation);
+    grade::write_text_file(file.string(), "// Found by playpen fuzz, " + what + "\n// In " +
+                                              fuzz::description_of(finding.scenario) +
+                                              "\n// Again: " + call + '\n' + finding.world.text +
+                                              '\n');
+    const auto spent = std::chrono::duration<double>(Clock::now() - begin_).count();
+    std::cout << number << ". found after " << sim::fixed_text(spent, 0) << " s and "
+              << finding.after_runs << " runs, " << what << '\n'
+              << "   in " << fuzz::description_of(finding.scenario) << '\n'
+              << "   world: " << file.string() << '\n'
+              << "   again: " << call << std::endl;
+    // With pictures and a recording; how it ends is known.
+    run.quiet = true;
+    static_cast<void>(playpen::run(run));
+    if (finding.failure.kind >= fuzz::Kind::kCollision) {
+      const auto again = fuzz::failure_of(fuzz::result_in(run.settings.output_folder),
+                                          subject_.rules, base_, finding.world);
+      if (!again || again->kind != finding.failure.kind) {
+        std::cout << "   It did not happen again in a process of its own: the program depends on "
+                     "more than its world.\n";
+      }
+    }
+    std::cout << "   picture: " << run.settings.output_folder << "/scene.png\n"
+              << "   reasons: playpen why " << run.settings.output_folder << std::endl;
+    if (!request_.keep_folder.empty()) keep(finding, file, expectation);
+  }
+
+  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+
+ private:
+  [[nodiscard]] RunRequest run_of(const fuzz::Finding& finding, const fs::path& file) const {
+    RunRequest run;
+    run.world = file.string();
+    run.settings.output_folder = (file.parent_path() / file.stem()).string();
+    run.settings.time_mode = sim::TimeMode::kLockstep;
+    run.settings.duration_s = duration_of(finding);
+    run.command = subject_.program;
+    return run;
+  }
+  // A second after the failure, if its time is known.
+  [[nodiscard]] double duration_of(const fuzz::Finding& finding) const {
+    if (finding.failure.kind != fuzz::Kind::kCollision) return request_.duration_s;
+    return std::min(std::ceil(finding.failure.time_s) + 1.0, request_.duration_s);
+  }
+  [[nodiscard]] static std::string call_of(const RunRequest& run, const std::string& expectation) {
+    std::string call = "playpen run " + shell_word(run.world) + " --duration " +
+                       sim::shortest_text(*run.settings.duration_s);
+    if (!expectation.empty()) call += " --expect " + shell_word(expectation);
+    call += " --";
+    for (const std::string& word : run.command) call += ' ' + shell_word(word);
+    return call;
+  }
+
+  // Copies the world, and adds a test of it to found.cmake.
+  void keep(const fuzz::Finding& finding, const fs::path& file,
+            const std::string& expectation) const {
+    const fs::path folder(request_.keep_folder);
+    fs::create_directories(folder);
+    std::string name;
+    for (int i = 1;; ++i) {
+      name = subject_.name + '_' + std::string(fuzz::name_of(finding.failure.kind)) + '_' +
+             std::to_string(i);
+      if (!fs::exists(folder / (name + ".json"))) break;
+    }
+    fs::copy_file(file, folder / (name + ".json"));
+    std::string test = "playpen_add_test(NAME " + name + " COMMAND ${PLAYPEN_FOUND_PROGRAM}";
+    for (std::size_t i = 1; i < subject_.program.size(); ++i) {
+      test += " \"" + subject_.program[i] + '"';
+    }
+    test += "\n  WORLD \"${CMAKE_CURRENT_LIST_DIR}/" + name + ".json\" DURATION " +
+            sim::shortest_text(duration_of(finding)) + " SEEDS " +
+            std::to_string(finding.scenario.seed);
+    if (!expectation.empty()) test += " EXPECT \"" + expectation + '"';
+    std::ofstream tests(folder / "found.cmake", std::ios::app);
+    tests << test << ")\n";
+    tests.close();
+    if (!tests) throw std::runtime_error((folder / "found.cmake").string() + " cannot be written");
+    std::cout << "   kept: " << (folder / (name + ".json")).string() << std::endl;
+  }
+
+  const FuzzRequest& request_;
+  const Subject& subject_;
+  const fuzz::Base& base_;
+  const Clock::time_point begin_;
+  std::size_t count_ = 0;
+};
+
+fuzz::RunnerSettings runner_settings(const FuzzRequest& request, const Subject& subject,
+                                     const RunFolder& folder,
+                                     const PreloadedLibrary& virtual_time) {
+  playerlike::RunSettings settings;
+  settings.figures_only = true;
+  settings.quiet_end = true;
+  settings.virtual_time = true;
+  settings.time_mode = sim::TimeMode::kLockstep;
+  fuzz::RunnerSettings runner;
+  runner.program = subject.program;
+  runner.environment = playerlike::run_environment("", settings);
+  add_libraries_folder(runner.environment);
+  virtual_time.add_to(runner.environment);
+  runner.folder = folder.path();
+  runner.jobs = static_cast<std::size_t>(request.jobs);
+  runner.duration_s = request.duration_s;
+  runner.wall_limit_s = request.timeout_s.value_or(runner.wall_limit_s);
+  return runner;
+}
+
+}  // namespace
+
+int fuzz_program(FuzzRequest request) {
+  Subject subject = subject_of(request);
+  subject.program.front() = playerlike::find_program(subject.program.front());
+  const fuzz::Base base(subject.world_file, subject.robot, request.freedom);
+  for (const expect::Expectation& one : request.expectations) one.require_robot_of(base.world());
+  if (request.output_folder.empty()) request.output_folder = "out/fuzz/" + subject.name;
+  const RunFolder folder;
+  const PreloadedLibrary virtual_time;
+  fuzz::Runner runner(runner_settings(request, subject, folder, virtual_time));
+  FoundWorlds findings(request, subject, base);
+  const auto begin = Clock::now();
+  fuzz::SearchSettings settings;
+  settings.seed = request.seed;
+  settings.guided = !request.random;
+  settings.most_findings = request.most_findings;
+  if (request.runs) settings.most_runs = *request.runs;
+  if (!request.runs || request.budget_s) {
+    const double budget_s = request.budget_s.value_or(60.0);
+    if (!request.runs) settings.most_runs = std::numeric_limits<std::size_t>::max();
+    settings.is_over = [begin, budget_s] {
+      return std::chrono::duration<double>(Clock::now() - begin).count() > budget_s;
+    };
+  }
+  fuzz::Search search(base, subject.rules, runner, settings);
+  search.run([&findings](const fuzz::Finding& finding) { findings.add(finding); });
+  const double spent_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  if (!request.quiet) {
+    std::cout << (findings.count() == 0 ? "nothing found: " : "") << search.runs() << " runs and "
+              << search.situations() << " situations in " << sim::fixed_text(spent_s, 0) << " s, "
+              << runner.count() - search.runs() << " runs to make findings simpler\n";
+  }
+  return findings.count() == 0 ? kOk : kProgramFailed;
+}
+
+}  // namespace playpen

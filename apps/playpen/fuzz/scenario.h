@@ -1,0 +1,129 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "grade/world_patch.h"
+#include "sim/core/pose.h"
+#include "sim/core/random_stream.h"
+#include "sim/navigation/distance_field.h"
+#include "sim/world/description.h"
+
+/// The search for worlds in which a program fails (docs/fuzz.md).
+namespace playpen::fuzz {
+
+/// An obstacle that a scenario adds to its world. Its numbers are round, so that people can read
+/// them: lengths in centimetres, angles in degrees.
+struct Element {
+  enum class Shape {
+    kBox,
+    kCircle,    ///< of the diameter size.x
+    kTriangle,  ///< its base is size.x, its height size.y
+    kDoor,      ///< a wall of the length size.x and the thickness size.y with an opening
+  };
+  Shape shape = Shape::kBox;
+  sim::Vec2 center = sim::Vec2::Zero();  ///< in W [m]
+  sim::Vec2 size = {0.1, 0.1};           ///< [m]
+  int yaw_deg = 0;
+  double opening_m = 0.0;                 ///< of a door, in the middle of the wall [m]
+  bool moves = false;                     ///< there and back
+  sim::Vec2 goes_to = sim::Vec2::Zero();  ///< if it moves [m]
+  double speed_mps = 0.0;                 ///< if it moves [m/s]
+
+  /// Radius of a circle around its centre that contains it [m].
+  [[nodiscard]] double radius_m() const { return 0.5 * size.norm(); }
+};
+
+/// What differs from the base world.
+struct Scenario {
+  std::uint64_t seed = 1;                 ///< of the world's noise
+  std::optional<grade::StartPose> start;  ///< of the robot; none: the world's
+  std::vector<Element> elements;
+  std::optional<std::set<std::string>> extended;  ///< dynamic blocks; none: as in the world
+  bool real = false;                              ///< the level of realism is `real`
+  double latency_s = 0.0;                         ///< of the laser; 0: the world's [s]
+  double dropouts = 0.0;  ///< share of its beams that measure nothing; 0: the world's
+};
+
+/// Distances in Base::World::room are at most this [m].
+inline constexpr double kFarthestRoom_m = 0.8;
+/// Between the robot at a start of a scenario and everything solid [m].
+inline constexpr double kStartRoom_m = 0.1;
+
+/// What scenarios may change.
+struct Freedom {
+  bool starts = true;
+  bool obstacles = true;  ///< that stand
+  bool moving = true;     ///< obstacles that move
+  bool blocks = true;     ///< which dynamic blocks are raised
+  bool noise = true;      ///< levels of realism, latency and dropouts
+};
+
+/// The base of all scenarios, and what they may change.
+class Base {
+ public:
+  /// @param file   of the world; "" for the default world.
+  /// @param robot  name of the robot under test; "": the first.
+  /// @throws sim::ConfigError as grade::read_json_world(); std::invalid_argument for a world
+  /// without
+  ///     the robot.
+  Base(const std::string& file, const std::string& robot, const Freedom& freedom = {});
+
+  [[nodiscard]] const sim::WorldDescription& world() const noexcept { return json_.description; }
+  /// Index of the robot under test.
+  [[nodiscard]] std::size_t robot() const noexcept { return robot_; }
+  [[nodiscard]] const sim::RobotDescription& robot_description() const {
+    return world().robots[robot_];
+  }
+  /// Radius of the smallest circle around the robot's centre that contains its body [m].
+  [[nodiscard]] double robot_radius_m() const noexcept { return robot_radius_m_; }
+  /// Whether the world's file states settings of the robot's laser, so that these can be changed.
+  [[nodiscard]] bool has_laser_settings() const noexcept { return !laser_.empty(); }
+
+  /// The world file of a scenario, and what it describes.
+  struct World {
+    std::string text;
+    sim::WorldDescription description;
+    sim::DistanceField room;  ///< from the solids that stand; limited to kFarthestRoom_m
+  };
+  /// @return nullopt if there is no such world, or if the scenario puts its robot closer to a solid
+  ///     than kStartRoom_m.
+  [[nodiscard]] std::optional<World> world_of(const Scenario& scenario) const;
+
+  /// A scenario of its own, and a change of a scenario. Both may be no worlds.
+  [[nodiscard]] Scenario random(sim::RandomStream& random) const;
+  [[nodiscard]] Scenario mutated(Scenario scenario, sim::RandomStream& random) const;
+
+ private:
+  [[nodiscard]] Element random_element(const Scenario& scenario, sim::RandomStream& random) const;
+  [[nodiscard]] grade::StartPose random_start(sim::RandomStream& random) const;
+  [[nodiscard]] sim::Vec2 random_place(sim::RandomStream& random, double margin_m) const;
+  [[nodiscard]] sim::Vec2 start_of(const Scenario& scenario) const;
+
+  const Freedom freedom_;
+  grade::JsonWorld json_;
+  std::string obstacles_;            ///< JSON of the list in the file; "": none
+  std::string laser_;                ///< JSON pointer of the laser's settings; "": none
+  std::vector<std::string> blocks_;  ///< names of the dynamic ones
+  std::size_t robot_ = 0;
+  double robot_radius_m_ = 0.0;
+};
+
+/// The distance of a place to the nearest solid [m]; 0 outside of the field.
+[[nodiscard]] double room_at(const sim::DistanceField& room, const sim::Vec2& place);
+
+/// Scenarios that are a little simpler, the simplest first.
+[[nodiscard]] std::vector<Scenario> simpler(const Scenario& scenario);
+
+/// How simple a scenario is: fewer things come first, then rounder numbers.
+[[nodiscard]] std::size_t weight_of(const Scenario& scenario);
+
+/// A sentence about what a scenario adds to its world: "a box of 0.20 m x 0.10 m at (1.2, 0.5)".
+[[nodiscard]] std::string description_of(const Scenario& scenario);
+
+}  // namespace playpen::fuzz
