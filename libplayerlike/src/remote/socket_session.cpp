@@ -12,6 +12,7 @@
 
 #include "playerlike/process/thread_id.h"
 #include "process/end_of_program.h"
+#include "process/printed.h"
 #include "process/thread_end.h"
 #include "protocol/request_codec.h"
 #include "remote/message_sender.h"
@@ -411,6 +412,8 @@ void SocketSession::throw_finished() {
 
 void SocketSession::wait() {
   const virtual_time::Inside inside;
+  // The server's process may count what this one has printed, see PrintedBytes.
+  if (settings_.quiet_end) flush_printed();
   if (in_turns() && wait_for_data_in_turns()) return;
   Lock lock(mutex_);
   changed_.wait(lock, [&] { return closed_ || round_ || !reading_; });
