@@ -185,6 +185,7 @@ void ProgramRuns::prepare(std::size_t world, std::uint64_t seed, const Known& kn
     kept = std::make_unique<playerlike::KeptRun>();
     return playerlike::EnvironmentChanges{{"PLAYPEN_STATE", kept->file()}};
   };
+  job.kept = [&kept]() -> const playerlike::KeptRun& { return *kept; };
   jobs_.push_back(std::move(job));
   world_of_.push_back(world);
   run_of_.push_back(result_.runs.size());

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "grade/surface.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/rangers.h"
@@ -28,67 +29,6 @@ using sim::Vec2;
 /// Differences of places that do not count: a robot touches within the tolerances of the physics.
 constexpr double kSamePlace_m = 0.02;
 constexpr double kLeastPeriod_s = 0.1;
-
-/// A side of a solid in W.
-struct SolidSide {
-  Vec2 a;
-  Vec2 b;
-  double bottom_m;
-  double top_m;
-};
-
-void add_sides(const sim::Polygon& outline, double bottom_m, double top_m,
-               std::vector<SolidSide>& sides) {
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    sides.push_back({outline[i], outline[(i + 1) % outline.size()], bottom_m, top_m});
-  }
-}
-
-/// The surface of a partner in a contact, at the start of a world; empty if it is not there, or has
-/// another outline at another height.
-std::vector<SolidSide> surface_of(const sim::WorldDescription& world, const std::string& partner) {
-  constexpr double kRound_m = 0.001;
-  std::vector<SolidSide> sides;
-  const sim::ArenaDescription& arena = world.arena;
-  for (const auto* list : {&arena.obstacles, &arena.dock_separators}) {
-    for (const sim::ObstacleDescription& obstacle : *list) {
-      if (obstacle.name != partner || obstacle.state == sim::ObstacleState::kRetracted) continue;
-      add_sides(outline_of(obstacle, kRound_m), obstacle.bottom_m, standing_height_m(obstacle),
-                sides);
-    }
-  }
-  for (const sim::RobotDescription& robot : world.robots) {
-    const sim::RobotModel* model = sim::find_robot_model(world, robot.model);
-    if (robot.name != partner || model == nullptr || !model->superstructures.empty()) continue;
-    for (const sim::Polygon& part : sim::body_parts(*model)) {
-      sim::Polygon outline;
-      for (const Vec2& p_B : part) outline.push_back(robot.pose * p_B);
-      add_sides(outline, 0.0, model->height_m, sides);
-    }
-  }
-  if (!sides.empty()) return sides;
-  if (partner == "border" && arena.border) {
-    const Vec2 middle = arena.origin + 0.5 * arena.size;
-    add_sides(sim::box_corners({middle.x(), middle.y(), 0.0}, arena.size), 0.0,
-              arena.border_height_m, sides);
-  } else if (partner == "wall") {
-    for (const sim::WallLoop& loop : arena.walls) {
-      add_sides(loop.vertices, 0.0, loop.height_m, sides);
-    }
-  }
-  return sides;
-}
-
-const SolidSide& nearest_side(const std::vector<SolidSide>& sides, const Vec2& p) {
-  return *std::ranges::min_element(sides, {}, [&p](const SolidSide& side) {
-    return sim::distance_to_segment_m(p, side.a, side.b);
-  });
-}
-
-bool is_on(const std::vector<SolidSide>& sides, const Vec2& p) {
-  const SolidSide& side = nearest_side(sides, p);
-  return sim::distance_to_segment_m(p, side.a, side.b) <= kSamePlace_m;
-}
 
 /// Distance of a robot's outline from a point in B [m]; 0 inside.
 double outline_distance_m(const sim::RobotModel& model, const Vec2& p_B) {

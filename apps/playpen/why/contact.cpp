@@ -5,77 +5,20 @@
 
 #include "sim/core/number_text.h"
 #include "sim/core/time.h"
+#include "why/look.h"
 #include "why/reasons.h"
 
 namespace playpen::why {
 namespace {
 
-constexpr double kSamePlace_m = 0.08;  // a beam's range and a place that it shows
-constexpr double kAhead_rad = 0.14;    // 8 degrees: neither left nor right
-constexpr double kTurn_radps = 0.1;    // less is no turn
-constexpr double kLeastGap_s = 0.5;    // without a read or command: too long near obstacles
+constexpr double kAhead_rad = 0.14;  // 8 degrees: neither left nor right
+constexpr double kTurn_radps = 0.1;  // less is no turn
+constexpr double kLeastGap_s = 0.5;  // without a read or command: too long near obstacles
 constexpr double kStaleAge_s = 0.25;
 constexpr double kWindow_s = 1.5;  // in which commands before a contact are judged
 constexpr double kSlowTurn_radps = 0.3;
 constexpr int kManyChanges = 3;           // of the turn's direction in that time
 constexpr double kEarlyReaction_s = 0.8;  // earlier is not late
-
-/// What a scan says of a place.
-struct Look {
-  bool in_view = false;
-  bool shown = false;
-  std::size_t beam = 0;
-  double range_m = 0.0;
-  double bearing_rad = 0.0;  ///< from the laser's axis
-};
-
-Look look_at(const Scan& scan, const sim::Vec2& place) {
-  Look look;
-  const sim::Vec2 p_L = scan.X_WL.inverse() * place;
-  const double distance_m = p_L.norm();
-  look.bearing_rad = std::atan2(p_L.y(), p_L.x());
-  const double index = std::round((look.bearing_rad - scan.angle_min_rad) / scan.resolution_rad);
-  if (index < 0.0 || index >= static_cast<double>(scan.ranges_m.size())) return look;
-  look.in_view = true;
-  look.beam = static_cast<std::size_t>(index);
-  look.range_m = static_cast<double>(scan.ranges_m[look.beam]);
-  const std::size_t first = look.beam == 0 ? 0 : look.beam - 1;
-  const std::size_t last = std::min(look.beam + 1, scan.ranges_m.size() - 1);
-  for (std::size_t i = first; i <= last && !look.shown; ++i) {
-    const auto range_m = static_cast<double>(scan.ranges_m[i]);
-    look.shown = range_m < scan.range_max_m && std::abs(range_m - distance_m) < kSamePlace_m;
-  }
-  return look;
-}
-
-/// Since when a scan has shown the place of a contact.
-struct SightOfContact {
-  bool in_view = false;                ///< of the last scan
-  std::optional<Scan> since;           ///< first scan that showed it without an interruption
-  std::optional<double> last_shown_s;  ///< time of the last scan that showed it
-  Look first;                          ///< in `since`
-};
-
-SightOfContact sight_before(const Story& story, const sim::Vec2& place, double time_s) {
-  constexpr int kMostMisses = 2;
-  SightOfContact sight;
-  int misses = 0;
-  bool newest = true;
-  for (auto scan = story.scans.rbegin(); scan != story.scans.rend(); ++scan) {
-    if (scan->time_s >= time_s) continue;
-    const Look look = look_at(*scan, place);
-    if (std::exchange(newest, false)) sight.in_view = look.in_view;
-    if (look.shown) {
-      if (!sight.last_shown_s) sight.last_shown_s = scan->time_s;
-      sight.since = *scan;
-      sight.first = look;
-      misses = 0;
-    } else if (++misses > kMostMisses) {
-      break;
-    }
-  }
-  return sight;
-}
 
 /// Which part of a time the program commanded what, with respect to a place.
 struct Reaction {
@@ -195,14 +138,17 @@ double age_before(const Story& story, double time_s) {
 }
 
 /// The nearer side in a scan: 1 left, -1 right, 0: both are alike, or far away.
-int nearer_side(const Scan& scan) {
+int nearer_side(const std::optional<Transducers>& transducers, const Scan& scan) {
   constexpr double kView_rad = std::numbers::pi / 3.0;
   constexpr double kNear_m = 1.0;
   constexpr double kAlike_m = 0.05;
   double left_m = scan.range_max_m;
   double right_m = scan.range_max_m;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    const double angle_rad = scan.angle_min_rad + static_cast<double>(i) * scan.resolution_rad;
+    const double angle_rad =
+        transducers ? transducers->X_BS[i].yaw_rad
+                    : scan.angle_min_rad + static_cast<double>(i) * scan.resolution_rad;
+    if (transducers && std::abs(angle_rad) < kAhead_rad) continue;  // both sides
     if (std::abs(angle_rad) > kView_rad) continue;
     double& side_m = angle_rad > 0.0 ? left_m : right_m;
     side_m = std::min(side_m, static_cast<double>(scan.ranges_m[i]));
@@ -220,7 +166,7 @@ double lag_of_turns(const Story& story) {
   constexpr double kGoodShare = 0.75;
   constexpr double kBetter = 0.1;
   std::vector<int> sides;
-  for (const Scan& scan : story.scans) sides.push_back(nearer_side(scan));
+  for (const Scan& scan : story.scans) sides.push_back(nearer_side(story.transducers, scan));
   std::vector<int> fits(kMostScans + 1, 0);
   std::vector<int> all(kMostScans + 1, 0);
   std::size_t newest = 0;
@@ -243,25 +189,6 @@ double lag_of_turns(const Story& story) {
   }
   if (best < kLeastLag || share(best) < kGoodShare || share(best) < share(0) + kBetter) return 0.0;
   return static_cast<double>(best) * (story.scans[1].time_s - story.scans[0].time_s);
-}
-
-std::string sight_sentence(const Story& story, const SightOfContact& sight, double time_s) {
-  if (story.laser.empty()) return "It has no laser that could have shown it.";
-  if (!sight.since) {
-    return sight.in_view ? "No beam of its " + story.laser +
-                               " showed it: it may be lower or higher than the beams, or hidden."
-                         : "No beam of its " + story.laser + " looks there.";
-  }
-  const double shown_s = time_s - sight.since->time_s;
-  std::string text = "Beam " + std::to_string(sight.first.beam) + " of its " + story.laser + " (" +
-                     bearing_text(sight.first.bearing_rad) + ") had shown it for " +
-                     seconds_text(shown_s) + ", at first " + metres_text(sight.first.range_m) +
-                     " away.";
-  if (time_s - *sight.last_shown_s > kLeastGap_s) {
-    text += " It left the field of view " + seconds_text(time_s - *sight.last_shown_s) +
-            " before the contact.";
-  }
-  return text;
 }
 
 /// Decides why the program did not avoid what a beam showed.
@@ -293,12 +220,14 @@ void judge(const Story& story, const SightOfContact& sight, double time_s, const
                                seconds_text(told_gap_s) + " before the contact; the command " +
                                twist_text(reaction.last) + " stayed in force.");
   } else if (turned_towards(reaction)) {
-    say(kind::kTowards, "It was " + bearing_text(reaction.bearing_rad) +
-                            " and the program turned towards it (" + twist_text(reaction.last) +
-                            "): is a sign wrong, or left and right of the scan exchanged? Beam 0 "
-                            "is the rightmost.");
+    say(kind::kTowards,
+        "It was " + bearing_text(reaction.bearing_rad) + " and the program turned towards it (" +
+            twist_text(reaction.last) + "): is a sign wrong, or left and right " +
+            (story.transducers ? "of its " + story.sensor + " exchanged?"
+                               : "of the scan exchanged? Beam 0 is the rightmost."));
   } else if (const double lag_s = lag_of_turns(story); lag_s > 0.0) {
-    say(kind::kStale, "Its turns fit what the laser had shown about " + seconds_text(lag_s) +
+    say(kind::kStale, "Its turns fit what the " + story.sensor + " had shown about " +
+                          seconds_text(lag_s) +
                           " before them, not what it showed then: does the program work on old "
                           "data?");
   } else if (reaction.changes >= kManyChanges) {
@@ -337,7 +266,7 @@ Reason reason_of_contact(const Story& story, const sim::Collision& contact) {
                         sim::fixed_text(std::abs(at.twist.v_mps), 2) + " m/s; the place was " +
                         bearing_text(bearing_of(at.X_WB, contact.place)) + ".");
   const SightOfContact sight = sight_before(story, contact.place, time_s);
-  reason.text.push_back(sight_sentence(story, sight, time_s));
+  reason.text.push_back(sight_sentence(story, sight, at.X_WB.inverse() * contact.place, time_s));
   const double from_s =
       std::max(time_s - kWindow_s, sight.since ? sight.since->time_s : time_s - kWindow_s);
   judge(story, sight, time_s, reaction_before(story, contact.place, from_s, time_s - 0.02), reason);

@@ -8,17 +8,43 @@
 #include "playerlike/replay/happenings.h"
 #include "sim/core/time.h"
 #include "sim/devices/laser.h"
+#include "sim/devices/rangers.h"
 
 namespace playpen::why {
 namespace {
 
-/// Index of the first laser with several beams; nullopt: the robot has none.
-std::optional<int> laser_of(const sim::Simulation& simulation, int robot) {
+/// Index of Story::sensor; nullopt: the robot has none.
+std::optional<int> sensor_of_robot(const sim::Simulation& simulation, int robot) {
+  std::optional<int> sonar;
+  std::optional<int> infrared;
   for (int i = 0; i < simulation.device_count(robot); ++i) {
-    const auto* laser = dynamic_cast<const sim::Laser*>(&simulation.device(robot, i));
+    const sim::Device& device = simulation.device(robot, i);
+    const auto* laser = dynamic_cast<const sim::Laser*>(&device);
     if (laser != nullptr && laser->params().beam_count > 1) return i;
+    const auto* ranger = dynamic_cast<const sim::Ranger*>(&device);
+    if (ranger == nullptr || ranger->params().X_BS.empty()) continue;
+    std::optional<int>& first = device.type() == "sonar" ? sonar : infrared;
+    if (!first) first = i;
   }
-  return std::nullopt;
+  return sonar ? sonar : infrared;
+}
+
+Transducers transducers_of(const sim::Ranger& ranger) {
+  const sim::RangerParams& params = ranger.params();
+  Transducers all{ranger.type(), params.X_BS, params.ranges_max_m,
+                  params.single_ray ? 0.0 : params.field_of_view_rad};
+  all.ranges_max_m.resize(all.X_BS.size(), params.range_max_m);
+  return all;
+}
+
+Scan scan_of(const sim::Ranger& ranger) {
+  const sim::RangerReading& reading = ranger.reading();
+  Scan scan;
+  scan.time_s = sim::to_seconds(reading.time_ns);
+  scan.X_WL = reading.X_WB;
+  scan.range_max_m = reading.range_max_m;
+  scan.ranges_m.assign(reading.ranges_m.begin(), reading.ranges_m.end());
+  return scan;
 }
 
 Scan scan_of(const sim::Laser& laser) {
@@ -29,6 +55,30 @@ Scan scan_of(const sim::Laser& laser) {
           reading.resolution_rad,
           reading.range_max_m,
           {reading.ranges_m.begin(), reading.ranges_m.end()}};
+}
+
+/// Notes the newest scan, unless it is that of the number.
+void note_scan(const sim::Device& device, std::uint64_t& number, Story& story) {
+  const auto note = [&](const auto& sensor) {
+    if (std::exchange(number, sensor.reading().sequence) != sensor.reading().sequence) {
+      story.scans.push_back(scan_of(sensor));
+    }
+  };
+  if (story.transducers) {
+    note(static_cast<const sim::Ranger&>(device));
+  } else {
+    note(static_cast<const sim::Laser&>(device));
+  }
+}
+
+void note_collision(const sim::Simulation& run, const sim::Collision& collision, Story& story) {
+  if (story.collisions.empty()) {
+    story.surface = grade::surface_of(run.world(), collision.partner);
+    if (!story.surface.empty() && !grade::is_on(story.surface, collision.place)) {
+      story.surface.clear();
+    }
+  }
+  story.collisions.push_back(collision);
 }
 
 void note_commands(const playerlike::Rerun& rerun, int robot, double before_s, Story& story) {
@@ -58,8 +108,13 @@ Story story_of(playerlike::Rerun& rerun, int robot) {
   Story story;
   story.robot = run.world().robots[static_cast<std::size_t>(robot)].name;
   story.model = run.model(robot);
-  const std::optional<int> laser = laser_of(run, robot);
-  if (laser) story.laser = run.device(robot, *laser).name();
+  const std::optional<int> sensor = sensor_of_robot(run, robot);
+  if (sensor) {
+    const sim::Device& device = run.device(robot, *sensor);
+    story.sensor = device.name();
+    const auto* ranger = dynamic_cast<const sim::Ranger*>(&device);
+    if (ranger != nullptr) story.transducers = transducers_of(*ranger);
+  }
   std::uint64_t scans = 0;
   playerlike::replay::HappeningsWatch watch;
   story.samples.push_back(sample_of(run, robot));
@@ -71,18 +126,13 @@ Story story_of(playerlike::Rerun& rerun, int robot) {
       story.reads.push_back({before_s, sim::to_seconds(read.age_ns)});
     }
     story.samples.push_back(sample_of(run, robot));
-    if (laser) {
-      const auto& device = static_cast<const sim::Laser&>(run.device(robot, *laser));
-      if (std::exchange(scans, device.reading().sequence) != device.reading().sequence) {
-        story.scans.push_back(scan_of(device));
-      }
-    }
+    if (sensor) note_scan(run.device(robot, *sensor), scans, story);
     const playerlike::replay::HappeningsWatch::Happenings happenings = watch.look(run);
     for (const sim::ArenaEvent& e : happenings.events) {
       if (e.who == story.robot || e.kind == sim::ArenaEventKind::kEnd) story.events.push_back(e);
     }
     for (const sim::Collision& collision : happenings.collisions) {
-      if (collision.robot == robot) story.collisions.push_back(collision);
+      if (collision.robot == robot) note_collision(run, collision, story);
     }
   }
   story.complete = rerun.complete();

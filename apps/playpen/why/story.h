@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "grade/surface.h"
 #include "playerlike/host/rerun.h"
 #include "sim/core/pose.h"
 #include "sim/simulation/arena_event.h"
@@ -35,26 +36,41 @@ struct Read {
   double age_s = 0.0;   ///< of the oldest reading that it took
 };
 
-/// A scan of a laser.
+/// A scan of a laser, or the ranges of transducers.
 struct Scan {
   double time_s = 0.0;  ///< when it was measured
-  sim::Pose X_WL;       ///< pose of the laser
+  sim::Pose X_WL;       ///< pose of the laser, or of the robot with the transducers
   double angle_min_rad = 0.0;
   double resolution_rad = 0.0;
   double range_max_m = 0.0;
-  std::vector<float> ranges_m;
+  std::vector<float> ranges_m;  ///< of each beam or transducer
+};
+
+/// Sonars or infrared rangers of a robot.
+struct Transducers {
+  std::string type;  ///< "sonar" or "infrared"
+  std::vector<sim::Pose> X_BS;
+  std::vector<double> ranges_max_m;  ///< of each
+  double view_rad = 0.0;             ///< full angle of each cone; 0: rays
 };
 
 /// What happened to one robot in a run, in the order of time.
 struct Story {
   std::string robot;
   sim::RobotModel model;
-  std::string laser;  ///< name of its first laser with several beams; "": it has none
+  /// Name of the sensor of `scans`: its first laser with several beams, otherwise its first sonars,
+  /// otherwise its first infrared rangers; "": it has none of these.
+  std::string sensor;
+  std::optional<Transducers>
+      transducers;  ///< of `sensor`; nullopt: it is a laser, or there is none
   std::vector<Sample> samples;
   std::vector<Told> told;
   std::vector<Read> reads;  ///< of all clients
-  std::vector<Scan> scans;  ///< of `laser`
+  std::vector<Scan> scans;  ///< of `sensor`
   std::vector<sim::Collision> collisions;
+  /// Surface of the partner in the first of them; empty if its place is not on what the world
+  /// describes.
+  std::vector<grade::SolidSide> surface;
   std::vector<sim::ArenaEvent> events;  ///< that name the robot
   int other_commands = 0;               ///< to its devices, that command no velocity
   bool motors_switched_off = false;     ///< by its last such command

@@ -12,6 +12,7 @@
 
 #include "playerlike/process/thread_id.h"
 #include "process/end_of_program.h"
+#include "process/printed.h"
 #include "process/thread_end.h"
 #include "protocol/request_codec.h"
 #include "remote/message_sender.h"
@@ -89,13 +90,9 @@ std::uint64_t session_number(const json& welcome) {
   return static_cast<std::uint64_t>(protocol::require_integer(welcome, "session", 1, kMost));
 }
 
-json read_request(const char* wait) {
-  return {{"do", "read"}, {"wait", wait}, {"thread", this_thread_id()}};
-}
-
-json read_request(const char* wait, double timeout_s) {
-  json request = read_request(wait);
-  request["timeout"] = timeout_s;
+json read_request(const char* wait, std::optional<double> timeout_s = std::nullopt) {
+  json request = {{"do", "read"}, {"wait", wait}, {"thread", this_thread_id()}};
+  if (timeout_s) request["timeout"] = *timeout_s;
   return request;
 }
 
@@ -411,6 +408,7 @@ void SocketSession::throw_finished() {
 
 void SocketSession::wait() {
   const virtual_time::Inside inside;
+  if (settings_.quiet_end) flush_printed();  // the server's process may count it: PrintedBytes
   if (in_turns() && wait_for_data_in_turns()) return;
   Lock lock(mutex_);
   changed_.wait(lock, [&] { return closed_ || round_ || !reading_; });

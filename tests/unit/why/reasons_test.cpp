@@ -16,6 +16,7 @@
 #include "playerlike/host/rerun.h"
 #include "sim/core/time.h"
 #include "sim/devices/laser.h"
+#include "sim/devices/rangers.h"
 #include "sim/simulation/simulation.h"
 #include "temporary_folder.h"
 #include "why/story.h"
@@ -35,11 +36,12 @@ constexpr const char* kWorld = R"({
     {"name": "ahead", "center": [2.2, 1.06], "size": [0.3, 0.3], "height": 0.16}]},
   "robots": [{"name": "r1", "pose": {"x": 0.4, "y": 1.0, "yaw_deg": 0}}]})";
 
-/// What a program knows in each round.
+/// What a program knows in each round. A robot has a laser or transducers.
 struct Round {
   const sim::LaserReading& scan;
   sim::Pose X_WB;
   int number;
+  std::vector<double> ranges_m = {};  ///< of its transducers
 
   /// The least range between two bearings from the laser's axis.
   [[nodiscard]] double least_m(double from_rad, double to_rad, bool mirrored = false) const {
@@ -67,17 +69,25 @@ class Reasons : public testing::Test {
   /// @param rounds_per_read  it reads so seldom.
   std::vector<Reason> explain(const Program& program, double duration_s, int rounds_per_read = 1,
                               sim::SimTime age_ns = 0) {
+    const sim::LaserReading none;
     sim::Simulation run(sim::load_world(world_));
     playerlike::RecordingWriter writer(settings_, run);
-    const int laser = run.find_device(0, "laser").value();
+    const std::optional<int> laser = run.find_device(0, "laser");
+    std::optional<int> ranger = run.find_device(0, "sonar");
+    if (!ranger) ranger = run.find_device(0, "infrared");
     const int motors = run.find_device(0, "motion").value();
     if (switch_off_) static_cast<void>(run.apply({0, motors}, sim::MotorEnableCommand{false}));
     for (int step = 0; step < static_cast<int>(duration_s * 100.0); ++step) {
       const int round = step / 10;
       if (step % 10 == 0 && step > 0 && round % rounds_per_read == 0) {
         writer.note_read(1, run.now_ns() - age_ns);
-        const auto& reading = static_cast<const sim::Laser&>(run.device(0, laser)).reading();
-        if (const auto twist = program({reading, run.body(0).X_WB, round})) {
+        Round known{laser ? static_cast<const sim::Laser&>(run.device(0, *laser)).reading() : none,
+                    run.body(0).X_WB, round};
+        if (ranger) {
+          known.ranges_m =
+              static_cast<const sim::Ranger&>(run.device(0, *ranger)).reading().ranges_m;
+        }
+        if (const auto twist = program(known)) {
           static_cast<void>(run.apply({0, motors}, sim::TwistCommand{*twist}));
         }
       }
@@ -201,6 +211,92 @@ TEST_F(Reasons, Backwards_Unseen) {
   const Program back = [](const Round&) { return std::optional(sim::Twist{-0.2, 0.0, 0.0}); };
   EXPECT_EQ(first_kind(back, 5.0), kind::kUnseen);
   EXPECT_THAT(first_text(), HasSubstr("No beam of its laser looks there"));
+}
+
+/// A world with a robot that has transducers instead of a laser.
+/// @param devices  of the robot.
+std::string world_of_transducers(const std::string& devices, const std::string& obstacle) {
+  return R"({"name": "why", "arena": {"size": [4, 2], "obstacles": [)" + obstacle +
+         R"(]}, "robots": [{"name": "r1", "pose": {"x": 0.4, "y": 1.0, "yaw_deg": 0},
+             "devices": {"laser": null, )" +
+         devices + "}}]}";
+}
+constexpr const char* kSonars = R"("sonar": {"field_of_view_deg": 30, "noise": 0, "mounts": [
+    {"x": 0.06, "y": 0.05, "yaw_deg": 30}, {"x": 0.08, "y": 0, "yaw_deg": 0},
+    {"x": 0.06, "y": -0.05, "yaw_deg": -30}]})";
+constexpr const char* kBlockAhead =
+    R"({"name": "ahead", "center": [2.2, 1.06], "size": [0.3, 0.3], "height": 0.16})";
+
+/// Avoids what one of three sonars shows: turns to the freer side.
+struct SonarAvoider {
+  double limit_m = 0.6;
+  double speed_mps = 0.3;
+  double turn_radps = 1.5;
+
+  std::optional<sim::Twist> operator()(const Round& round) const {
+    const double least_m = *std::min_element(round.ranges_m.begin(), round.ranges_m.end());
+    if (least_m > limit_m) return sim::Twist{speed_mps, 0.0, 0.0};
+    const bool left = round.ranges_m.front() < round.ranges_m.back();
+    return sim::Twist{0.3 * speed_mps, left ? -turn_radps : turn_radps, 0.0};
+  }
+};
+
+TEST_F(Reasons, SonarsLateTurn_ConeNamed) {
+  folder_.write("world.json", world_of_transducers(kSonars, kBlockAhead));
+  EXPECT_EQ(first_kind(SonarAvoider{.limit_m = 0.1, .speed_mps = 0.5, .turn_radps = 1.0}, 8.0),
+            kind::kLate);
+  EXPECT_THAT(first_text(), HasSubstr("Its sonar 1 (straight ahead) had shown it for 3."));
+}
+
+TEST_F(Reasons, SonarsGoodProgram_None) {
+  folder_.write("world.json", world_of_transducers(kSonars, kBlockAhead));
+  EXPECT_EQ(first_kind(SonarAvoider{}, 8.0), "");
+}
+
+TEST_F(Reasons, SonarsOfOtherSide_TurnedTowards) {
+  folder_.write(
+      "world.json",
+      world_of_transducers(
+          kSonars,
+          R"({"name": "left", "center": [2.2, 1.25], "size": [0.6, 0.4], "height": 0.16})"));
+  EXPECT_EQ(first_kind(SonarAvoider{.limit_m = 0.4, .turn_radps = -0.8}, 10.0), kind::kTowards);
+  EXPECT_THAT(first_text(), HasSubstr("Its sonar "));
+  EXPECT_THAT(first_text(), HasSubstr("left and right of its sonar exchanged?"));
+}
+
+TEST_F(Reasons, BetweenCones_BlindSpotNamed) {
+  folder_.write(
+      "world.json",
+      world_of_transducers(
+          R"("sonar": {"field_of_view_deg": 20, "noise": 0, "mounts": [
+          {"x": 0, "y": 0, "yaw_deg": 45}, {"x": 0, "y": 0, "yaw_deg": -45}]})",
+          R"({"name": "pole", "center": [2.2, 1.0], "size": [0.1, 0.1], "height": 0.16})"));
+  EXPECT_EQ(first_kind(SonarAvoider{}, 8.0), kind::kUnseen);
+  EXPECT_THAT(first_text(),
+              HasSubstr("No cone of its sonar looked there: it was between sonar 0 (45 degrees to "
+                        "the left) and sonar 1 (45 degrees to the right)."));
+}
+
+TEST_F(Reasons, LowBlockBelowCones_Unseen) {
+  folder_.write(
+      "world.json",
+      world_of_transducers(
+          kSonars, R"({"name": "low", "center": [2.2, 1.0], "size": [0.3, 0.3], "height": 0.02})"));
+  EXPECT_EQ(first_kind(SonarAvoider{}, 8.0), kind::kUnseen);
+}
+
+TEST_F(Reasons, InfraredRingStraightOn_RayNamed) {
+  folder_.write("world.json", world_of_transducers(R"("infrared": {"noise": 0})", kBlockAhead));
+  const Program push = [](const Round&) { return std::optional(sim::Twist{0.4, 0.0, 0.0}); };
+  EXPECT_EQ(first_kind(push, 6.0), kind::kStraight);
+  EXPECT_THAT(first_text(), HasSubstr("Its infrared 0 (straight ahead) had shown it for "));
+}
+
+TEST_F(Reasons, NoSensorOfDistances_Said) {
+  folder_.write("world.json", world_of_transducers(R"("pen": {})", kBlockAhead));
+  const Program push = [](const Round&) { return std::optional(sim::Twist{0.4, 0.0, 0.0}); };
+  EXPECT_EQ(first_kind(push, 6.0), kind::kUnseen);
+  EXPECT_THAT(first_text(), HasSubstr("It has no laser, sonars or infrared rangers"));
 }
 
 TEST_F(Reasons, NoCommand_Named) {

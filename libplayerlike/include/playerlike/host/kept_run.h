@@ -8,6 +8,7 @@
 namespace playerlike {
 
 struct KeptHeader;
+struct PrintedCount;
 
 /// Memory shared between a process and the host in the program that it starts. The host keeps the
 /// data current. The data survives any end of the program, including a crash.
@@ -66,6 +67,8 @@ class KeptRun {
   [[nodiscard]] Progress progress() const noexcept;
   /// Tells the host that another program of the run has requested its world and was refused.
   void note_conflict() const noexcept;
+  /// Where the program's supervisor counts what the program prints.
+  [[nodiscard]] PrintedCount& printed() const noexcept;
 
  private:
   int descriptor_ = -1;

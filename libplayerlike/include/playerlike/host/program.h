@@ -150,6 +150,9 @@ struct ProgramJob {
                                             ///< and the file's last line says so
   /// If set, called just before the start; returns further changes of the environment.
   std::function<EnvironmentChanges()> at_start = {};
+  /// If set, called after at_start(); returns the memory of the program's host, which then knows
+  /// when the program has printed what (see Rerun::printed_bytes()).
+  std::function<const KeptRun&()> kept = {};
   std::string working_folder = {};  ///< of the program; "": that of this process
 };
 

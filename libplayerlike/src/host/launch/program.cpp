@@ -230,6 +230,7 @@ class GroupedProgram {
     start.mask = mask;
     start.output_file = job.output_file;
     start.output_limit = job.output_limit;
+    if (job.kept) start.printed = &job.kept().printed();
     return start;
   }
 

@@ -7,6 +7,7 @@
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,6 +24,7 @@
 #include <utility>
 
 #include "host/launch/processes.h"
+#include "host/results/kept_layout.h"
 #include "process/end_of_program.h"
 #include "sim/core/file.h"
 
@@ -167,7 +169,9 @@ void close_all_but(std::vector<int> kept) {
 /// Copies a pipe to a file, up to a limit.
 class LimitedLog {
  public:
-  LimitedLog(int from, int file, std::uint64_t limit) : from_(from), file_(file), limit_(limit) {
+  /// @param printed  counts what was taken from the pipe; may be null.
+  LimitedLog(int from, int file, std::uint64_t limit, PrintedCount* printed)
+      : from_(from), file_(file), limit_(limit), printed_(printed) {
     if (from_ >= 0) fcntl(from_, F_SETFL, O_NONBLOCK);
   }
 
@@ -177,7 +181,7 @@ class LimitedLog {
   void copy() {
     std::array<char, 1 << 16> bytes{};
     while (from_ >= 0) {
-      const ssize_t count = read(from_, bytes.data(), bytes.size());
+      const ssize_t count = take(bytes);
       if (count < 0 && errno == EINTR) continue;
       if (count < 0 && errno == EAGAIN) return;
       if (count <= 0) {
@@ -186,9 +190,8 @@ class LimitedLog {
         return;
       }
       const auto size = static_cast<std::uint64_t>(count);
-      const std::uint64_t fitting = std::min(size, limit_ - std::min(limit_, taken_));
+      const std::uint64_t fitting = std::min(size, limit_ - std::min(limit_, taken_ - size));
       put({bytes.data(), static_cast<std::size_t>(fitting)});
-      taken_ += size;
       if (taken_ % (1 << 22) < size) return;  // now and then, to handle other events
     }
   }
@@ -206,6 +209,21 @@ class LimitedLog {
   }
 
  private:
+  /// Reads from the pipe and counts the bytes. The program may write anything into the shared
+  /// memory, so the count is not read from there.
+  ssize_t take(std::array<char, 1 << 16>& bytes) {
+    if (printed_ != nullptr) ++printed_->reads;
+    const ssize_t count = read(from_, bytes.data(), bytes.size());
+    const int error = errno;
+    if (count > 0) taken_ += static_cast<std::uint64_t>(count);
+    if (printed_ != nullptr) {
+      printed_->taken = taken_;
+      ++printed_->reads;
+    }
+    errno = error;
+    return count;
+  }
+
   void put(std::string_view text) const {
     while (!text.empty()) {
       const ssize_t written = write(file_, text.data(), text.size());
@@ -218,6 +236,7 @@ class LimitedLog {
   int from_;
   int file_;
   std::uint64_t limit_;
+  PrintedCount* printed_;
   std::uint64_t taken_ = 0;
 };
 
@@ -242,7 +261,7 @@ class Supervisor {
     std::vector<int> kept = {channel_, children_, output_file_, pipe_};
     kept.insert(kept.end(), start_.kept_descriptors.begin(), start_.kept_descriptors.end());
     close_all_but(std::move(kept));
-    LimitedLog log(pipe_, output_file_, start_.output_limit);
+    LimitedLog log(pipe_, output_file_, start_.output_limit, start_.printed);
     while (!end_) wait(log);
     const bool orphaned = channel_ < 0;
     // As a subreaper, this process is now the parent of all processes that the program has left
@@ -289,6 +308,7 @@ class Supervisor {
       send(SupervisorEvent::kFailed, errno);
       return false;
     }
+    if (start_.printed != nullptr) announce(output[0]);
     const pid_t supervisor = getpid();
     program_ = fork();
     if (program_ == 0) {
@@ -335,6 +355,14 @@ class Supervisor {
     if (program_ > 0) waitpid(program_, nullptr, 0);
     send(SupervisorEvent::kFailed, error);
     return false;
+  }
+
+  /// Tells the program by which pipe it prints.
+  void announce(int pipe) const {
+    struct stat info {};
+    if (pipe < 0 || fstat(pipe, &info) != 0) return;
+    start_.printed->limit = start_.output_limit;
+    start_.printed->pipe = info.st_ino;
   }
 
   /// Waits for an event and handles it.

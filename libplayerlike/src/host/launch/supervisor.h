@@ -15,6 +15,8 @@
 
 namespace playerlike {
 
+struct PrintedCount;
+
 /// How to start a program.
 struct SupervisedStart {
   std::vector<std::string> command;  ///< path and arguments; not empty
@@ -24,7 +26,8 @@ struct SupervisedStart {
   /// If set, the program gets its own process group and no input, and its output goes to this file,
   /// which is overwritten. Otherwise it shares this process's group and streams.
   std::optional<std::string> output_file;
-  std::uint64_t output_limit = 0;  ///< bytes of the file; the rest is dropped, and a note says so
+  std::uint64_t output_limit = 0;   ///< bytes of the file; the rest is dropped, and a note says so
+  PrintedCount* printed = nullptr;  ///< shared memory that counts the output; may be null
   /// Called in the supervisor if this process ends before the program, after the program and all
   /// processes that it has started have ended.
   std::function<void(const ProgramEnd&)> on_orphaned;

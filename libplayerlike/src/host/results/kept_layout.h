@@ -21,6 +21,15 @@ inline constexpr std::size_t kMostTrailPoints = 8192;
 inline constexpr std::size_t kMostKeptBeams = 4096;
 inline constexpr std::size_t kMostKeptPorts = 8;
 
+/// What a program prints into the pipe to its supervisor, see PrintedBytes. The supervisor writes
+/// it.
+struct PrintedCount {
+  std::atomic<std::uint64_t> pipe{0};   ///< inode of the pipe; 0: there is none
+  std::atomic<std::uint64_t> limit{0};  ///< the rest is not in the file of the output [bytes]
+  std::atomic<std::uint64_t> taken{0};  ///< read from the pipe so far [bytes]
+  std::atomic<std::uint32_t> reads{0};  ///< sequence lock: odd while the supervisor reads
+};
+
 /// The header of the memory.
 struct KeptHeader {
   std::uint64_t magic = 0;                 ///< kKeptMagic
@@ -41,6 +50,7 @@ struct KeptHeader {
   std::atomic<std::uint64_t> report{0};  ///< JSON, see kept_text(); its numbers may be outdated
   std::atomic<std::uint64_t> scene{0};   ///< JSON: the other contents of a picture
   std::atomic<std::uint64_t> motors{0};  ///< JSON: a list of RealMotors, also if robots is 0
+  PrintedCount printed;
 };
 static_assert(sizeof(KeptHeader) <= kKeptHeaderSize);
 // As in playpen_gdb.py.

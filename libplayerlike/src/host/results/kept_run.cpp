@@ -61,6 +61,8 @@ KeptRun::Progress KeptRun::progress() const noexcept {
 
 void KeptRun::note_conflict() const noexcept { header_->conflict = 1; }
 
+PrintedCount& KeptRun::printed() const noexcept { return header_->printed; }
+
 int KeptRun::interrupt_noted() const noexcept {
   const std::uint32_t signal = header_->noted;
   return signal < NSIG ? static_cast<int>(signal) : 0;

@@ -1,12 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "host/results/recording_writer.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -27,15 +23,6 @@ namespace fs = std::filesystem;
 constexpr sim::SimTime kHashPeriod_ns = 10 * sim::kNanosecondsPerSecond;
 constexpr std::size_t kMostWorldText = std::size_t{1} << 20U;
 constexpr std::size_t kCellsPerLayersPeriod = std::size_t{1} << 18U;
-
-/// Whether what this process prints goes into the file of a run's output.
-bool prints_into(const std::string& folder) {
-  struct stat output {};
-  struct stat file {};
-  return fstat(STDOUT_FILENO, &output) == 0 && S_ISREG(output.st_mode) &&
-         stat((fs::path(folder) / kProgramLog).c_str(), &file) == 0 &&
-         output.st_dev == file.st_dev && output.st_ino == file.st_ino;
-}
 
 /// Whether a command may change more than the robot that gets it.
 bool concerns_other_robots(const sim::Command& command) {
@@ -95,11 +82,12 @@ RecordingHead head_of(const RunSettings& settings, const sim::Simulation& simula
 RecordingWriter::RecordingWriter(const RunSettings& settings, sim::Simulation& simulation)
     : simulation_(simulation),
       file_((fs::path(settings.output_folder) / kRecordingFile).string()),
-      watches_output_(prints_into(settings.output_folder)),
+      printed_bytes_(settings),
       interventions_(simulation.interventions()),
       layers_(without_cells(simulation.layers().description())) {
   out_.open(file_, std::ios::trunc | std::ios::binary);
-  const std::string head = text_of_head(head_of(settings, simulation, watches_output_)) + '\n';
+  const std::string head =
+      text_of_head(head_of(settings, simulation, printed_bytes_.known())) + '\n';
   out_ << head << std::flush;
   if (!out_) throw std::runtime_error("cannot write " + file_);
   written_ = head.size();
@@ -185,19 +173,11 @@ void RecordingWriter::note_state() {
 }
 
 void RecordingWriter::note_printed() {
-  if (!watches_output_) return;
-  // Another thread may be printing; its text is noted later.
-  if (ftrylockfile(stdout) == 0) {
-    fflush_unlocked(stdout);
-    funlockfile(stdout);
-  }
-  struct stat output {};
-  if (fstat(STDOUT_FILENO, &output) != 0) return;
-  auto size = static_cast<std::uint64_t>(output.st_size);
-  if (size == printed_) return;
-  printed_ = size;
+  const std::optional<std::uint64_t> printed = printed_bytes_.count();
+  if (!printed || *printed == printed_) return;
+  printed_ = *printed;
   begin_item(RecordedItem::kPrinted);
-  items_(size);
+  items_(printed_);
 }
 
 void RecordingWriter::note_layers() {

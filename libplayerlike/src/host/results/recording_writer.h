@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/results/printed_bytes.h"
 #include "host/results/recording_format.h"
 #include "playerlike/host/run_settings.h"
 #include "sim/simulation/simulation.h"
@@ -56,7 +57,7 @@ class RecordingWriter {
 
   sim::Simulation& simulation_;
   const std::string file_;
-  const bool watches_output_;
+  const PrintedBytes printed_bytes_;
   std::ofstream out_;
   std::size_t written_ = 0;      ///< bytes
   sim::StateArchive items_;      ///< not written yet
