@@ -267,9 +267,10 @@ struct ExpectRequest {
 
 /// Arguments of `playpen why`.
 struct WhyRequest {
-  std::string folder;  ///< folder of results of a run or of a grade
-  std::string robot;   ///< name; "": chosen by the run
-  std::string file;    ///< .png; "": why.png in the folder of the run
+  std::string folder;     ///< folder of results of a run or of a grade
+  std::string robot;      ///< name; "": chosen by the run
+  std::string file;       ///< .png; "": why.png in the folder of the run
+  std::string json_file;  ///< gets the reasons as data; "": none
 };
 
 /// Prints why a run failed, or each failed run of a grade, and draws the decisive moment.

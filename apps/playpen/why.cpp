@@ -18,6 +18,7 @@
 #include "sim/render/render.h"
 #include "terminal.h"
 #include "why/reasons.h"
+#include "why/reasons_json.h"
 #include "why/story.h"
 
 namespace playpen {
@@ -99,7 +100,8 @@ void print_reasons(const std::vector<why::Reason>& reasons, std::size_t most) {
 
 // Explains one run.
 // @param most  prints so many reasons.
-void explain_run(const std::string& folder, const WhyRequest& request, std::size_t most) {
+why::ExplainedRun explain_run(const std::string& folder, const WhyRequest& request,
+                              std::size_t most) {
   const RunData run = read_run(folder);
   playerlike::Rerun rerun(folder);
   const std::size_t robot = robot_of(run, request.robot);
@@ -110,8 +112,11 @@ void explain_run(const std::string& folder, const WhyRequest& request, std::size
                              ", but its report has");
   }
   const why::Story story = why::story_of(rerun, *index);
-  const std::vector<why::Reason> reasons =
+  why::ExplainedRun explained{
+      folder, name, story.samples.back().time_s, story.complete, run.passed, run.faults, {}};
+  explained.reasons =
       why::reasons_of(story, facts_of(run, robot, rerun.simulation().world().simulation));
+  const std::vector<why::Reason>& reasons = explained.reasons;
   std::cout << "run: " << folder << "\nrobot " << name << ": ";
   if (run.passed) {
     std::cout << (*run.passed ? "passed" : "failed");
@@ -126,13 +131,19 @@ void explain_run(const std::string& folder, const WhyRequest& request, std::size
   }
   if (reasons.empty()) {
     std::cout << "Nothing went wrong: no contact, no stall, no turning on the spot.\n";
-    return;
+    return explained;
   }
   print_reasons(reasons, most);
   const double moment_s = reasons.front().time_s;
   const std::string time = sim::fixed_text(moment_s, 1);
   std::cout << "picture after " << time << " s: " << draw_moment(folder, request, name, moment_s)
             << "\nsee it: playpen replay " << grade::shell_word(folder) << " --at " << time << '\n';
+  return explained;
+}
+
+void write_json(const WhyRequest& request, const std::vector<why::ExplainedRun>& runs) {
+  if (request.json_file.empty()) return;
+  grade::write_text_file(request.json_file, why::reasons_json(runs));
 }
 
 }  // namespace
@@ -146,6 +157,7 @@ int explain(const WhyRequest& request) {
       if (!read_run(folder).passed.value_or(false)) failed.push_back(folder);
     }
     if (failed.empty()) {
+      write_json(request, {});
       std::cout << "All " << folders.size() << " runs have passed.\n";
       return kOk;
     }
@@ -156,12 +168,14 @@ int explain(const WhyRequest& request) {
     }
     folders = std::move(failed);
   }
+  std::vector<why::ExplainedRun> explained;
   for (const std::string& folder : folders) {
     if (&folder != folders.data()) std::cout << '\n';
     // Runs of one program mostly fail alike.
     constexpr std::size_t kMost = 6;
-    explain_run(folder, request, &folder == folders.data() ? kMost : 1);
+    explained.push_back(explain_run(folder, request, &folder == folders.data() ? kMost : 1));
   }
+  write_json(request, explained);
   return kOk;
 }
 

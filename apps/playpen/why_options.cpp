@@ -24,9 +24,12 @@ void add_why(CommandLine& line) {
                    return is_file_name(text, ".png");
                  });
   line.takes(out, ValueKind::Kind::kFile);
+  CLI::Option* const json =
+      command.add_option("--json", request->json_file, "The reasons as JSON [none]");
+  line.takes(json->type_name("FILE"), ValueKind::Kind::kFile);
   command.footer(
       "Makes the run again from its recording and looks for reasons: what the robot hit\n"
-      "first, since when a beam had shown it and what the program commanded then; reads\n"
+      "first, since when a sensor had shown it and what the program commanded then; reads\n"
       "and commands that failed to come; commands beyond the robot's limits; traps, the\n"
       "goal, stalls, turning on the spot. The most likely reason comes first. Of a\n"
       "grade, each failed run is explained. For example:\n"

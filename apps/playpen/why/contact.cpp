@@ -191,6 +191,25 @@ double lag_of_turns(const Story& story) {
   return static_cast<double>(best) * (story.scans[1].time_s - story.scans[0].time_s);
 }
 
+/// The numbers of a contact that its text is made of, and those that it does not mention.
+void note_numbers(const Story& story, const SightOfContact& sight, double time_s,
+                  const Reaction& reaction, Reason& reason) {
+  std::map<std::string, double>& numbers = reason.numbers;
+  numbers["commanded_mps"] = reaction.last.v_mps;
+  numbers["commanded_radps"] = reaction.last.omega_radps;
+  numbers["read_gap_s"] = longest_gap(story.reads, time_s);
+  numbers["command_gap_s"] = gap_before(story.told, time_s);
+  numbers["reading_age_s"] = age_before(story, time_s);
+  numbers["turn_changes"] = reaction.changes;
+  if (reaction.away_since_s) numbers["reacted_before_s"] = time_s - *reaction.away_since_s;
+  if (!sight.since) return;
+  numbers["shown_for_s"] = time_s - sight.since->time_s;
+  numbers["last_shown_before_s"] = time_s - *sight.last_shown_s;
+  numbers["first_range_m"] = sight.first.range_m;
+  numbers[story.transducers ? "transducer" : "beam"] = static_cast<double>(sight.first.beam);
+  numbers["shown_at_rad"] = sight.first.bearing_rad;
+}
+
 /// Decides why the program did not avoid what a beam showed.
 void judge(const Story& story, const SightOfContact& sight, double time_s, const Reaction& reaction,
            Reason& reason) {
@@ -261,6 +280,9 @@ Reason reason_of_contact(const Story& story, const sim::Collision& contact) {
   const Sample& at = sample_at(story, sim::to_seconds(before_ns));
   Reason reason;
   reason.time_s = time_s;
+  reason.place = contact.place;
+  reason.numbers["speed_mps"] = std::abs(at.twist.v_mps);
+  reason.numbers["bearing_rad"] = bearing_of(at.X_WB, contact.place);
   reason.text.push_back("It first hit " + contact.partner + " at " + place_text(contact.place) +
                         " after " + seconds_text(time_s) + ", at " +
                         sim::fixed_text(std::abs(at.twist.v_mps), 2) + " m/s; the place was " +
@@ -269,7 +291,9 @@ Reason reason_of_contact(const Story& story, const sim::Collision& contact) {
   reason.text.push_back(sight_sentence(story, sight, at.X_WB.inverse() * contact.place, time_s));
   const double from_s =
       std::max(time_s - kWindow_s, sight.since ? sight.since->time_s : time_s - kWindow_s);
-  judge(story, sight, time_s, reaction_before(story, contact.place, from_s, time_s - 0.02), reason);
+  const Reaction reaction = reaction_before(story, contact.place, from_s, time_s - 0.02);
+  judge(story, sight, time_s, reaction, reason);
+  note_numbers(story, sight, time_s, reaction, reason);
   return reason;
 }
 

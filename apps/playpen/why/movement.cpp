@@ -112,15 +112,18 @@ void add_turn_reasons(const Story& story, std::vector<Reason>& reasons) {
                 std::to_string(window.changes()) + " changes in " + seconds_text(kWindowOfTurns_s) +
                 ") and did not leave the spot.",
             "Two rules of the program may undo each other: what one side asks for, the next "
-            "reading "
-            "reverses."}});
+            "reading reverses."},
+           window.first().X_WB.position(),
+           {{"changes", window.changes()}, {"window_s", kWindowOfTurns_s}}});
     } else if (!circles && rounds > kManyRounds && window.extent_m() < 1.0) {
       circles = true;
       reasons.push_back({kind::kCircles,
                          from_s,
                          {"From " + seconds_text(from_s) +
                           " on, it drove in circles: " + sim::fixed_text(rounds, 1) + " turns in " +
-                          seconds_text(kWindowOfTurns_s) + "."}});
+                          seconds_text(kWindowOfTurns_s) + "."},
+                         window.first().X_WB.position(),
+                         {{"rounds", rounds}, {"window_s", kWindowOfTurns_s}}});
     }
   }
 }
@@ -166,7 +169,14 @@ std::optional<Reason> unit_reason(const Story& story) {
   const double value = turn ? worst->twist.omega_radps : worst->twist.v_mps;
   const std::string unit = turn ? " rad/s" : " m/s";
   const double limit = turn ? model.max_turn_rate_radps : model.max_speed_mps;
-  Reason reason{kind::kUnits, worst->time_s, {}};
+  Reason reason{kind::kUnits,
+                worst->time_s,
+                {},
+                sample_at(story, worst->time_s).X_WB.position(),
+                {{turn ? "commanded_radps" : "commanded_mps", value},
+                 {turn ? "limit_radps" : "limit_mps", limit},
+                 {"commands_beyond", static_cast<double>(beyond)},
+                 {"commands", static_cast<double>(story.told.size())}}};
   reason.text.push_back("It commanded up to " + sim::rounded_text(std::abs(value), 3) + unit +
                         " (first of these at " + seconds_text(worst->time_s) +
                         "), but the robot reaches " + sim::rounded_text(limit, 3) + unit + "; " +
@@ -197,7 +207,11 @@ void add_movement_reasons(const Story& story, std::vector<Reason>& reasons) {
          {"From " + seconds_text(stall.begin_s) + " to " + seconds_text(stall.end_s) + " it stood" +
               against + " at " + place_text(at.X_WB.position()) +
               " although it was commanded to move (" + twist_text(at.commanded) + ").",
-          "A program notices this by Position2dProxy::GetStall()."}});
+          "A program notices this by Position2dProxy::GetStall()."},
+         at.X_WB.position(),
+         {{"until_s", stall.end_s},
+          {"commanded_mps", at.commanded.v_mps},
+          {"commanded_radps", at.commanded.omega_radps}}});
   }
   add_turn_reasons(story, reasons);
 }

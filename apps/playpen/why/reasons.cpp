@@ -30,13 +30,15 @@ void add_end_of_program(const Story& story, const RunFacts& facts, std::vector<R
          end_s,
          {"The program was ended by " + *facts.signal + " after " + seconds_text(end_s) +
               " of simulated time, at " + place_text(story.samples.back().X_WB.position()) + ".",
-          "`playpen run --debug` shows the line."}});
+          "`playpen run --debug` shows the line."},
+         story.samples.back().X_WB.position()});
   }
   for (const auto& [time_s, what] : facts.refused) {
     reasons.push_back({kind::kRefused,
                        time_s,
                        {"After " + seconds_text(time_s) + " the program requested " + what +
-                        ", which the task does not allow."}});
+                        ", which the task does not allow."},
+                       sample_at(story, time_s).X_WB.position()});
   }
 }
 
@@ -49,14 +51,21 @@ bool add_lack_of_commands(const Story& story, std::vector<Reason>& reasons) {
     reasons.push_back({kind::kMotorsOff,
                        0.0,
                        {"The motors were switched off (SetMotorEnable(false)), so " +
-                        std::to_string(story.told.size()) + " commands had no effect."}});
+                        std::to_string(story.told.size()) + " commands had no effect."},
+                       story.samples.front().X_WB.position(),
+                       {{"commands", static_cast<double>(story.told.size())}}});
     return true;
   }
   const std::string what = story.told.empty()
                                ? "The program sent robot " + story.robot + " no command to move."
                                : "All " + std::to_string(story.told.size()) +
                                      " velocities that the program commanded were 0.";
-  Reason reason{kind::kNoCommand, 0.0, {what}};
+  Reason reason{kind::kNoCommand,
+                0.0,
+                {what},
+                story.samples.front().X_WB.position(),
+                {{"commands", static_cast<double>(story.told.size())},
+                 {"reads", static_cast<double>(story.reads.size())}}};
   if (story.reads.empty()) reason.text.emplace_back("It has read no data either.");
   reasons.push_back(std::move(reason));
   return true;
@@ -66,10 +75,12 @@ void add_traps(const Story& story, std::vector<Reason>& reasons) {
   for (const sim::ArenaEvent& event : story.events) {
     const double time_s = sim::to_seconds(event.time_ns);
     if (event.kind == sim::ArenaEventKind::kTrap && event.text == "enter") {
+      const sim::Vec2 place = sample_at(story, time_s).X_WB.position();
       Reason reason{kind::kTrap,
                     time_s,
                     {"After " + seconds_text(time_s) + " it entered trap " + event.what + " at " +
-                     place_text(sample_at(story, time_s).X_WB.position()) + "."}};
+                     place_text(place) + "."},
+                    place};
       reasons.push_back(std::move(reason));
       return;
     }
@@ -89,7 +100,9 @@ void add_slowness(const Story& story, const RunFacts& facts, std::vector<Reason>
                      end_s,
                      {"It drove with at most " + sim::fixed_text(most_mps, 2) +
                       " m/s until the time was over; the robot reaches " +
-                      sim::fixed_text(story.model.max_speed_mps, 2) + " m/s."}});
+                      sim::fixed_text(story.model.max_speed_mps, 2) + " m/s."},
+                     std::nullopt,
+                     {{"greatest_speed_mps", most_mps}, {"limit_mps", story.model.max_speed_mps}}});
 }
 
 /// The part of the run in which the robot got on least: that of several equal parts with the
@@ -115,15 +128,19 @@ void add_slowest_part(const Story& story, std::vector<Reason>& reasons) {
                      at_s,
                      {"It got on least from " + seconds_text(at_s) + " to " +
                       seconds_text(at_s + kPart_s) + ": it stayed within " + metres_text(least_m) +
-                      " of " + place_text(sample_at(story, at_s).X_WB.position()) + "."}});
+                      " of " + place_text(sample_at(story, at_s).X_WB.position()) + "."},
+                     sample_at(story, at_s).X_WB.position(),
+                     {{"until_s", at_s + kPart_s}, {"extent_m", least_m}}});
 }
 
 void add_unseen_floor(const RunFacts& facts, double end_s, std::vector<Reason>& reasons) {
   if (!facts.seen_area_m2) return;
-  reasons.push_back({kind::kUnseenFloor,
-                     end_s,
-                     {"Its sensors have seen " + sim::fixed_text(*facts.seen_area_m2, 2) +
-                      " m^2 of the floor."}});
+  reasons.push_back(
+      {kind::kUnseenFloor,
+       end_s,
+       {"Its sensors have seen " + sim::fixed_text(*facts.seen_area_m2, 2) + " m^2 of the floor."},
+       std::nullopt,
+       {{"seen_m2", *facts.seen_area_m2}}});
 }
 
 /// Whether one of the reasons why a graded run failed contains a word; true if it was not graded.
@@ -171,26 +188,35 @@ void add_goal_reasons(const Story& story, const RunFacts& facts, std::vector<Rea
               " from the goal and drove on (" + twist_text(nearest->commanded) +
               "); at the end it was " + metres_text(last_m) + " away.",
           "A program must stop when it is near the goal, or it passes the goal between two "
-          "readings."}});
+          "readings."},
+         nearest->X_WB.position(),
+         {{"least_distance_m", nearest_m}, {"last_distance_m", last_m}}});
     return;
   }
   if (facts.goal_reached || last_m < kNear_m) return;
   const auto samples = static_cast<double>(story.samples.size());
   const double turned = away + towards;
   if (turned > 50.0 && (away > kWrongShare * turned || facing_away > kWrongShare * samples)) {
-    reasons.push_back({kind::kWrongWay,
-                       nearest->time_s,
-                       {"It turned away from the goal at " + place_text(*facts.goal) + ": in " +
-                            sim::fixed_text(100.0 * facing_away / samples, 0) +
-                            " % of the time it faced the " + "other way.",
-                        "Is a sign wrong? A positive turn rate turns to the left."}});
+    reasons.push_back(
+        {kind::kWrongWay,
+         nearest->time_s,
+         {"It turned away from the goal at " + place_text(*facts.goal) + ": in " +
+              sim::fixed_text(100.0 * facing_away / samples, 0) + " % of the time it faced the " +
+              "other way.",
+          "Is a sign wrong? A positive turn rate turns to the left."},
+         nearest->X_WB.position(),
+         {{"turned_away_share", away / turned}, {"faced_away_share", facing_away / samples}}});
   }
   const std::string how = moves(last.commanded) ? "was still driving" : "stood still";
   reasons.push_back({kind::kMissed,
                      last.time_s,
                      {"At the end it was " + metres_text(last_m) + " from the goal and " + how +
                       "; it had been nearest after " + seconds_text(nearest->time_s) + ", with " +
-                      metres_text(nearest_m) + "."}});
+                      metres_text(nearest_m) + "."},
+                     last.X_WB.position(),
+                     {{"last_distance_m", last_m},
+                      {"least_distance_m", nearest_m},
+                      {"nearest_at_s", nearest->time_s}}});
 }
 
 std::vector<Reason> reasons_of(const Story& story, const RunFacts& facts) {
@@ -212,7 +238,9 @@ std::vector<Reason> reasons_of(const Story& story, const RunFacts& facts) {
     reasons.push_back({kind::kEnded,
                        end_s,
                        {"The program ended by itself after " + seconds_text(end_s) +
-                        (facts.duration_s ? " of " + seconds_text(*facts.duration_s) : "") + "."}});
+                        (facts.duration_s ? " of " + seconds_text(*facts.duration_s) : "") + "."},
+                       story.samples.back().X_WB.position()});
+    if (facts.duration_s) reasons.back().numbers["duration_s"] = *facts.duration_s;
   }
   if (!facts.faults.empty()) {
     add_slowness(story, facts, reasons);

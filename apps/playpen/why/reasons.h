@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,9 @@ struct Reason {
   /// Sentences for people. The first one says what and when, the others what the robot saw and
   /// what the program commanded.
   std::vector<std::string> text;
+  std::optional<sim::Vec2> place = std::nullopt;  ///< where, in W [m]
+  /// What the text is made of. Names end with the unit; docs/why.md lists them.
+  std::map<std::string, double> numbers = {};
 };
 
 /// What is known of a run besides its story.

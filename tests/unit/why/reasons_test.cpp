@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@
 #include "sim/devices/rangers.h"
 #include "sim/simulation/simulation.h"
 #include "temporary_folder.h"
+#include "why/reasons_json.h"
 #include "why/story.h"
 
 namespace playpen::why {
@@ -297,6 +299,35 @@ TEST_F(Reasons, NoSensorOfDistances_Said) {
   const Program push = [](const Round&) { return std::optional(sim::Twist{0.4, 0.0, 0.0}); };
   EXPECT_EQ(first_kind(push, 6.0), kind::kUnseen);
   EXPECT_THAT(first_text(), HasSubstr("It has no laser, sonars or infrared rangers"));
+}
+
+TEST_F(Reasons, Json_KindPlaceTextNumbers) {
+  ExplainedRun run{"out/\xff", "r1", 0.0, true, false, {"a fault"}, {}};
+  run.reasons = explain(Avoider{.limit_m = 0.16, .speed_mps = 0.5, .turn_radps = 1.0}, 8.0);
+  ASSERT_FALSE(run.reasons.empty());
+  const auto content = nlohmann::json::parse(reasons_json({run}));
+  EXPECT_EQ(content.at("format"), 1);
+  const auto& one = content.at("runs").at(0);
+  EXPECT_EQ(one.at("folder"), "out/\xef\xbf\xbd");
+  EXPECT_EQ(one.at("passed"), false);
+  EXPECT_EQ(one.at("reasons").size(), run.reasons.size());
+  const auto& reason = one.at("reasons").at(0);
+  EXPECT_EQ(reason.at("kind"), kind::kLate);
+  EXPECT_EQ(reason.at("robot"), "r1");
+  EXPECT_EQ(reason.at("time_s"), run.reasons.front().time_s);
+  EXPECT_NEAR(reason.at("place_m").at(0).get<double>(), 2.05, 0.01);
+  EXPECT_EQ(reason.at("text").size(), run.reasons.front().text.size());
+  const auto& numbers = reason.at("numbers");
+  EXPECT_LT(numbers.at("reacted_before_s").get<double>(), 0.5);
+  EXPECT_GT(numbers.at("shown_for_s").get<double>(), 2.0);
+  EXPECT_NEAR(numbers.at("first_range_m").get<double>(), 1.6, 0.2);
+}
+
+TEST_F(Reasons, JsonOfUngradedGoodRun_Empty) {
+  const auto content =
+      nlohmann::json::parse(reasons_json({{"out", "r1", 8.0, true, std::nullopt, {}, {}}}));
+  EXPECT_EQ(content.at("runs").at(0).at("passed"), nullptr);
+  EXPECT_EQ(content.at("runs").at(0).at("reasons"), nlohmann::json::array());
 }
 
 TEST_F(Reasons, NoCommand_Named) {
