@@ -33,8 +33,8 @@ using testing::Not;
 using testing::UnorderedElementsAre;
 
 const std::vector<std::string> kCommands = {
-    "run",    "grade", "serve",  "new",   "list", "check",  "render",     "plot", "diff",
-    "expect", "fuzz", "why",   "replay", "token", "doc",  "doctor", "completion", "help"};
+    "run",    "grade", "serve", "new",    "list",  "check", "render", "plot",       "diff",
+    "expect", "fuzz",  "why",   "replay", "token", "doc",   "doctor", "completion", "help"};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

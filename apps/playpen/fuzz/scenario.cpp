@@ -78,7 +78,7 @@ void add_element(ordered_json& list, const Element& element, const std::string& 
     one["motion"] = {{"type", "path"},
                      {"speed", number(element.speed_mps)},
                      {"repeat", "back_and_forth"},
-                     {"points", {point(element.goes_to)}}};
+                     {"points", ordered_json::array({point(element.goes_to)})}};
   }
   list.push_back(std::move(one));
 }

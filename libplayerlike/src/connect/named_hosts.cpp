@@ -63,9 +63,10 @@ std::shared_ptr<Host> named_host(const std::string& name) {
   const auto found = hosts.by_name.find(name);
   std::shared_ptr<Host> host = found == hosts.by_name.end() ? nullptr : found->second.lock();
   if (host) return host;
-  throw SessionError(SessionError::Code::kBadArgument,
-                     "there is no run of a test with the name \"" + name +
-                         "\"; a run's name ends with the run, see playpen::testing::TestRun::host()");
+  throw SessionError(
+      SessionError::Code::kBadArgument,
+      "there is no run of a test with the name \"" + name +
+          "\"; a run's name ends with the run, see playpen::testing::TestRun::host()");
 }
 
 }  // namespace playerlike

@@ -290,7 +290,7 @@ class Host::Core {
 
   std::optional<sim::SimTime> stop_ns_;  ///< when the stop of the settings is due, until then
   std::function<void(const sim::Simulation&)> step_watch_;  ///< see Host::watch_steps()
-  bool watches_program_ = false;         ///< the program in whose process this is
+  bool watches_program_ = false;  ///< the program in whose process this is
   bool tells_of_endless_run_ = false;
   bool had_client_ = false;
   bool mode_chosen_ = false;  ///< the world or a setting has set the time mode

@@ -553,7 +553,7 @@ std::string encoded_whole(const ReplayRun& run, const std::string& live) {
   Columns columns;
   const Thinning all;
   json head = {{"thinned", ""}, {"palette", palette_json()}, {"live", json::parse(live)}};
-  head["runs"] = {RunEncoder(run, all, columns).encode()};
+  head["runs"] = json::array({RunEncoder(run, all, columns).encode()});
   return joined(std::move(head), columns);
 }
 
@@ -561,7 +561,7 @@ std::string encoded_part(const ReplayRun& part, const std::string& live) {
   Columns columns;
   const Thinning all;
   json head = {{"part", true}, {"live", json::parse(live)}};
-  head["runs"] = {RunEncoder(part, all, columns).encode_part()};
+  head["runs"] = json::array({RunEncoder(part, all, columns).encode_part()});
   return joined(std::move(head), columns);
 }
 

@@ -46,6 +46,7 @@ class CheckMatcher {
   std::string wanted_, unwanted_;
 };
 
+/// A matcher of a check and the words for what is wanted and what is not.
 template <typename Check>
 auto make_matcher(Check check, std::string wanted, std::string unwanted) {
   return ::testing::MakePolymorphicMatcher(

@@ -170,12 +170,14 @@ struct RobotOf {
   const TestRun* run;
   std::string robot;
 };
+/// A robot of a run by its name, which is checked when an expectation uses it.
 [[nodiscard]] inline RobotOf of(const TestRun& run, const std::string& robot) {
   return {&run, robot};
 }
 
 /// Writes "run of WORLD at 12.3 s", for messages of GoogleTest.
 void PrintTo(const TestRun& run, std::ostream* out);
+/// The same, with the robot's name.
 void PrintTo(const RobotOf& robot, std::ostream* out);
 
 }  // namespace playpen::testing
