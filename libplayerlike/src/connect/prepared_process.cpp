@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -53,6 +54,8 @@ void redirect_output(const char* file) {
 void become_copy(std::string_view variables) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const rlimit most{prepared::kGreatestFile, prepared::kGreatestFile};
+  setrlimit(RLIMIT_FSIZE, &most);
   unsetenv("PLAYPEN_PREPARED");
   while (!variables.empty()) {
     const std::size_t end = variables.find('\0');

@@ -61,6 +61,7 @@ class PreparedProgram {
 namespace prepared {
 inline constexpr std::uint32_t kMagic = 0x31505050;           ///< "PPP1"
 inline constexpr std::uint32_t kGreatestRequest = 1U << 16U;  ///< [bytes]
+inline constexpr std::uint64_t kGreatestFile = 256U << 20U;   ///< that a copy can write [bytes]
 /// A variable that a copy does not get: the file for its output.
 inline constexpr const char* kOutputVariable = "PLAYPEN_PREPARED_OUTPUT";
 }  // namespace prepared
