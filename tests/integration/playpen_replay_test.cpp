@@ -205,7 +205,7 @@ TEST(PlaypenWhy, Grade_FailedRunsOnly) {
   const std::string json = folder / "new/reasons.json";
   ASSERT_EQ(playpen({"why", out, "--json", json}).status, 0);
   const auto runs = nlohmann::json::parse(read_bytes(json)).at("runs");
-  ASSERT_EQ(runs.size(), 1U);
+  ASSERT_EQ(runs.size(), 2U);
   EXPECT_EQ(runs.at(0).at("passed"), false);
   EXPECT_FALSE(runs.at(0).at("reasons").empty());
   static_cast<void>(
