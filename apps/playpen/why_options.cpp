@@ -29,7 +29,7 @@ void add_why(CommandLine& line) {
   line.takes(json->type_name("FILE"), ValueKind::Kind::kFile);
   command.footer(
       "Makes the run again from its recording and looks for reasons: what the robot hit\n"
-      "first, since when a sensor had shown it and what the program commanded then; reads\n"
+      "first, since when a sensor had shown it and what the program commanded; reads\n"
       "and commands that failed to come; commands beyond the robot's limits; traps, the\n"
       "goal, stalls, turning on the spot. The most likely reason comes first. Of a\n"
       "grade, each failed run is explained. For example:\n"

@@ -202,11 +202,22 @@ TEST(PlaypenWhy, Grade_FailedRunsOnly) {
   const ProcessResult failed = playpen({"why", out});
   EXPECT_EQ(failed.status, 0) << failed.err;
   EXPECT_THAT(failed.out, AllOf(HasSubstr("robot r1: failed; "), HasSubstr("goal not reached")));
+  const std::string json = folder / "new/reasons.json";
+  ASSERT_EQ(playpen({"why", out, "--json", json}).status, 0);
+  const auto runs = nlohmann::json::parse(read_bytes(json)).at("runs");
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs.at(0).at("passed"), false);
+  EXPECT_FALSE(runs.at(0).at("reasons").empty());
   static_cast<void>(
       playpen({"grade", "par_intro", "--seeds", "2", "--out", out, "--", AVOID_PROGRAM}));
-  const ProcessResult passed = playpen({"why", out});
+  const ProcessResult passed = playpen({"why", out, "--json", json});
   EXPECT_EQ(passed.status, 0) << passed.err;
   EXPECT_EQ(passed.out, "All 2 runs have passed.\n");
+  EXPECT_TRUE(nlohmann::json::parse(read_bytes(json)).at("runs").empty());
+  const std::string impossible = folder.write("file", "") + "/reasons.json";
+  const ProcessResult unwritable = playpen({"why", out, "--json", impossible});
+  EXPECT_NE(unwritable.status, 0);
+  EXPECT_THAT(unwritable.err, HasSubstr("the file '" + impossible + "' can't be written: "));
 }
 
 }  // namespace
