@@ -171,7 +171,7 @@ SightOfContact sight_before(const Story& story, const sim::Vec2& place, double t
 
 std::string sight_sentence(const Story& story, const SightOfContact& sight, const sim::Vec2& place,
                            double time_s) {
-  constexpr double kLeastGap_s = 0.5;
+  constexpr double kShownGap_s = 0.5;
   if (story.sensor.empty()) {
     return "It has no laser, sonars or infrared rangers that could have shown it.";
   }
@@ -192,7 +192,7 @@ std::string sight_sentence(const Story& story, const SightOfContact& sight, cons
                                                    bearing_text(sight.first.bearing_rad) + ")";
   std::string text = what + " had shown it for " + seconds_text(shown_s) + ", at first " +
                      metres_text(sight.first.range_m) + " away.";
-  if (time_s - *sight.last_shown_s > kLeastGap_s) {
+  if (time_s - *sight.last_shown_s > kShownGap_s) {
     text += " It left the field of view " + seconds_text(time_s - *sight.last_shown_s) +
             " before the contact.";
   }
