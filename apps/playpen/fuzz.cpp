@@ -122,7 +122,7 @@ class FoundWorlds {
     const std::string number = std::to_string(++count_);
     const fs::path file = fs::path(request_.output_folder) / (number + ".json");
     const std::string robot = base_.robot_description().name;
-    RunRequest run = run_of(finding, file);
+    const RunRequest run = run_of(finding, file);
     const std::string expectation = expectation_of(finding, robot);
     const std::string what = std::string(fuzz::name_of(finding.failure.kind)) + ": " + robot + ' ' +
                              finding.failure.text;
@@ -137,19 +137,8 @@ class FoundWorlds {
               << "   in " << fuzz::description_of(finding.scenario) << '\n'
               << "   world: " << file.string() << '\n'
               << "   again: " << call << std::endl;
-    // With pictures and a recording; how it ends is known.
-    run.quiet = true;
-    static_cast<void>(playpen::run(run));
-    if (finding.failure.kind >= fuzz::Kind::kCollision) {
-      const auto again = fuzz::failure_of(fuzz::result_in(run.settings.output_folder),
-                                          subject_.rules, base_, finding.world);
-      if (!again || again->kind != finding.failure.kind) {
-        std::cout << "   It did not happen again in a process of its own: the program depends on "
-                     "more than its world.\n";
-      }
-    }
-    std::cout << "   picture: " << run.settings.output_folder << "/scene.png\n"
-              << "   reasons: playpen why " << run.settings.output_folder << std::endl;
+    // It would not end there, either.
+    if (finding.failure.kind != fuzz::Kind::kHang) run_again(finding, run);
     if (!request_.keep_folder.empty()) keep(finding, file, expectation);
   }
 
@@ -164,6 +153,21 @@ class FoundWorlds {
     run.settings.duration_s = duration_of(finding);
     run.command = subject_.program;
     return run;
+  }
+  // Runs the program in a process of its own, with pictures and a recording.
+  void run_again(const fuzz::Finding& finding, RunRequest run) const {
+    run.quiet = true;
+    static_cast<void>(playpen::run(run));
+    if (finding.failure.kind >= fuzz::Kind::kCollision) {
+      const auto again = fuzz::failure_of(fuzz::result_in(run.settings.output_folder),
+                                          subject_.rules, base_, finding.world);
+      if (!again || again->kind != finding.failure.kind) {
+        std::cout << "   It did not happen again in a process of its own: the program depends on "
+                     "more than its world.\n";
+      }
+    }
+    std::cout << "   picture: " << run.settings.output_folder << "/scene.png\n"
+              << "   reasons: playpen why " << run.settings.output_folder << std::endl;
   }
   // A second after the failure, if its time is known.
   [[nodiscard]] double duration_of(const fuzz::Finding& finding) const {
