@@ -1,0 +1,97 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// `playpen fuzz` with the course's solutions.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "playpen_process.h"
+#include "run_files.h"
+#include "run_process.h"
+#include "temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::playpen;
+using test_support::ProcessResult;
+using test_support::read_bytes;
+using test_support::TemporaryFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+class PlaypenFuzz : public testing::Test {
+ protected:
+  [[nodiscard]] ProcessResult fuzz(const Words& options,
+                                   const std::string& program = AVOID_PROGRAM) const {
+    Words call = {"fuzz", "par_intro", "--runs", "32", "--most", "1"};
+    if (options.front() != "--without") call.insert(call.end(), {"--without", "moving,noise"});
+    call.insert(call.end(), options.begin(), options.end());
+    call.insert(call.end(), {"--", program});
+    return playpen(call);
+  }
+  // The world of the first finding without its comment, which names its file.
+  [[nodiscard]] static std::string world_in(const std::string& folder) {
+    const std::string text = read_bytes(fs::path(folder) / "1.json");
+    return text.substr(text.find("\n{"));
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(PlaypenFuzz, Finding_IsSimpleAndHappensAgain) {
+  const std::string out = folder_ / "out";
+  const ProcessResult result =
+      fuzz({"--out", out, "--keep", folder_ / "kept", "--look-for", "collision"});
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("1. found after"), HasSubstr("collision: r1 hits ")));
+  EXPECT_THAT(result.out, testing::Not(HasSubstr("did not happen again")));
+  EXPECT_TRUE(fs::exists(fs::path(out) / "1/scene.png"));
+  EXPECT_THAT(read_bytes(fs::path(out) / "1.json"), HasSubstr("// Again: playpen run"));
+  const ProcessResult again =
+      playpen({"run", out + "/1.json", "--duration", "30", "--out", folder_ / "again", "--expect",
+               "r1.collisions == 0", "--", AVOID_PROGRAM});
+  EXPECT_EQ(again.status, 1);
+  EXPECT_THAT(again.err, HasSubstr("expected r1.collisions == 0, but r1 has"));
+  const std::string kept = read_bytes(folder_ / "kept/found.cmake");
+  EXPECT_THAT(kept, AllOf(HasSubstr("playpen_add_test(NAME par_intro_collision_1"),
+                          HasSubstr("EXPECT \"r1.collisions == 0\"")));
+  EXPECT_TRUE(fs::exists(folder_ / "kept/par_intro_collision_1.json"));
+}
+
+TEST_F(PlaypenFuzz, NumberOfJobs_DoesNotChangeFindings) {
+  for (const char* const jobs : {"1", "3"}) {
+    EXPECT_EQ(fuzz({"--jobs", jobs, "--out", folder_ / jobs}).status, 1);
+  }
+  EXPECT_EQ(world_in(folder_ / "1"), world_in(folder_ / "3"));
+}
+
+TEST_F(PlaypenFuzz, NothingFound_StatusZero) {
+  const ProcessResult result =
+      fuzz({"--out", folder_ / "out", "--look-for", "crash,hang", "--duration", "5"});
+  EXPECT_EQ(result.status, 0) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("nothing found: 32 runs"));
+}
+
+TEST_F(PlaypenFuzz, BadArguments_AreRefused) {
+  const std::pair<Words, const char*> cases[] = {
+      {{"--look-for", "boredom"}, "crash, sanitizer"},
+      {{"--without", "walls"}, "starts, obstacles, moving"},
+      {{"--budget", "0"}, "30s, 5m or 1h"},
+      {{"--robot", "r9"}, "no robot 'r9'"},
+      {{"--expect", "luck > 1"}, "no figure 'luck'"}};
+  for (const auto& [options, words] : cases) {
+    const ProcessResult result = fuzz(options);
+    EXPECT_EQ(result.status, 2) << options[0];
+    EXPECT_THAT(result.err, HasSubstr(words));
+  }
+  const ProcessResult other = fuzz({"--out", folder_ / "out"}, "/bin/true");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("linked with Playpen"));
+}
+
+}  // namespace
