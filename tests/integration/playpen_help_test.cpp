@@ -160,9 +160,9 @@ TEST(PlaypenCompletion, Bash_CompletesCommandsOptionsValuesAndNames) {
   EXPECT_THAT(completed({"grade", "par_p"}), ElementsAre("par_planning"));
   EXPECT_THAT(completed({"grade", "par_intro", "cav"}), ElementsAre("cave"));
   EXPECT_THAT(completed({"check", "pioneer2"}), ElementsAre("pioneer2dx"));
-  EXPECT_THAT(completed({"new", ""}),
-              UnorderedElementsAre("intro", "planning", "exploration", "traps",
-                                   "exploration_changing", "chase", "localization", "client"));
+  EXPECT_THAT(completed({"new", ""}), UnorderedElementsAre("intro", "planning", "exploration",
+                                                           "traps", "exploration_changing", "chase",
+                                                           "localization", "client", "test"));
   EXPECT_THAT(completed({"help", "gr"}), ElementsAre("grade"));
   EXPECT_THAT(completed({"doc", "devices/las"}), ElementsAre("devices/laser"));
   EXPECT_THAT(completed({"run", "cave", "--", "./n"}), ElementsAre("./notes.txt"));

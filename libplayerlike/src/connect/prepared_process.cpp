@@ -95,8 +95,9 @@ std::optional<bool> serve_one(int socket) {
   return std::nullopt;
 }
 
-// Before virtual time begins, which a fork ends; see register_hooks() in virtual_time.cpp.
-__attribute__((constructor(101))) void serve_before_all() {
+// After keep_library_functions() of libsim (101), and before virtual time begins, which a fork
+// ends: register_hooks() in virtual_time.cpp.
+__attribute__((constructor(102))) void serve_before_all() {
   static_cast<void>(serve_if_prepared());
 }
 

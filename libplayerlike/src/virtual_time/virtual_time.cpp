@@ -525,8 +525,9 @@ int note_program(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
 }
 
 // Runs before main() and before the program's static objects, which may read the clock.
-// After keep_library_functions() of libsim (101), which may be part of the same library.
-__attribute__((constructor(102))) void register_hooks() {
+// After keep_library_functions() of libsim (101), which may be part of the same library, and after
+// copies of a prepared process are made (102).
+__attribute__((constructor(103))) void register_hooks() {
   void* const found = dlsym(RTLD_DEFAULT, PLAYPEN_VIRTUAL_TIME_REGISTER);
   if (found == nullptr) return;
   static_cast<void>(this_thread_id());  // the main thread gets the first id
