@@ -13,7 +13,9 @@
 #include "diff/difference_text.h"
 #include "grade/text.h"
 #include "plot_parts.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
+#include "sim/core/pose.h"
 
 namespace playpen {
 namespace {
@@ -38,7 +40,7 @@ void add_disc(Page& page, const Vec2& center, double radius, sim::Colour colour)
   std::vector<Vec2> corners;
   for (int i = 0; i < kCorners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kCorners;
-    corners.push_back(center + radius * Vec2(std::cos(angle), std::sin(angle)));
+    corners.push_back(center + radius * sim::unit_vector(angle));
   }
   page.add_area(std::move(corners), colour);
 }
@@ -74,7 +76,7 @@ struct LogAxes {
   }
   [[nodiscard]] double y(double value) const {
     if (!(value > 0.0)) return bottom - 0.4 * kZeroStrip;
-    const double share = std::log10(value / least) / std::log10(most / least);
+    const double share = sim::math::log10(value / least) / sim::math::log10(most / least);
     return bottom - kZeroStrip - (bottom - kZeroStrip - top) * std::clamp(share, 0.0, 1.0);
   }
 };
@@ -231,7 +233,7 @@ class Labels {
     for (const double distance : {26.0, 40.0, 58.0, 80.0}) {
       for (int i = 0; i < kDirections; ++i) {
         const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kDirections;
-        const Vec2 away(std::cos(angle), std::sin(angle));
+        const Vec2 away(sim::math::cos(angle), sim::math::sin(angle));
         const Vec2 center = place + away.cwiseProduct(Vec2::Constant(distance) + 0.4 * size);
         const Label label{place, center - 0.5 * size, size, text, colour};
         const double cost = cost_of(label) + 0.4 * distance;

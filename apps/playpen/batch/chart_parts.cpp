@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "sim/core/pose.h"
 #include "sim/core/utf8.h"
 
 namespace playpen::batch {
@@ -231,7 +232,7 @@ void draw_disc(Drawing& page, const Vec2& center, double radius_px, Colour colou
   corners.reserve(kCorners);
   for (int i = 0; i < kCorners; ++i) {
     const double angle_rad = 2.0 * std::numbers::pi * i / kCorners;
-    corners.push_back(center + radius_px * Vec2(std::cos(angle_rad), std::sin(angle_rad)));
+    corners.push_back(center + radius_px * sim::unit_vector(angle_rad));
   }
   page.add_area(std::move(corners), colour);
 }

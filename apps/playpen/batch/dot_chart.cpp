@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "batch/chart_parts.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 
 namespace playpen::batch {
@@ -94,7 +95,8 @@ class MeanTexts {
     if (is_share_) {
       decimals_ = are_whole ? 0 : 1;
     } else if (is_fixed_ && largest > 0.0) {
-      decimals_ = std::max(kDigits - 1 - static_cast<int>(std::floor(std::log10(largest))), 0);
+      decimals_ =
+          std::max(kDigits - 1 - static_cast<int>(std::floor(sim::math::log10(largest))), 0);
     }
   }
   // @param number  a mean as it is shown.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "diff/difference_text.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 
 namespace playpen::diff {
@@ -113,7 +114,7 @@ void add_row(const Trajectory& a, std::size_t i, const Trajectory& b, std::size_
              RobotDifference& result) {
   const sim::Pose& first = a.X_WB[i];
   const sim::Pose& second = b.X_WB[k];
-  const double distance_m = std::hypot(first.x_m - second.x_m, first.y_m - second.y_m);
+  const double distance_m = sim::math::hypot(first.x_m - second.x_m, first.y_m - second.y_m);
   // Wrapped one by one: the difference of two finite numbers may be infinite.
   const double turn_rad = sim::normalize_angle(sim::normalize_angle(first.yaw_rad) -
                                                sim::normalize_angle(second.yaw_rad));

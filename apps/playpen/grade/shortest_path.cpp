@@ -9,6 +9,8 @@
 #include <queue>
 #include <utility>
 
+#include "sim/core/math.h"
+
 namespace playpen::grade {
 namespace {
 
@@ -23,7 +25,7 @@ struct Point {
 };
 
 double distance(const Point& a, const Point& b) {
-  return std::hypot(static_cast<double>(a.x - b.x), static_cast<double>(a.y - b.y));
+  return sim::math::hypot(static_cast<double>(a.x - b.x), static_cast<double>(a.y - b.y));
 }
 
 std::int64_t floor_div(std::int64_t a, std::int64_t b) {  // b > 0
@@ -187,7 +189,7 @@ sim::OccupancyMap inflate(const sim::OccupancyMap& map, double radius_m) {
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
       const double away =
-          std::hypot(std::max(std::abs(dx) - 0.5, 0.0), std::max(std::abs(dy) - 0.5, 0.0));
+          sim::math::hypot(std::max(std::abs(dx) - 0.5, 0.0), std::max(std::abs(dy) - 0.5, 0.0));
       constexpr double kRounding = 1e-9;  // a distance equal to the radius is free
       if (away < radius - kRounding) disc.emplace_back(dx, dy);
     }

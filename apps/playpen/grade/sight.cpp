@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "grade/surface.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
+#include "sim/core/pose.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/rangers.h"
 #include "sim/simulation/arena_event.h"
@@ -265,7 +267,7 @@ class PlaceView {
   }
 
  private:
-  static double angle_of(const Vec2& p_LQ) { return std::atan2(p_LQ.y(), p_LQ.x()); }
+  static double angle_of(const Vec2& p_LQ) { return sim::math::atan2(p_LQ.y(), p_LQ.x()); }
   static bool is_within_view(const sim::LaserParams& eye, const Vec2& p_LQ) {
     return std::abs(angle_of(p_LQ)) <= 0.5 * view_of(eye);
   }
@@ -285,7 +287,7 @@ class PlaceView {
     if (free_m < p_LQ.norm() - kSamePlace_m) return false;
     if (!sensor_.has_cones) return true;
     const double angle_rad = scan->least_angle_rad();
-    const Vec2 p_LE = scan->least_range_m() * Vec2(std::cos(angle_rad), std::sin(angle_rad));
+    const Vec2 p_LE = scan->least_range_m() * sim::unit_vector(angle_rad);
     return is_on(surface_, X_WB * sensor_.eyes[eye].X_BL * p_LE);
   }
 

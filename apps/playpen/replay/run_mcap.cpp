@@ -23,6 +23,7 @@
 #include "playerlike/replay/happenings.h"
 #include "replay/mcap_writer.h"
 #include "replay/printed_lines.h"
+#include "sim/core/math.h"
 #include "sim/core/replace_file.h"
 #include "sim/core/time.h"
 #include "sim/core/utf8.h"
@@ -110,8 +111,8 @@ json pose_in_space(const sim::Pose& pose, double z_m) {
           {"orientation",
            {{"x", 0.0},
             {"y", 0.0},
-            {"z", std::sin(0.5 * pose.yaw_rad)},
-            {"w", std::cos(0.5 * pose.yaw_rad)}}}};
+            {"z", sim::math::sin(0.5 * pose.yaw_rad)},
+            {"w", sim::math::cos(0.5 * pose.yaw_rad)}}}};
 }
 
 /// Writes what a run does to its channels.

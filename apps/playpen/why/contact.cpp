@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 #include "sim/core/time.h"
 #include "why/look.h"
@@ -36,7 +37,7 @@ struct Reaction {
 
 double bearing_of(const sim::Pose& X_WB, const sim::Vec2& place) {
   const sim::Vec2 p_B = X_WB.inverse() * place;
-  return std::atan2(p_B.y(), p_B.x());
+  return sim::math::atan2(p_B.y(), p_B.x());
 }
 
 enum class Turn { kAway, kTowards, kStraight };

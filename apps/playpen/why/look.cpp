@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/core/math.h"
 #include "sim/world/outline.h"
 #include "why/reasons.h"
 
@@ -21,7 +22,7 @@ Look look_of_beams(const Scan& scan, const sim::Vec2& place) {
   Look look;
   const sim::Vec2 p_L = scan.X_WL.inverse() * place;
   const double distance_m = p_L.norm();
-  look.bearing_rad = std::atan2(p_L.y(), p_L.x());
+  look.bearing_rad = sim::math::atan2(p_L.y(), p_L.x());
   const double index = std::round((look.bearing_rad - scan.angle_min_rad) / scan.resolution_rad);
   if (index < 0.0 || index >= static_cast<double>(scan.ranges_m.size())) return look;
   look.in_view = true;
@@ -36,7 +37,7 @@ Look look_of_beams(const Scan& scan, const sim::Vec2& place) {
   return look;
 }
 
-double angle_of(const sim::Vec2& p) { return std::atan2(p.y(), p.x()); }
+double angle_of(const sim::Vec2& p) { return sim::math::atan2(p.y(), p.x()); }
 
 /// Distance of the nearest point of a surface in a cone around the x axis of S [m].
 double nearest_in_cone_m(const std::vector<grade::SolidSide>& surface, const sim::Pose& X_WS,

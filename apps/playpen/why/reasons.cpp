@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 #include "sim/core/time.h"
 
@@ -172,7 +173,7 @@ void add_goal_reasons(const Story& story, const RunFacts& facts, std::vector<Rea
       nearest_m = goal_B.norm();
       nearest = &sample;
     }
-    const double bearing_rad = std::atan2(goal_B.y(), goal_B.x());
+    const double bearing_rad = sim::math::atan2(goal_B.y(), goal_B.x());
     if (std::abs(bearing_rad) > kFacingAway_rad) facing_away += 1.0;
     if (goal_B.norm() < kNear_m || std::abs(bearing_rad) < kSide_rad) continue;
     if (std::abs(sample.commanded.omega_radps) < kStill_radps) continue;

@@ -10,6 +10,7 @@
 #include "libCCMorse/MorseClient.h"
 #include "libCCMorse/MorseProperties.h"
 #include "playerlike/connect/open_session.h"
+#include "sim/core/math.h"
 
 namespace CCMorse {
 
@@ -184,7 +185,7 @@ void MorseRobot::SetPositionGoal(double aX, double aY) {
     const PlayerCc::mutex_t::scoped_lock lock(mCore->mutex());
     from = mCore->last_pose(static_cast<int>(mIndex)).value_or(from);
   }
-  SetPositionGoal(aX, aY, std::atan2(aY - from.y_m, aX - from.x_m));
+  SetPositionGoal(aX, aY, sim::math::atan2(aY - from.y_m, aX - from.x_m));
 }
 
 bool MorseRobot::HasPositionGoal() const {

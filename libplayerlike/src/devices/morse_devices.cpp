@@ -21,6 +21,7 @@
 #include "libCCMorse/MorseProximity.h"
 #include "libCCMorse/MorseSensor.h"
 #include "libCCMorse/MorseSonar.h"
+#include "sim/core/math.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/laser.h"
@@ -251,7 +252,7 @@ player_point_2d_t MorseLaser::GetPoint(uint32_t aIndex) const {
     Check(aIndex, count_of(scan), "GetPoint");
     const double range = scan.ranges_m[aIndex];
     const double bearing = scan.angle_min_rad + aIndex * scan.resolution_rad;
-    return {range * std::cos(bearing), range * std::sin(bearing)};
+    return {range * sim::math::cos(bearing), range * sim::math::sin(bearing)};
   });
 }
 
@@ -437,7 +438,7 @@ player_point_2d_t MorseRanger::GetPoint(uint32_t aIndex) const {
   const auto lock = Lock("GetPoint");
   const double range = Checked(aIndex, "GetPoint");
   const player_pose2d_t& mount = mMounts[aIndex];
-  return {mount.px + range * std::cos(mount.pa), mount.py + range * std::sin(mount.pa)};
+  return {mount.px + range * sim::math::cos(mount.pa), mount.py + range * sim::math::sin(mount.pa)};
 }
 
 double MorseRanger::GetMaxRange() const { return GetProperty("range_max", 0.0); }

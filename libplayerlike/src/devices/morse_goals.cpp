@@ -6,6 +6,7 @@
 #include "devices/morse_receiver.h"
 #include "libCCMorse/MorseTeleport.h"
 #include "libCCMorse/MorseWaypoint.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/waypoint.h"
 
@@ -55,7 +56,7 @@ void MorseWaypoint::HandleReading() {
 void MorseWaypoint::Ordered(const char* aStatus) {
   mStatus = aStatus;
   mOrderTime = sim::to_seconds(Core()->session().request(playerlike::TimeRequest{}).sim_time_ns);
-  mDistance = std::hypot(mGoal.px - mPosition.px, mGoal.py - mPosition.py);
+  mDistance = sim::math::hypot(mGoal.px - mPosition.px, mGoal.py - mPosition.py);
 }
 
 void MorseWaypoint::Goto(double aX, double aY, double aTolerance, double aSpeed) {
@@ -77,7 +78,7 @@ void MorseWaypoint::Goto(double aX, double aY) { Goto(aX, aY, GetTolerance(), Ge
 bool MorseWaypoint::SetDest(double aX, double aY, double aTolerance, double aSpeed) {
   {
     const auto lock = Lock("SetDest");
-    if (std::hypot(aX - mPosition.px, aY - mPosition.py) <= aTolerance) return false;
+    if (sim::math::hypot(aX - mPosition.px, aY - mPosition.py) <= aTolerance) return false;
   }
   Goto(aX, aY, aTolerance, aSpeed);
   return true;

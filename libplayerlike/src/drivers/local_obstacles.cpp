@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
+
 namespace playerlike {
 namespace {
 
@@ -26,11 +29,11 @@ void LocalObstacles::update(double time_s, const sim::Pose& X_WB, const Navigati
            std::min(0.5 * span_rad, std::numbers::pi)};
   const sim::Pose X_BW = X_WB.inverse();
   const auto add = [this](const sim::Vec2& p_BO) {
-    obstacles_.push_back({p_BO, p_BO.norm(), std::atan2(p_BO.y(), p_BO.x())});
+    obstacles_.push_back({p_BO, p_BO.norm(), sim::math::atan2(p_BO.y(), p_BO.x())});
   };
   const auto in_view = [&](const sim::Vec2& p_BO) {
     const sim::Vec2 p_LO = p_BO - scan.X_BL.position();
-    return view_.covers(std::atan2(p_LO.y(), p_LO.x()));
+    return view_.covers(sim::math::atan2(p_LO.y(), p_LO.x()));
   };
   obstacles_.clear();
   std::erase_if(memory_, [&](const Memory& m) {
@@ -50,7 +53,7 @@ void LocalObstacles::update(double time_s, const sim::Pose& X_WB, const Navigati
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     if (scan.ranges_m[i] >= scan.range_max_m) continue;
     const double angle_rad = scan.angle_min_rad + static_cast<double>(i) * scan.resolution_rad;
-    const sim::Vec2 p_LO = scan.ranges_m[i] * sim::Vec2(std::cos(angle_rad), std::sin(angle_rad));
+    const sim::Vec2 p_LO = scan.ranges_m[i] * sim::unit_vector(angle_rad);
     add(scan.X_BL * p_LO);
     last_scan_.push_back({X_WB * obstacles_.back().p_BO, time_s});
   }
@@ -81,8 +84,8 @@ bool LocalObstacles::is_safe(const sim::Twist& twist, double period_s,
   std::array<sim::Vec2, kPlaces> places;
   for (sim::Vec2& place : places) {
     const double mid_rad = X_BP.yaw_rad + 0.5 * twist.omega_radps * step_s;
-    X_BP.x_m += twist.v_mps * step_s * std::cos(mid_rad);
-    X_BP.y_m += twist.v_mps * step_s * std::sin(mid_rad);
+    X_BP.x_m += twist.v_mps * step_s * sim::math::cos(mid_rad);
+    X_BP.y_m += twist.v_mps * step_s * sim::math::sin(mid_rad);
     X_BP.yaw_rad += twist.omega_radps * step_s;
     place = X_BP.position();
   }

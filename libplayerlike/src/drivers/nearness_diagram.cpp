@@ -6,6 +6,9 @@
 #include <limits>
 #include <numbers>
 
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
+
 namespace playerlike {
 namespace {
 
@@ -43,7 +46,7 @@ std::optional<sim::Twist> NearnessDiagram::drive(const Situation& now, const Nav
   if (is_stuck(now)) return std::nullopt;
   obstacles_.update(now.time_s, now.X_WB, scan);
   measure_distances(scan.resolution_rad);
-  const double goal_rad = std::atan2(now.p_BG.y(), now.p_BG.x());
+  const double goal_rad = sim::math::atan2(now.p_BG.y(), now.p_BG.x());
   if (reaches(now.p_BG)) {
     p_WG_.reset();
     situation_ = Case::kHighSafetyGoalInRegion;
@@ -61,7 +64,7 @@ std::optional<sim::Twist> NearnessDiagram::drive(const Situation& now, const Nav
     // Half of the least width of a wide region, or what keeps the corner out of the security zone.
     const double away_m = radius_m() + settings_.avoid_dist_m;
     off_rad = std::min(0.5 * kNdWide_rad,
-                       std::asin(std::min(1.0, away_m / std::max(away_m, region->corner_m))));
+                       sim::math::asin(std::min(1.0, away_m / std::max(away_m, region->corner_m))));
   }
   return act(now, sim::normalize_angle(region->bearing_rad + region->side * off_rad));
 }
@@ -127,8 +130,7 @@ std::vector<NearnessDiagram::Region> NearnessDiagram::regions() const {
 
 // Whether the disc fits between the corner of the gap and the obstacles on its other side.
 bool NearnessDiagram::is_navigable(const Region& region) const {
-  const sim::Vec2 corner =
-      region.corner_m * sim::Vec2(std::cos(region.bearing_rad), std::sin(region.bearing_rad));
+  const sim::Vec2 corner = region.corner_m * sim::unit_vector(region.bearing_rad);
   const double room_m = 2.0 * radius_m();
   return std::ranges::none_of(obstacles_.all(), [&](const LocalObstacles::Obstacle& o) {
     const double off_rad = region.side * sim::normalize_angle(o.bearing_rad - region.bearing_rad);
@@ -138,13 +140,12 @@ bool NearnessDiagram::is_navigable(const Region& region) const {
 }
 
 std::optional<NearnessDiagram::Region> NearnessDiagram::choose_region(const Situation& now) {
-  const double goal_rad = std::atan2(now.p_BG.y(), now.p_BG.x());
+  const double goal_rad = sim::math::atan2(now.p_BG.y(), now.p_BG.x());
   std::optional<Region> best;
   std::optional<sim::Vec2> best_p_WG;
   double least_rad = std::numeric_limits<double>::infinity();
   for (const Region& region : regions()) {
-    const sim::Vec2 p_WG = now.X_WB * sim::Vec2(region.corner_m * std::cos(region.bearing_rad),
-                                                region.corner_m * std::sin(region.bearing_rad));
+    const sim::Vec2 p_WG = now.X_WB * (region.corner_m * sim::unit_vector(region.bearing_rad));
     double off_rad = std::abs(sim::normalize_angle(region.bearing_rad - goal_rad));
     if (p_WG_ && (p_WG - *p_WG_).norm() < kNdSameGap_m) off_rad -= kGapHysteresis_rad;
     if (off_rad >= least_rad || !is_navigable(region)) continue;

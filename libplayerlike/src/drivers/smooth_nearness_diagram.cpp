@@ -6,6 +6,9 @@
 #include <limits>
 #include <numbers>
 
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
+
 namespace playerlike {
 namespace {
 
@@ -47,7 +50,7 @@ int sector_of(double bearing_rad) {
   return wrapped(static_cast<int>(std::lround(bearing_rad / kSector_rad)) + kSectors / 2);
 }
 
-double asin_of_share(double share) { return std::asin(std::clamp(share, 0.0, 1.0)); }
+double asin_of_share(double share) { return sim::math::asin(std::clamp(share, 0.0, 1.0)); }
 
 }  // namespace
 
@@ -87,8 +90,8 @@ void SmoothNearnessDiagram::measure_depths(double time_s, const sim::Pose& X_WB)
     for (int s = middle - reach; s <= middle + reach; ++s) {
       double& depth_m = free_depths_m_[static_cast<std::size_t>(wrapped(s))];
       const double off_rad = bearing_of(s) - o.bearing_rad;
-      const double across_m = o.distance_m * std::sin(off_rad);
-      const double along_m = o.distance_m * std::cos(off_rad);
+      const double across_m = o.distance_m * sim::math::sin(off_rad);
+      const double along_m = o.distance_m * sim::math::cos(off_rad);
       if (along_m <= 0.0 || std::abs(across_m) >= radius_m) continue;
       const double free_m = along_m - std::sqrt(radius_m * radius_m - across_m * across_m);
       if (free_m >= depth_m) continue;
@@ -132,7 +135,7 @@ std::vector<SmoothNearnessDiagram::Gap> SmoothNearnessDiagram::find_gaps(
     if (!goal_is_seen && !hides_something(wrapped(before), wrapped(first), side)) continue;
     const double bearing_rad = sim::normalize_angle(bearing_of(first));
     const double corner_m = depth(before) + settings_.robot_radius_m;
-    const sim::Vec2 p_BG = corner_m * sim::Vec2(std::cos(bearing_rad), std::sin(bearing_rad));
+    const sim::Vec2 p_BG = corner_m * sim::unit_vector(bearing_rad);
     gaps.push_back({bearing_rad, corner_m, side, 0.5 * width * kSector_rad, X_WB * p_BG});
   }
   return gaps;
@@ -140,7 +143,7 @@ std::vector<SmoothNearnessDiagram::Gap> SmoothNearnessDiagram::find_gaps(
 
 // Whether no obstacle lies between the body's centre and a point.
 bool SmoothNearnessDiagram::sees(const sim::Vec2& p_BQ) const {
-  const double bearing_rad = std::atan2(p_BQ.y(), p_BQ.x());
+  const double bearing_rad = sim::math::atan2(p_BQ.y(), p_BQ.x());
   return std::none_of(
       obstacles().begin(), obstacles().end(), [&](const LocalObstacles::Obstacle& o) {
         return o.distance_m < p_BQ.norm() &&
@@ -170,7 +173,7 @@ bool SmoothNearnessDiagram::hides_something(int near_sector, int far_sector, int
 // The desired direction in B.
 double SmoothNearnessDiagram::choose_heading(const sim::Pose& X_WB, const sim::Vec2& p_BG) {
   const double goal_m = p_BG.norm();
-  const double goal_rad = std::atan2(p_BG.y(), p_BG.x());
+  const double goal_rad = sim::math::atan2(p_BG.y(), p_BG.x());
   if (depth_at(goal_rad) >= std::min(goal_m - settings_.goal_distance_m, kHorizon_m)) {
     p_WG_.reset();
     return goal_rad;

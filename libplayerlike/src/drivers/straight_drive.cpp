@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/core/math.h"
+
 namespace playerlike {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr double kFullSpeed_m = 2.0;
 
 std::optional<sim::Twist> StraightDrive::drive(const Situation& now, const NavigationScan& scan) {
   static_cast<void>(scan);
-  const double error_rad = std::atan2(now.p_BG.y(), now.p_BG.x());
+  const double error_rad = sim::math::atan2(now.p_BG.y(), now.p_BG.x());
   turns_ = std::abs(error_rad) > (turns_ ? kAligned_rad : kAstray_rad);
   const double gain_per_s = turn_gain_per_s(now.period_s);
   const double most_radps = settings_.max_angular_vel_radps;

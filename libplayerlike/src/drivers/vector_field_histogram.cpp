@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "sim/core/math.h"
+
 namespace playerlike {
 namespace {
 
@@ -62,7 +64,7 @@ void VectorFieldHistogram::make_cells() {
       const sim::Vec2 p_BC = settings_.cell_size_m * sim::Vec2(x, y);
       const double distance_m = p_BC.norm();
       const double near_m = std::max(0.0, kReach_m - distance_m);
-      cells_.push_back({p_BC, distance_m, std::atan2(p_BC.y(), p_BC.x()),
+      cells_.push_back({p_BC, distance_m, sim::math::atan2(p_BC.y(), p_BC.x()),
                         kMagnitude_per_m4 * near_m * near_m * near_m * near_m});
     }
   }
@@ -89,7 +91,7 @@ double VectorFieldHistogram::turning_radius_m() const {
 std::optional<sim::Twist> VectorFieldHistogram::drive(const Situation& now,
                                                       const NavigationScan& scan) {
   obstacles_.update(now.time_s, now.X_WB, scan);
-  const double goal_rad = std::atan2(now.p_BG.y(), now.p_BG.x());
+  const double goal_rad = sim::math::atan2(now.p_BG.y(), now.p_BG.x());
   find_occupied(now.goal_m, keep_away_m());
   make_histograms(keep_away_m());
 
@@ -136,7 +138,7 @@ void VectorFieldHistogram::find_occupied(double goal_m, double keep_away_m) {
   free_m_.assign(kBins, std::numeric_limits<double>::infinity());
   for (const LocalObstacles::Obstacle& o : obstacles_.all()) {
     // An obstacle is as wide as a cell.
-    const double half_rad = std::atan2(0.5 * settings_.cell_size_m, o.distance_m);
+    const double half_rad = sim::math::atan2(0.5 * settings_.cell_size_m, o.distance_m);
     const auto first =
         static_cast<int>(std::floor((o.bearing_rad - half_rad) * kBins / (2.0 * std::numbers::pi)));
     const auto last =
@@ -162,7 +164,7 @@ void VectorFieldHistogram::make_histograms(double keep_away_m) {
   const double sector_rad = 2.0 * std::numbers::pi / static_cast<double>(count);
   magnitudes_.assign(count, 0.0);
   for (const Cell* cell : occupied_) {
-    const double half_rad = std::asin(std::min(1.0, keep_away_m / cell->distance_m));
+    const double half_rad = sim::math::asin(std::min(1.0, keep_away_m / cell->distance_m));
     const auto first = static_cast<int>(
         std::floor((cell->bearing_rad - half_rad + std::numbers::pi) / sector_rad));
     const auto last = static_cast<int>(

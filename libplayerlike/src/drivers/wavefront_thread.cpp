@@ -12,6 +12,7 @@
 #include "drivers/server_planner.h"
 #include "proxies/link.h"
 #include "sim/canvas/layers.h"
+#include "sim/core/math.h"
 
 namespace playerlike {
 
@@ -143,7 +144,7 @@ void WavefrontThread::plan(double time_s) {
   sim::Vec2 before = from;
   for (const sim::Vec2& p : path->waypoints) {
     const sim::Vec2 way = p - before;
-    now_.waypoints.push_back({p.x(), p.y(), std::atan2(way.y(), way.x())});
+    now_.waypoints.push_back({p.x(), p.y(), sim::math::atan2(way.y(), way.x())});
     before = p;
   }
   now_.waypoints.back().yaw_rad = now_.goal.yaw_rad;

@@ -6,6 +6,7 @@
 #include "host/core.h"
 #include "host/in_process_session.h"
 #include "host/stepping/virtual_clock.h"
+#include "virtual_time/program_threads.h"
 
 namespace playerlike {
 

@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "libplayerc++/laserproxy.h"
 #include "playerc/device.h"
+#include "sim/core/math.h"
 
 namespace {
 
@@ -48,7 +49,7 @@ class Laser final : public playerlike::clib::ProxyBacked<playerc_laser_t, Player
       if (intensity_on != 0) intensities_[i] = proxy_or_throw().GetIntensity(i);
       scan_[i].pair[0] = range_m;
       scan_[i].pair[1] = bearing_rad;
-      points_[i] = {range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)};
+      points_[i] = {range_m * sim::math::cos(bearing_rad), range_m * sim::math::sin(bearing_rad)};
     }
     ranges = ranges_.data();
     scan = &scan_[0].pair;

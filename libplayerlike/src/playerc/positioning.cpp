@@ -11,6 +11,7 @@
 #include "libplayerc++/localizeproxy.h"
 #include "libplayerc++/wifiproxy.h"
 #include "playerc/device.h"
+#include "sim/core/math.h"
 
 namespace {
 
@@ -72,12 +73,9 @@ class Imu final : public ProxyBacked<playerc_imu_t, PlayerCc::ImuProxy> {
     vel.pyaw = proxy_or_throw().GetZGyro();
     // Quaternion of rotations about z, then y, then x (Diebel, Representing Attitude, 2006, sec.
     // 8.10).
-    const double cr = std::cos(0.5 * pose.proll);
-    const double sr = std::sin(0.5 * pose.proll);
-    const double cp = std::cos(0.5 * pose.ppitch);
-    const double sp = std::sin(0.5 * pose.ppitch);
-    const double cy = std::cos(0.5 * pose.pyaw);
-    const double sy = std::sin(0.5 * pose.pyaw);
+    const auto [sr, cr] = sim::math::sin_cos(0.5 * pose.proll);
+    const auto [sp, cp] = sim::math::sin_cos(0.5 * pose.ppitch);
+    const auto [sy, cy] = sim::math::sin_cos(0.5 * pose.pyaw);
     q0 = static_cast<float>(cr * cp * cy + sr * sp * sy);
     q1 = static_cast<float>(sr * cp * cy - cr * sp * sy);
     q2 = static_cast<float>(cr * sp * cy + sr * cp * sy);

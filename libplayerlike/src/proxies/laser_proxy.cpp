@@ -15,6 +15,7 @@
 #include "proxies/beam_window.h"
 #include "proxies/link.h"
 #include "proxies/pose_feed.h"
+#include "sim/core/math.h"
 #include "sim/devices/laser.h"
 
 namespace PlayerCc {
@@ -132,7 +133,7 @@ bool LaserProxy::IntensityOn() const {
 player_point_2d_t LaserProxy::GetPoint(uint32_t aIndex) const {
   const auto point = [aIndex](const LaserReading& scan, double range) -> player_point_2d_t {
     const double bearing = bearing_rad(scan, aIndex);
-    return {range * std::cos(bearing), range * std::sin(bearing)};
+    return {range * sim::math::cos(bearing), range * sim::math::sin(bearing)};
   };
   double range = 0.0;
   const void* owner = nullptr;

@@ -8,6 +8,7 @@
 #include "proxies/beam_window.h"
 #include "proxies/link.h"
 #include "proxies/sensor_support.h"
+#include "sim/core/math.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/rangers.h"
 
@@ -147,12 +148,12 @@ player_point_3d_t RangerProxy::GetPoint(uint32_t aIndex) const {
   const double range = ranges[aIndex];
   if (mIsLaser) {
     const double bearing = detail::bearing_rad(mLink->newest.as<LaserReading>(), aIndex);
-    return {range * std::cos(bearing), range * std::sin(bearing), 0.0};
+    return {range * sim::math::cos(bearing), range * sim::math::sin(bearing), 0.0};
   }
   const player_pose3d_t element =
       aIndex < mPoses.size() ? mPoses[aIndex] : player_pose3d_t{0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  return {element.px + range * std::cos(element.pyaw), element.py + range * std::sin(element.pyaw),
-          element.pz};
+  return {element.px + range * sim::math::cos(element.pyaw),
+          element.py + range * sim::math::sin(element.pyaw), element.pz};
 }
 
 uint32_t RangerProxy::GetIntensityCount() const {

@@ -23,6 +23,7 @@
 #include "session/player_values/ptz.h"
 #include "session/player_values/wifi.h"
 #include "session/range_settings.h"
+#include "sim/core/math.h"
 #include "sim/devices/amcl.h"
 #include "sim/devices/camera.h"
 #include "sim/devices/laser.h"
@@ -199,7 +200,7 @@ Made imu(std::uint8_t subtype, std::string_view payload, const sim::SharedReadin
       const double x = double{data.q1};
       const double y = double{data.q2};
       const double z = double{data.q3};
-      reading->yaw_rad = std::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
+      reading->yaw_rad = sim::math::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
       return reading;
     }
     case PLAYER_IMU_DATA_EULER: {

@@ -8,6 +8,7 @@
 
 #include "messages/player_interfaces.h"
 #include "protocol/player_xdr.h"
+#include "sim/core/math.h"
 #include "sim/devices/actarray.h"
 
 namespace playerlike {
@@ -109,8 +110,8 @@ void complete_robot(const player::Position2dGeom& geometry, RobotInfo& robot) {
   robot.height_m = finite(geometry.size.sh);
   robot.center_m = {finite(geometry.pose.px), finite(geometry.pose.py)};
   // The farthest corner of the box from the robot's origin.
-  robot.radius_m = std::hypot(std::abs(robot.center_m.x()) + 0.5 * robot.length_m,
-                              std::abs(robot.center_m.y()) + 0.5 * robot.width_m);
+  robot.radius_m = sim::math::hypot(std::abs(robot.center_m.x()) + 0.5 * robot.length_m,
+                                    std::abs(robot.center_m.y()) + 0.5 * robot.width_m);
 }
 
 sim::JointAxis axis_of(const player::Point3d& axis) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "playerlike/replay/columns.h"
+#include "sim/core/math.h"
 #include "sim/render/palette.h"
 #include "sim/world/outline.h"
 
@@ -56,8 +57,8 @@ double unit_of(const std::vector<double>& values) {
     whole = whole && value == std::round(value);
   }
   if (whole && greatest < 2e9) return 1.0;
-  const double digits = std::ceil(std::log10(std::max(greatest, 1e-12)));
-  return std::pow(10.0, std::max(digits - 7.0, greatest >= 0.01 ? -4.0 : -12.0));
+  const double digits = std::ceil(sim::math::log10(std::max(greatest, 1e-12)));
+  return sim::math::pow(10.0, std::max(digits - 7.0, greatest >= 0.01 ? -4.0 : -12.0));
 }
 
 class RunEncoder {
@@ -353,7 +354,7 @@ class RunEncoder {
     double between_scans = 0.0;
     for (std::size_t i = length; i < values.size(); ++i) {
       const auto digits = [](std::int64_t difference) {
-        return std::log2(1.0 + std::abs(static_cast<double>(difference)));
+        return sim::math::log2(1.0 + std::abs(static_cast<double>(difference)));
       };
       in_scan += digits(values[i] - values[i - 1]);
       between_scans += digits(values[i] - values[i - length]);

@@ -6,6 +6,7 @@
 
 #include "server/morse_services.h"
 #include "server/morse_state.h"
+#include "sim/core/elevation.h"
 #include "sim/devices/actarray.h"
 #include "sim/devices/arm_kinematics.h"
 #include "sim/simulation/simulation.h"
@@ -302,10 +303,10 @@ json move_ik_target(MorseCall& call) {
   const double radial = call.arguments.number(5, 1e-3, kMost, kUsualSpeed);
   const Reach reach = reach_of(call);
   const Eigen::Vector3d way = reach.to_W.translation() - reach.from_W.translation();
-  const Eigen::Quaterniond from(reach.from_W.linear());
-  const Eigen::Quaterniond to(reach.to_W.linear());
+  const Eigen::Vector3d turn =
+      sim::rotation_vector_of(reach.from_W.linear().transpose() * reach.to_W.linear());
   const double way_s = way.norm() / linear;
-  const double turn_s = from.angularDistance(to) / radial;
+  const double turn_s = turn.norm() / radial;
   const double time_s = std::max(way_s, turn_s);
   constexpr double kPointsPerSecond = 20.0;
   constexpr double kMostPoints = 100.0;
@@ -317,7 +318,8 @@ json move_ik_target(MorseCall& call) {
     const double t_s = time_s * i / points;
     const auto share = [t_s](double whole_s) { return t_s < whole_s ? t_s / whole_s : 1.0; };
     Eigen::Isometry3d target = Eigen::Isometry3d::Identity();
-    target.linear() = from.slerp(share(turn_s), to).toRotationMatrix();
+    target.linear() =
+        reach.from_W.linear() * sim::rotation_about(turn.normalized(), share(turn_s) * turn.norm());
     target.translation() = reach.from_W.translation() + share(way_s) * way;
     // The next point continues where a search on the way ends early.
     positions = reach.solve(target, positions, i < points ? kOnTheWay : kToTheEnd);

@@ -9,6 +9,8 @@
 
 #include "protocol/codec.h"
 #include "server/morse_records.h"
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
 #include "sim/devices/actarray.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/camera.h"
@@ -111,8 +113,7 @@ void put_odometry(json& object, const sim::PoseReading& reading, sim::OdometryLe
     case sim::OdometryLevel::kIntegrated: {
       put_pose(object, reading.pose, reading.elevation);
       // MORSE's velocities are in the world's axes, not in the robot's.
-      const double c = std::cos(reading.pose.yaw_rad);
-      const double s = std::sin(reading.pose.yaw_rad);
+      const auto [s, c] = sim::math::sin_cos(reading.pose.yaw_rad);
       object["vx"] = c * reading.twist.v_mps - s * reading.twist.lateral_mps;
       object["vy"] = s * reading.twist.v_mps + c * reading.twist.lateral_mps;
       object["vz"] = 0.0;
@@ -216,7 +217,7 @@ json morse_record(const sim::Reading& reading, const StreamFormat& format) {
     put_ranges(object, laser->ranges_m, laser->range_max_m, [&](std::size_t beam, double range_m) {
       const double angle_rad =
           laser->angle_min_rad + static_cast<double>(beam) * laser->resolution_rad;
-      return sim::Vec2(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
+      return range_m * sim::unit_vector(angle_rad);
     });
   } else if (const auto* ranger = dynamic_cast<const sim::RangerReading*>(&reading)) {
     put_ranges(object, ranger->ranges_m, ranger->range_max_m, [&](std::size_t i, double range_m) {
@@ -387,7 +388,7 @@ sim::Command morse_command(const MorseComponent& component, const json& object,
 json morse_scene_object(const sim::SceneObject& object) {
   const double half = 0.5 * object.pose.yaw_rad;
   return json::array({json::object(), json::array({object.pose.x_m, object.pose.y_m, 0.0}),
-                      json::array({0.0, 0.0, std::sin(half), std::cos(half)})});
+                      json::array({0.0, 0.0, sim::math::sin(half), sim::math::cos(half)})});
 }
 
 }  // namespace playerlike::server

@@ -7,6 +7,7 @@
 
 #include "server/morse_services.h"
 #include "server/morse_state.h"
+#include "sim/core/math.h"
 #include "sim/devices/blinkenlight.h"
 #include "sim/devices/hand.h"
 #include "sim/devices/posture.h"
@@ -57,8 +58,9 @@ json aim(MorseCall& call, const Eigen::Vector3d& p_W) {
     const Eigen::Isometry3d X_WH =
         sim::in_space(body.X_WB, body.elevation) * head.mount().transform();
     const Eigen::Vector3d way = p_W - X_WH.translation();
-    return Angles{sim::normalize_angle(std::atan2(way.y(), way.x()) - body.X_WB.yaw_rad),
-                  -std::atan2(way.z(), std::hypot(way.x(), way.y())) + body.elevation.pitch_rad};
+    return Angles{
+        sim::normalize_angle(sim::math::atan2(way.y(), way.x()) - body.X_WB.yaw_rad),
+        -sim::math::atan2(way.z(), sim::math::hypot(way.x(), way.y())) + body.elevation.pitch_rad};
   });
   return point(call, wanted.pan, wanted.tilt);
 }

@@ -8,6 +8,7 @@
 
 #include "protocol/codec.h"
 #include "server/morse_streams.h"
+#include "sim/core/math.h"
 #include "sim/devices/waypoint.h"
 
 namespace playerlike::server {
@@ -189,8 +190,7 @@ json get_configurations(MorseCall& call) {
   const double height_m = settings["height"];
   json configurations = json::object();
   for (const auto& [name, value] : properties_of(call)) configurations[name] = value;
-  const double c = std::cos(mount.yaw_rad);
-  const double s = std::sin(mount.yaw_rad);
+  const auto [s, c] = sim::math::sin_cos(mount.yaw_rad);
   configurations["object_to_robot"] = {{"rotation", {{c, -s, 0.0}, {s, c, 0.0}, {0.0, 0.0, 1.0}}},
                                        {"translation", {mount.x_m, mount.y_m, height_m}}};
   return {{"configurations", std::move(configurations)}};

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "sim/core/math.h"
+
 namespace playerlike {
 
 std::shared_ptr<sim::LaserReading> configuration_space(const sim::LaserReading& scan,
@@ -16,7 +18,7 @@ std::shared_ptr<sim::LaserReading> configuration_space(const sim::LaserReading& 
   std::vector<sim::Vec2> directions(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double angle_rad = scan.angle_min_rad + static_cast<double>(i) * scan.resolution_rad;
-    directions[i] = {std::cos(angle_rad), std::sin(angle_rad)};
+    directions[i] = {sim::math::cos(angle_rad), sim::math::sin(angle_rad)};
   }
   const double radius_m = settings.radius_m;
   const auto step = static_cast<std::size_t>(std::max(settings.step, 1));

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/laser.h"
 #include "testing/clearance.h"
@@ -55,7 +56,7 @@ Extreme greatest(const Subject& subject, const std::function<double(const Sample
 }
 
 double distance_m(const Sample& sample, const Point& point) {
-  return std::hypot(sample.pose.x_m - point.x_m, sample.pose.y_m - point.y_m);
+  return sim::math::hypot(sample.pose.x_m - point.x_m, sample.pose.y_m - point.y_m);
 }
 
 // How near each robot has come to a point; the robot that stayed farthest decides.

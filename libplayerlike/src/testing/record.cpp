@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/core/math.h"
 #include "testing/clearance.h"
 
 namespace playpen::testing {
@@ -23,13 +24,13 @@ void Record::add_sample(const sim::Simulation& simulation, int robot) {
   paths[static_cast<std::size_t>(robot)].push_back(
       {sim::to_seconds(simulation.now_ns()),
        {body.X_WB.x_m, body.X_WB.y_m, body.X_WB.yaw_rad},
-       std::hypot(body.twist.v_mps, body.twist.lateral_mps),
+       sim::math::hypot(body.twist.v_mps, body.twist.lateral_mps),
        nearest.distance_m,
        nearest.solid});
   for (GoalState& goal : goals) {
     if (goal.robot != robot || goal.reached) continue;
-    goal.reached = std::hypot(body.X_WB.x_m - goal.point.x_m, body.X_WB.y_m - goal.point.y_m) <=
-                   goal.tolerance_m;
+    goal.reached = sim::math::hypot(body.X_WB.x_m - goal.point.x_m,
+                                    body.X_WB.y_m - goal.point.y_m) <= goal.tolerance_m;
   }
 }
 

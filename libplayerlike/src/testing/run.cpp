@@ -10,6 +10,7 @@
 #include "playerlike/connect/named_hosts.h"
 #include "playerlike/process/log.h"
 #include "sim/core/error.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/rangers.h"
@@ -195,7 +196,7 @@ double TestRun::speed_mps(const std::string& robot) const {
   const int index = content_->robot(robot);
   return content_->look([&](const sim::Simulation& simulation, const Record&) {
     const sim::Twist& twist = simulation.body(index).twist;
-    return std::hypot(twist.v_mps, twist.lateral_mps);
+    return sim::math::hypot(twist.v_mps, twist.lateral_mps);
   });
 }
 

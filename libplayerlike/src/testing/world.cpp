@@ -10,6 +10,7 @@
 #include "sim/core/degrees.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 #include "sim/simulation/simulation.h"
 #include "testing/world_content.h"
@@ -201,8 +202,8 @@ World& World::Wall(const Point& from, const Point& to, double thickness_m,
                    const std::string& name) {
   const double dx = to.x_m - from.x_m;
   const double dy = to.y_m - from.y_m;
-  const Pose middle{0.5 * (from.x_m + to.x_m), 0.5 * (from.y_m + to.y_m), std::atan2(dy, dx)};
-  content_->add_obstacle("wall", name, box_of(middle, {std::hypot(dx, dy), thickness_m}));
+  const Pose middle{0.5 * (from.x_m + to.x_m), 0.5 * (from.y_m + to.y_m), sim::math::atan2(dy, dx)};
+  content_->add_obstacle("wall", name, box_of(middle, {sim::math::hypot(dx, dy), thickness_m}));
   return *this;
 }
 

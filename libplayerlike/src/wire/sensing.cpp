@@ -12,6 +12,7 @@
 #include "session/player_values/imu.h"
 #include "session/player_values/power.h"
 #include "session/player_values/wifi.h"
+#include "sim/core/math.h"
 #include "sim/devices/camera.h"
 #include "sim/devices/compass.h"
 #include "sim/devices/space_sensors.h"
@@ -160,8 +161,8 @@ class Imu final : public RobotDevice {
       case PLAYER_IMU_DATA_QUAT:
         return sink.data(PLAYER_IMU_DATA_QUAT,
                          player::encode(player::ImuDataQuat{
-                             values, static_cast<float>(std::cos(0.5 * yaw_rad)), 0.0F, 0.0F,
-                             static_cast<float>(std::sin(0.5 * yaw_rad))}));
+                             values, static_cast<float>(sim::math::cos(0.5 * yaw_rad)), 0.0F, 0.0F,
+                             static_cast<float>(sim::math::sin(0.5 * yaw_rad))}));
       case PLAYER_IMU_DATA_EULER:
         return sink.data(PLAYER_IMU_DATA_EULER,
                          player::encode(player::ImuDataEuler{values, {0.0, 0.0, yaw_rad}}));

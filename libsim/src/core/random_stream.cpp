@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/core/hash.h"
+#include "sim/core/math.h"
 #include "sim/core/state_archive.h"
 
 namespace sim {
@@ -65,7 +66,7 @@ double RandomStream::normal() {
     v = 2.0 * uniform() - 1.0;
     s = u * u + v * v;
   } while (s >= 1.0 || s == 0.0);
-  const double factor = std::sqrt(-2.0 * std::log(s) / s);
+  const double factor = std::sqrt(-2.0 * math::log(s) / s);
   spare_ = v * factor;
   has_spare_ = true;
   return u * factor;

@@ -8,6 +8,7 @@
 
 #include "devices/device_kind.h"
 #include "sim/core/assert.h"
+#include "sim/core/math.h"
 #include "sim/devices/arm_kinematics.h"
 #include "sim/devices/robot_snapshot.h"
 #include "sim/world/description.h"
@@ -105,7 +106,7 @@ JointMotion advance_with_current(JointMotion motion, double current_share,
                                  const JointTravel& travel, double dt_s) {
   const double final_speed = current_share * travel.speed_max;
   const double per_s = travel.acceleration_max / travel.speed_max;
-  const double gone = -std::expm1(-per_s * dt_s);  // share of the difference that has vanished
+  const double gone = -math::expm1(-per_s * dt_s);  // share of the difference that has vanished
   const double difference = motion.speed - final_speed;
   return {motion.position + final_speed * dt_s + difference * gone / per_s,
           final_speed + difference * (1.0 - gone)};

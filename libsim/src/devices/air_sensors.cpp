@@ -7,6 +7,7 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/core/math.h"
 #include "sim/world/description.h"
 #include "sim/world/outline.h"
 
@@ -30,7 +31,7 @@ double pressure_at_pa(double reference_pa, double height_m) {
   constexpr double kWeight_mps2 = 9.81;  // Blender's gravity
   const double exponent = kWeight_mps2 * kMolarMass_kgpmol / (kGas * kLapse_kpm);
   return reference_pa *
-         std::pow(std::max(0.0, 1.0 - kLapse_kpm * height_m / kSeaLevel_k), exponent);
+         math::pow(std::max(0.0, 1.0 - kLapse_kpm * height_m / kSeaLevel_k), exponent);
 }
 
 Barometer::Barometer(std::string name, const BarometerParams& params, double start_m,
@@ -144,7 +145,7 @@ void Thermometer::measure(const StepContext& context) {
     if (!std::ranges::binary_search(tags, params().tag)) return;
     const double distance_m = (p_W - p_WB).norm();
     if (distance_m > params().range_m) return;
-    temperature_c += params().fire_c * std::exp(-params().attenuation_1pm * distance_m);
+    temperature_c += params().fire_c * math::exp(-params().attenuation_1pm * distance_m);
   };
   for (int i = 0; i < context.physics.robot_count(); ++i) {
     if (i == context.robot) continue;

@@ -38,7 +38,7 @@ Eigen::Isometry3d walk(const ActArrayParams& arm, const std::vector<double>& pos
     if (joint.type == JointType::kLinear) {
       X.translation() += position * placed.direction;
     } else {
-      X.linear() *= Eigen::AngleAxisd(position, axis).toRotationMatrix();
+      X.linear() *= rotation_about(axis, position);
     }
     X.translation() += X.linear() * Eigen::Vector3d(joint.length_m, 0.0, 0.0);
     visit(i, placed, X);
@@ -73,8 +73,8 @@ Errors errors_of(const ActArrayParams& arm, const std::vector<double>& positions
           weight * axes[i].direction;
     }
   }
-  const Eigen::AngleAxisd turn(X.linear() * X_BE.linear().transpose());
-  errors.value << X.translation() - X_BE.translation(), weight * turn.angle() * turn.axis();
+  errors.value << X.translation() - X_BE.translation(),
+      weight * rotation_vector_of(X.linear() * X_BE.linear().transpose());
   return errors;
 }
 

@@ -7,6 +7,7 @@
 
 #include "devices/device_kind.h"
 #include "sim/core/assert.h"
+#include "sim/core/math.h"
 
 namespace sim {
 namespace {
@@ -20,7 +21,7 @@ double battery_load_w(const BatteryParams& params, const Twist& commanded,
   const double rim_mps = 0.5 * wheel_separation_m * commanded.omega_radps;
   const double v_mps = commanded.lateral_mps == 0.0
                            ? commanded.v_mps
-                           : std::hypot(commanded.v_mps, commanded.lateral_mps);
+                           : math::hypot(commanded.v_mps, commanded.lateral_mps);
   const double wheels_mps = 0.5 * (std::abs(v_mps - rim_mps) + std::abs(v_mps + rim_mps));
   return params.idle_power_w + params.drive_power_ws_per_m * wheels_mps;
 }

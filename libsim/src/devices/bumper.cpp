@@ -9,6 +9,8 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
 #include "sim/devices/robot_snapshot.h"
 
 namespace sim {
@@ -29,7 +31,7 @@ std::vector<BumperSegment> segments_round(const Polygon& footprint) {
     const Vec2 middle = 0.5 * (a + b);
     // The outline is counter-clockwise, so its outside is on the right.
     segments.push_back(
-        {{middle.x(), middle.y(), std::atan2(-along.x(), along.y())}, along.norm(), 0.0});
+        {{middle.x(), middle.y(), math::atan2(-along.x(), along.y())}, along.norm(), 0.0});
   }
   return segments;
 }
@@ -45,8 +47,8 @@ std::vector<Vec2> line_of(const BumperSegment& segment) {
   std::vector<Vec2> points;
   for (int i = 0; i <= steps; ++i) {
     const double angle = half_angle * (2.0 * i / steps - 1.0);
-    points.push_back(segment.X_BS * Vec2(segment.radius_m * (std::cos(angle) - 1.0),
-                                         segment.radius_m * std::sin(angle)));
+    points.push_back(segment.X_BS * Vec2(segment.radius_m * (math::cos(angle) - 1.0),
+                                         segment.radius_m * math::sin(angle)));
   }
   return points;
 }
@@ -55,13 +57,13 @@ double distance_to_segment_m(const BumperSegment& segment, const Vec2& p_B) {
   const Vec2 p_S = segment.X_BS.inverse() * p_B;
   const double half_m = 0.5 * segment.length_m;
   if (segment.radius_m <= 0.0) {
-    return std::hypot(p_S.x(), std::max(std::abs(p_S.y()) - half_m, 0.0));
+    return math::hypot(p_S.x(), std::max(std::abs(p_S.y()) - half_m, 0.0));
   }
   const Vec2 from_center = p_S + Vec2(segment.radius_m, 0.0);
   const double half_angle = half_m / segment.radius_m;
-  const double angle = std::abs(std::atan2(from_center.y(), from_center.x()));
+  const double angle = std::abs(math::atan2(from_center.y(), from_center.x()));
   if (angle <= half_angle) return std::abs(from_center.norm() - segment.radius_m);
-  const Vec2 end = segment.radius_m * Vec2(std::cos(half_angle), std::sin(half_angle));
+  const Vec2 end = segment.radius_m * unit_vector(half_angle);
   return (Vec2(from_center.x(), std::abs(from_center.y())) - end).norm();
 }
 

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "devices/device_kind.h"
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
 #include "sim/scan/circle.h"
 
 namespace sim {
@@ -21,7 +23,7 @@ std::pair<Vec2, Vec2> box_round(const Pose& X_WS, double view_rad, double range_
   Vec2 low = X_WS.position();
   Vec2 high = low;
   const auto take_in = [&](double yaw_rad) {
-    const Vec2 p = X_WS.position() + range_m * Vec2(std::cos(yaw_rad), std::sin(yaw_rad));
+    const Vec2 p = X_WS.position() + range_m * unit_vector(yaw_rad);
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   };
@@ -36,12 +38,12 @@ std::pair<Vec2, Vec2> box_round(const Pose& X_WS, double view_rad, double range_
 
 }  // namespace
 
-double PinholeView::focal_px() const { return 0.5 * width / std::tan(0.5 * field_of_view_rad); }
+double PinholeView::focal_px() const { return 0.5 * width / math::tan(0.5 * field_of_view_rad); }
 
 double PinholeView::slope(int column) const { return (0.5 * width - (column + 0.5)) / focal_px(); }
 
 double PinholeView::row_px(double depth_m, double rise_m) const {
-  return 0.5 * height + focal_px() * (std::tan(tilt_rad) - rise_m / depth_m);
+  return 0.5 * height + focal_px() * (math::tan(tilt_rad) - rise_m / depth_m);
 }
 
 std::optional<std::string> ColumnView::connect(std::string_view robot,
@@ -72,8 +74,7 @@ void ColumnView::look(const StepContext& context) {
   runs_.clear();
   ends_.assign(static_cast<std::size_t>(params_.width), {params_.range_max_m, kNothing});
   // Walls first, since they hide most other faces.
-  const double cos_yaw = std::cos(X_WS_.yaw_rad);
-  const double sin_yaw = std::sin(X_WS_.yaw_rad);
+  const auto [sin_yaw, cos_yaw] = math::sin_cos(X_WS_.yaw_rad);
   for (const bool walls : {true, false}) {
     for (std::size_t i = 0; i < faces_.size(); ++i) {
       if (std::isinf(faces_[i].height_m) == walls) intersect(i, cos_yaw, sin_yaw);
@@ -165,18 +166,18 @@ void ColumnView::intersect_round(std::size_t index, double cos_yaw, double sin_y
   const scan::Circle circle{cos_yaw * off.x() + sin_yaw * off.y(),
                             cos_yaw * off.y() - sin_yaw * off.x(), face.radius_m};
   const bool top_visible = face.height_m < params_.height_m;
-  const double distance_m = std::hypot(circle.x_m, circle.y_m);
+  const double distance_m = math::hypot(circle.x_m, circle.y_m);
   const double middle = 0.5 * pinhole_.width - 0.5;
   int first = 0;
   int end = pinhole_.width;
   if (distance_m > circle.radius_m) {
     // The columns between the two tangents, and one more on either side: the chord decides.
-    const double bearing_rad = std::atan2(circle.y_m, circle.x_m);
-    const double half_rad = std::asin(circle.radius_m / distance_m);
+    const double bearing_rad = math::atan2(circle.y_m, circle.x_m);
+    const double half_rad = math::asin(circle.radius_m / distance_m);
     const double view_rad = 0.5 * pinhole_.field_of_view_rad;
     if (bearing_rad - half_rad > view_rad || bearing_rad + half_rad < -view_rad) return;
     const auto column_at = [&](double angle_rad) {
-      return middle - focal_px_ * std::tan(std::clamp(angle_rad, -view_rad, view_rad));
+      return middle - focal_px_ * math::tan(std::clamp(angle_rad, -view_rad, view_rad));
     };
     const auto last = static_cast<double>(pinhole_.width - 1);
     first = static_cast<int>(

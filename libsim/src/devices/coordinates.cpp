@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sim/core/degrees.h"
+#include "sim/core/math.h"
 #include "sim/devices/gps.h"
 
 namespace sim {
@@ -21,16 +22,14 @@ double eccentricity2() {
 Eigen::Matrix3d east_north_up(double north_deg) {
   const double turn = (90.0 - north_deg) * kDegrees;
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
+  R.topLeftCorner<2, 2>() << math::cos(turn), -math::sin(turn), math::sin(turn), math::cos(turn);
   return R;
 }
 
 // The rotation from east, north, up at a point of the Earth to the Earth's axes.
 Eigen::Matrix3d earth_axes(double latitude_rad, double longitude_rad) {
-  const double so = std::sin(longitude_rad);
-  const double co = std::cos(longitude_rad);
-  const double sa = std::sin(latitude_rad);
-  const double ca = std::cos(latitude_rad);
+  const auto [so, co] = math::sin_cos(longitude_rad);
+  const auto [sa, ca] = math::sin_cos(latitude_rad);
   Eigen::Matrix3d R;
   R << -so, -co * sa, ca * co, co, -sa * so, ca * so, 0.0, ca, sa;
   return R;
@@ -51,12 +50,11 @@ Origin origin_of(const CoordinateParams& params) {
 }  // namespace
 
 Eigen::Vector3d ecef_of(double latitude_rad, double longitude_rad, double altitude_m) {
-  const double s = std::sin(latitude_rad);
-  const double c = std::cos(latitude_rad);
+  const auto [s, c] = math::sin_cos(latitude_rad);
   const double e2 = eccentricity2();
   const double n = Ellipsoid{}.semi_major_axis_m / std::sqrt(1.0 - e2 * s * s);
-  return {(n + altitude_m) * c * std::cos(longitude_rad),
-          (n + altitude_m) * c * std::sin(longitude_rad), (n * (1.0 - e2) + altitude_m) * s};
+  return {(n + altitude_m) * c * math::cos(longitude_rad),
+          (n + altitude_m) * c * math::sin(longitude_rad), (n * (1.0 - e2) + altitude_m) * s};
 }
 
 Eigen::Vector3d geodetic_of(const Eigen::Vector3d& ecef_m) {
@@ -64,19 +62,19 @@ Eigen::Vector3d geodetic_of(const Eigen::Vector3d& ecef_m) {
   const double a = Ellipsoid{}.semi_major_axis_m;
   const double e2 = eccentricity2();
   const double e4 = e2 * e2;
-  const double across_m = std::hypot(ecef_m.x(), ecef_m.y());
+  const double across_m = math::hypot(ecef_m.x(), ecef_m.y());
   const double p = across_m * across_m / (a * a);
   const double q = (1.0 - e2) / (a * a) * ecef_m.z() * ecef_m.z();
   const double r = (p + q - e4) / 6.0;
   const double s = e4 * p * q / (4.0 * r * r * r);
-  const double t = std::cbrt(1.0 + s + std::sqrt(s * (2.0 + s)));
+  const double t = math::cbrt(1.0 + s + std::sqrt(s * (2.0 + s)));
   const double u = r * (1.0 + t + 1.0 / t);
   const double v = std::sqrt(u * u + e4 * q);
   const double w = e2 * (u + v - q) / (2.0 * v);
   const double k = std::sqrt(u + v + w * w) - w;
   const double d = k * across_m / (k + e2);
-  const double far = std::hypot(d, ecef_m.z());
-  return {std::atan2(ecef_m.y(), ecef_m.x()), 2.0 * std::atan2(ecef_m.z(), d + far),
+  const double far = math::hypot(d, ecef_m.z());
+  return {math::atan2(ecef_m.y(), ecef_m.x()), 2.0 * math::atan2(ecef_m.z(), d + far),
           (k + e2 - 1.0) / k * far};
 }
 

@@ -7,6 +7,7 @@
 
 #include "devices/device_kind.h"
 #include "devices/goal.h"
+#include "sim/core/math.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -46,8 +47,7 @@ void Destination::act(RobotControl& robot) {
   }
   is_on_way_ = true;
   const Eigen::Vector3d velocity = goal_.speed_mps / distance_m * way;
-  const double c = std::cos(X_WB.yaw_rad);
-  const double s = std::sin(X_WB.yaw_rad);
+  const auto [s, c] = math::sin_cos(X_WB.yaw_rad);
   robot.drive({c * velocity.x() + s * velocity.y(), 0.0, c * velocity.y() - s * velocity.x()});
   Elevation elevation = body.elevation;
   elevation.z_m += velocity.z() * step_s;

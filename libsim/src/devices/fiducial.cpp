@@ -7,6 +7,7 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/core/math.h"
 #include "sim/devices/robot_snapshot.h"
 #include "sim/world/description.h"
 #include "sim/world/limits.h"
@@ -37,7 +38,7 @@ void FiducialFinder::measure(const StepContext& context) {
       return;
     }
     const Pose X_ST = X_SW * X_WT;
-    const double bearing = std::atan2(X_ST.y_m, X_ST.x_m);
+    const double bearing = math::atan2(X_ST.y_m, X_ST.x_m);
     if (std::abs(bearing) > 0.5 * params_.field_of_view_rad) return;
     if (!context.physics.is_line_free(X_WS.position(), X_WT.position(), params_.height_m,
                                       context.robot, target)) {
@@ -48,7 +49,7 @@ void FiducialFinder::measure(const StepContext& context) {
     const double direction = bearing + noise_.gaussian(params_.noise_bearing_rad);
     FiducialReading::Mark mark;
     mark.id = distance_m <= params_.range_max_id_m ? id : 0;
-    mark.X_ST = {measured_m * std::cos(direction), measured_m * std::sin(direction),
+    mark.X_ST = {measured_m * math::cos(direction), measured_m * math::sin(direction),
                  normalize_angle(X_ST.yaw_rad + noise_.gaussian(params_.noise_yaw_rad))};
     reading.marks.push_back(mark);
   };

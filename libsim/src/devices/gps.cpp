@@ -9,6 +9,7 @@
 #include "devices/device_kind.h"
 #include "devices/modifiers.h"
 #include "sim/core/degrees.h"
+#include "sim/core/math.h"
 
 namespace sim {
 namespace {
@@ -22,13 +23,13 @@ GeoPoint shifted(const GeoPoint& from, double east_m, double north_m, double alt
                  const Ellipsoid& ellipsoid) {
   const double a = ellipsoid.semi_major_axis_m;
   const double e2 = ellipsoid.flattening * (2.0 - ellipsoid.flattening);
-  const double s = std::sin(from.latitude_rad);
+  const double s = math::sin(from.latitude_rad);
   const double w2 = 1.0 - e2 * s * s;
   const double across_m = a / std::sqrt(w2);                     // N, radius along the parallel
   const double along_m = a * (1.0 - e2) / (w2 * std::sqrt(w2));  // M, along the meridian
   return {from.latitude_rad + north_m / (along_m + altitude_m),
           normalize_angle(from.longitude_rad +
-                          east_m / ((across_m + altitude_m) * std::cos(from.latitude_rad)))};
+                          east_m / ((across_m + altitude_m) * math::cos(from.latitude_rad)))};
 }
 
 Vec2 transverse_mercator_m(const GeoPoint& point, double central_rad, double scale,
@@ -39,17 +40,16 @@ Vec2 transverse_mercator_m(const GeoPoint& point, double central_rad, double sca
   const double e6 = e4 * e2;
   const double second_e2 = e2 / (1.0 - e2);
   const double latitude = point.latitude_rad;
-  const double s = std::sin(latitude);
-  const double c = std::cos(latitude);
+  const auto [s, c] = math::sin_cos(latitude);
   const double t = (s / c) * (s / c);  // T, C, A and M in Snyder's notation
   const double cc = second_e2 * c * c;
   const double x = normalize_angle(point.longitude_rad - central_rad) * c;
   const double n = a / std::sqrt(1.0 - e2 * s * s);
   const double meridian_m =
       a * ((1.0 - e2 / 4.0 - 3.0 * e4 / 64.0 - 5.0 * e6 / 256.0) * latitude -
-           (3.0 * e2 / 8.0 + 3.0 * e4 / 32.0 + 45.0 * e6 / 1024.0) * std::sin(2.0 * latitude) +
-           (15.0 * e4 / 256.0 + 45.0 * e6 / 1024.0) * std::sin(4.0 * latitude) -
-           (35.0 * e6 / 3072.0) * std::sin(6.0 * latitude));
+           (3.0 * e2 / 8.0 + 3.0 * e4 / 32.0 + 45.0 * e6 / 1024.0) * math::sin(2.0 * latitude) +
+           (15.0 * e4 / 256.0 + 45.0 * e6 / 1024.0) * math::sin(4.0 * latitude) -
+           (35.0 * e6 / 3072.0) * math::sin(6.0 * latitude));
   const double x2 = x * x;
   const double east =
       n * x *
@@ -87,8 +87,7 @@ void Gps::measure(const StepContext& context) {
   if (params_.satellites < kLeastSatellites) return;
   reading.quality = 1;
   const Pose& X_WB = context.body.X_WB;
-  const double c = std::cos(params_.north_rad);
-  const double s = std::sin(params_.north_rad);
+  const auto [s, c] = math::sin_cos(params_.north_rad);
   const double north_m = c * X_WB.x_m + s * X_WB.y_m + noise_.gaussian(params_.noise_m);
   const double east_m = s * X_WB.x_m - c * X_WB.y_m + noise_.gaussian(params_.noise_m);
   const GeoPoint place =
@@ -107,15 +106,15 @@ void Gps::measure(const StepContext& context) {
   reading.heading_rad = heading_rad < 0.0 ? heading_rad + 2.0 * std::numbers::pi : heading_rad;
 
   const Twist& twist = context.body.twist;
-  reading.speed_mps = std::hypot(twist.v_mps, twist.lateral_mps);
+  reading.speed_mps = math::hypot(twist.v_mps, twist.lateral_mps);
   reading.course_rad = 0.0;
   if (reading.speed_mps > 0.0) {
-    const double heading = X_WB.yaw_rad + std::atan2(twist.lateral_mps, twist.v_mps);
+    const double heading = X_WB.yaw_rad + math::atan2(twist.lateral_mps, twist.v_mps);
     const double course = normalize_angle(params_.north_rad - heading);
     reading.course_rad = course < 0.0 ? course + 2.0 * std::numbers::pi : course;
   }
-  reading.velocity_mps = {reading.speed_mps * std::sin(reading.course_rad),
-                          reading.speed_mps * std::cos(reading.course_rad), 0.0};
+  reading.velocity_mps = {reading.speed_mps * math::sin(reading.course_rad),
+                          reading.speed_mps * math::cos(reading.course_rad), 0.0};
 }
 
 void Gps::archive(StateArchive& archive) {

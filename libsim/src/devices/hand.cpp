@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "devices/device_kind.h"
+#include "sim/core/math.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -43,7 +44,7 @@ int Hand::nearest(const WorldDescription& world, const BodyState& body) const {
         X_HW * Eigen::Vector3d(thing.center.x(), thing.center.y(), 0.5 * standing_height_m(thing));
     const double distance_m = p_HT.norm();
     if (distance_m > nearest_m) continue;
-    const double aside_rad = std::atan2(std::hypot(p_HT.y(), p_HT.z()), p_HT.x());
+    const double aside_rad = math::atan2(math::hypot(p_HT.y(), p_HT.z()), p_HT.x());
     if (aside_rad > 0.5 * params_.angle_rad) continue;
     found = static_cast<int>(i);
     nearest_m = distance_m;

@@ -6,14 +6,15 @@
 
 #include "devices/device_kind.h"
 #include "devices/modifiers.h"
+#include "sim/core/math.h"
 #include "sim/world/description.h"
 
 namespace sim {
 
 std::array<double, 3> field_in_body_ut(const ImuParams& params, double yaw_rad) {
   const double north_rad = params.north_rad - yaw_rad;
-  return {params.field_horizontal_ut * std::cos(north_rad),
-          params.field_horizontal_ut * std::sin(north_rad), -params.field_down_ut};
+  return {params.field_horizontal_ut * math::cos(north_rad),
+          params.field_horizontal_ut * math::sin(north_rad), -params.field_down_ut};
 }
 
 Imu::Imu(std::string name, const ImuParams& params, double yaw_rad, RandomStream noise)

@@ -6,6 +6,7 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/core/pose.h"
 #include "sim/devices/robot_snapshot.h"
 
 namespace sim {
@@ -98,8 +99,7 @@ void Laser::show(SimTime, RobotSnapshot& shot) const {
   shot.scan_origin = X_WL.position();
   for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
     const double angle = scan.angle_min_rad + scan.resolution_rad * static_cast<double>(beam);
-    shot.scan_points.push_back(
-        X_WL * Vec2(scan.ranges_m[beam] * std::cos(angle), scan.ranges_m[beam] * std::sin(angle)));
+    shot.scan_points.push_back(X_WL * (scan.ranges_m[beam] * unit_vector(angle)));
   }
 }
 

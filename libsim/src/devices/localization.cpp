@@ -6,6 +6,7 @@
 #include "devices/device_kind.h"
 #include "devices/modifiers.h"
 #include "sim/core/degrees.h"
+#include "sim/core/math.h"
 #include "sim/devices/motion.h"
 
 namespace sim {
@@ -17,7 +18,7 @@ void add_noise(RandomStream& noise, double length_m, double angle_rad, Elevation
   elevation.pitch_rad = normalize_angle(elevation.pitch_rad + noise.gaussian(angle_rad));
 }
 
-double sinc(double x) { return std::abs(x) < 1e-8 ? 1.0 : std::sin(x) / x; }
+double sinc(double x) { return std::abs(x) < 1e-8 ? 1.0 : math::sin(x) / x; }
 
 }  // namespace
 
@@ -151,10 +152,10 @@ void Odometry::integrate(const StepContext& context) {
   const double heading = X_SB_.yaw_rad + 0.5 * dyaw_rad;
   const double chord_m = ds_m * sinc(0.5 * dyaw_rad);
   const double side_chord_m = side_m * sinc(0.5 * dyaw_rad);
-  X_SB_ = {X_SB_.x_m + chord_m * std::cos(heading) - side_chord_m * std::sin(heading),
-           X_SB_.y_m + chord_m * std::sin(heading) + side_chord_m * std::cos(heading),
+  X_SB_ = {X_SB_.x_m + chord_m * math::cos(heading) - side_chord_m * math::sin(heading),
+           X_SB_.y_m + chord_m * math::sin(heading) + side_chord_m * math::cos(heading),
            normalize_angle(X_SB_.yaw_rad + dyaw_rad)};
-  path_length_m_ += side_m == 0.0 ? std::abs(ds_m) : std::hypot(ds_m, side_m);
+  path_length_m_ += side_m == 0.0 ? std::abs(ds_m) : math::hypot(ds_m, side_m);
 }
 
 void Odometry::measure(const StepContext& context) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "devices/device_kind.h"
+#include "sim/core/math.h"
 
 namespace sim {
 namespace {
@@ -72,10 +73,10 @@ PositionControl::Step PositionControl::differential_step(const Pose& X_FB, doubl
     return {{0.0, turn_rate_for(error_rad), 0.0}};
   }
   const Vec2 way = command_.goal.position() - X_FB.position();
-  const double bearing_rad = normalize_angle(std::atan2(way.y(), way.x()) - X_FB.yaw_rad);
+  const double bearing_rad = normalize_angle(math::atan2(way.y(), way.x()) - X_FB.yaw_rad);
   const double omega_radps = turn_rate_for(bearing_rad);
   if (std::abs(bearing_rad) > kTurnOnSpot_rad) return {{0.0, omega_radps, 0.0}};
-  return {{speed_for(distance_m * std::cos(bearing_rad)), omega_radps, 0.0}};
+  return {{speed_for(distance_m * math::cos(bearing_rad)), omega_radps, 0.0}};
 }
 
 PositionControl::Step PositionControl::omnidirectional_step(const Pose& X_FB,
@@ -84,20 +85,20 @@ PositionControl::Step PositionControl::omnidirectional_step(const Pose& X_FB,
   const bool there = distance_m <= params_.tolerance_m;
   if (there && std::abs(error_rad) <= params_.heading_tolerance_rad) return {{}, 0.0, true};
   const Vec2 way = command_.goal.position() - X_FB.position();
-  const double bearing_rad = std::atan2(way.y(), way.x()) - X_FB.yaw_rad;
+  const double bearing_rad = math::atan2(way.y(), way.x()) - X_FB.yaw_rad;
   const double speed_mps = speed_for(distance_m);
-  return {{speed_mps * std::cos(bearing_rad), turn_rate_for(error_rad),
-           speed_mps * std::sin(bearing_rad)}};
+  return {{speed_mps * math::cos(bearing_rad), turn_rate_for(error_rad),
+           speed_mps * math::sin(bearing_rad)}};
 }
 
 PositionControl::Step PositionControl::car_step(const Pose& X_FB, double distance_m) {
   if (distance_m <= params_.tolerance_m) return {{}, 0.0, true};
   const Vec2 way = command_.goal.position() - X_FB.position();
-  const double bearing_rad = normalize_angle(std::atan2(way.y(), way.x()) - X_FB.yaw_rad);
-  const double tightest = std::tan(drive_.max_steering_rad) / drive_.wheelbase_m;
+  const double bearing_rad = normalize_angle(math::atan2(way.y(), way.x()) - X_FB.yaw_rad);
+  const double tightest = math::tan(drive_.max_steering_rad) / drive_.wheelbase_m;
   // Curvature of the circle that is tangent to the heading and passes through the goal, for both
   // driving directions.
-  const double curvature = 2.0 * std::sin(bearing_rad) / distance_m;
+  const double curvature = 2.0 * math::sin(bearing_rad) / distance_m;
   if (!leaving_) {
     const double side = 0.5 * std::numbers::pi + (backwards_ ? -1.0 : 1.0) * kDirectionMargin_rad;
     backwards_ = std::abs(bearing_rad) > side;
@@ -111,23 +112,23 @@ PositionControl::Step PositionControl::car_step(const Pose& X_FB, double distanc
   if (!leaving_ && !heading_abandoned_) {
     // The driving direction at the goal with the requested heading.
     const double through_rad = command_.goal.yaw_rad + (backwards_ ? std::numbers::pi : 0.0);
-    const Vec2 through(std::cos(through_rad), std::sin(through_rad));
+    const Vec2 through(math::cos(through_rad), math::sin(through_rad));
     const Vec2 look = way - kLookAheadFraction * distance_m * through;
-    const double look_rad = std::atan2(look.y(), look.x()) - X_FB.yaw_rad;
-    const double look_curvature = 2.0 * std::sin(look_rad) / look.norm();
+    const double look_rad = math::atan2(look.y(), look.x()) - X_FB.yaw_rad;
+    const double look_curvature = 2.0 * math::sin(look_rad) / look.norm();
     if (way.dot(through) > kMinHeadingCosine * distance_m && std::abs(look_curvature) <= tightest &&
-        (std::cos(look_rad) > 0.0) != backwards_) {
+        (math::cos(look_rad) > 0.0) != backwards_) {
       arc = look_curvature;
       sought_heading_ = true;
     }
   }
   arc = std::clamp(arc, -tightest, tightest);
   const double speed_mps = leaving_ ? speed_for(1.0 / tightest) : speed_for(distance_m);
-  return {{reverse ? -speed_mps : speed_mps, 0.0, 0.0}, std::atan(drive_.wheelbase_m * arc)};
+  return {{reverse ? -speed_mps : speed_mps, 0.0, 0.0}, math::atan(drive_.wheelbase_m * arc)};
 }
 
 PositionControl::Step PositionControl::step(const Pose& X_FB) {
-  const double distance_m = std::hypot(command_.goal.x_m - X_FB.x_m, command_.goal.y_m - X_FB.y_m);
+  const double distance_m = math::hypot(command_.goal.x_m - X_FB.x_m, command_.goal.y_m - X_FB.y_m);
   switch (drive_.kind) {
     case DriveKind::kOmnidirectional:
       return omnidirectional_step(X_FB, distance_m);
@@ -173,7 +174,7 @@ WheelSlip Motion::slip() const noexcept {
 }
 
 void Motion::advance_slip(double dt_s) {
-  const double kept = std::exp(-dt_s / params_.slip_time_s);
+  const double kept = math::exp(-dt_s / params_.slip_time_s);
   const double spread = params_.slip * std::sqrt(1.0 - kept * kept);
   WheelSlip& slip = slip_->slip;
   for (double* one : {&slip.left, &slip.right, &slip.side}) {
@@ -206,7 +207,7 @@ void Motion::command_turn(double v_mps, double lateral_mps, double turn_rate_rad
   } else if (drive_.kind == DriveKind::kCar) {
     // A bicycle model turns at v tan(steering) / wheelbase.
     const double v = commanded_.v_mps;
-    command_car(v, v == 0.0 ? 0.0 : std::atan(drive_.wheelbase_m * commanded_.omega_radps / v));
+    command_car(v, v == 0.0 ? 0.0 : math::atan(drive_.wheelbase_m * commanded_.omega_radps / v));
   }
 }
 
@@ -224,14 +225,14 @@ bool Motion::steers_by_commands() const {
 void Motion::command_front_wheels(double v_mps, double steering_rad) {
   const double steering =
       std::clamp(steering_rad, -drive_.max_steering_rad, drive_.max_steering_rad);
-  command_turn(v_mps * std::cos(steering), 0.0, v_mps * std::sin(steering) / drive_.wheelbase_m);
+  command_turn(v_mps * math::cos(steering), 0.0, v_mps * math::sin(steering) / drive_.wheelbase_m);
 }
 
 void Motion::command_car(double v_mps, double steering_rad) {
   const double steering =
       std::clamp(steering_rad, -drive_.max_steering_rad, drive_.max_steering_rad);
   if (drive_.kind != DriveKind::kCar) {
-    command_turn(v_mps, 0.0, v_mps * std::tan(steering) / drive_.wheelbase_m);
+    command_turn(v_mps, 0.0, v_mps * math::tan(steering) / drive_.wheelbase_m);
     return;
   }
   commanded_ = {std::clamp(v_mps, -params_.max_speed_mps, params_.max_speed_mps), 0.0, 0.0};
@@ -363,7 +364,7 @@ void Motion::deactivated(RobotControl&) {
 Twist Motion::next_target(double dt_s) {
   Twist target = ramped(dt_s);
   if (params_.speed_loss_mps > 0.0) {
-    const double speed_mps = std::hypot(target.v_mps, target.lateral_mps);
+    const double speed_mps = math::hypot(target.v_mps, target.lateral_mps);
     const double left_mps = std::max(0.0, speed_mps - params_.speed_loss_mps);
     const double reached = speed_mps > 0.0 ? left_mps / speed_mps : 0.0;
     target = {reached * target.v_mps, target.omega_radps, reached * target.lateral_mps};
@@ -382,7 +383,7 @@ Twist Motion::ramped(double dt_s) {
   if (drive_.kind == DriveKind::kCar) {
     steering_rad_ =
         ramp(steering_rad_, commanded_steering_rad_, drive_.max_steering_rate_radps, dt_s);
-    target_.omega_radps = target_.v_mps * std::tan(steering_rad_) / drive_.wheelbase_m;
+    target_.omega_radps = target_.v_mps * math::tan(steering_rad_) / drive_.wheelbase_m;
     return target_;
   }
   target_.lateral_mps =
@@ -396,7 +397,7 @@ Command Motion::present_command() const {
   if (mode_ == Mode::kHeading) return heading_;
   if (mode_ == Mode::kPosition) return position_.command();
   if (drive_.kind == DriveKind::kCar) {
-    const double share = steers_by_commands() ? std::cos(commanded_steering_rad_) : 1.0;
+    const double share = steers_by_commands() ? math::cos(commanded_steering_rad_) : 1.0;
     return CarCommand{commanded_.v_mps / share, commanded_steering_rad_};
   }
   return TwistCommand{commanded_};

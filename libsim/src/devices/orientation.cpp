@@ -59,8 +59,7 @@ void Orientation::act(RobotControl& robot) {
     if (turns.x() != 0.0 || turns.y() != 0.0 || body.elevation.roll_rad != 0.0 ||
         body.elevation.pitch_rad != 0.0) {
       const Eigen::Matrix3d R_WB = in_space(body.X_WB, body.elevation).linear();
-      next = euler_angles_of(
-          R_WB * Eigen::AngleAxisd(turns.norm(), turns.normalized()).toRotationMatrix());
+      next = euler_angles_of(R_WB * rotation_about(turns.normalized(), turns.norm()));
     }
   } else {
     has_goal_ = false;

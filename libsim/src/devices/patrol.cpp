@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "devices/device_kind.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 #include "sim/io/reader.h"
 
@@ -97,7 +98,7 @@ void Patrol::act(RobotControl& robot) {
   if (!drives_) return;
   if ((map_.junctions[goal_].place_m - X_WB.position()).norm() < params_.tolerance_m) choose_way();
   const Vec2 way = map_.junctions[goal_].place_m - X_WB.position();
-  const double angle = normalize_angle(std::atan2(way.y(), way.x()) - X_WB.yaw_rad);
+  const double angle = normalize_angle(math::atan2(way.y(), way.x()) - X_WB.yaw_rad);
   robot.drive({std::abs(angle) < params_.turn_first_rad ? params_.speed_mps : 0.0,
                params_.turn_gain_radps * angle});
 }

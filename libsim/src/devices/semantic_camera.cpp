@@ -7,6 +7,7 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/core/math.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -32,7 +33,7 @@ void SemanticCamera::measure(const StepContext& context) {
     if (!std::ranges::binary_search(tags, params().tag)) return;
     const Eigen::Vector3d p_ST = X_WS.inverse() * X_WT.translation();
     if (p_ST.norm() > params().range_m) return;
-    if (std::abs(std::atan2(p_ST.y(), p_ST.x())) > 0.5 * params().field_of_view_rad) return;
+    if (std::abs(math::atan2(p_ST.y(), p_ST.x())) > 0.5 * params().field_of_view_rad) return;
     if (params().occlusion &&
         !context.physics.is_line_free({p_WS.x(), p_WS.y()},
                                       {X_WT.translation().x(), X_WT.translation().y()}, p_WS.z(),

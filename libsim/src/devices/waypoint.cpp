@@ -7,6 +7,7 @@
 
 #include "devices/device_kind.h"
 #include "devices/goal.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 #include "sim/world/description.h"
 
@@ -29,11 +30,11 @@ std::optional<std::string> refusal_of(const GotoCommand& goal) {
 
 Twist waypoint_twist(const Pose& X_WB, const GotoCommand& goal, const WaypointParams& params) {
   const Vec2 way = goal.goal_m - X_WB.position();
-  const double distance_m = std::hypot(way.x(), way.y());
+  const double distance_m = math::hypot(way.x(), way.y());
   if (distance_m == 0.0) return {};
-  const double bearing_rad = normalize_angle(std::atan2(way.y(), way.x()) - X_WB.yaw_rad);
+  const double bearing_rad = normalize_angle(math::atan2(way.y(), way.x()) - X_WB.yaw_rad);
   return {std::min(goal.speed_mps, params.approach_gain * distance_m) *
-              std::max(0.0, std::cos(bearing_rad)),
+              std::max(0.0, math::cos(bearing_rad)),
           std::clamp(params.turn_gain * bearing_rad, -params.max_turn_rate_radps,
                      params.max_turn_rate_radps)};
 }
@@ -45,7 +46,7 @@ Waypoint::Waypoint(std::string name, const WaypointParams& params, const Pose& X
       X_WB_(X_WB_start) {}
 
 double Waypoint::distance_m() const {
-  return std::hypot(goal_.goal_m.x() - X_WB_.x_m, goal_.goal_m.y() - X_WB_.y_m);
+  return math::hypot(goal_.goal_m.x() - X_WB_.x_m, goal_.goal_m.y() - X_WB_.y_m);
 }
 
 std::optional<std::string> Waypoint::execute(const Command& command, RobotControl& robot) {

@@ -7,6 +7,7 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 #include "sim/world/description.h"
 
@@ -24,7 +25,7 @@ bool has_card(const RobotDescription& robot) {
 
 double level_at_dbm(const WifiParams& params, double distance_m) {
   return params.level_1m_dbm -
-         10.0 * params.exponent * std::log10(std::max(distance_m, kNearest_m));
+         10.0 * params.exponent * math::log10(std::max(distance_m, kNearest_m));
 }
 
 int link_quality(double level_dbm) {

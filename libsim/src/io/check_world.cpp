@@ -17,6 +17,7 @@
 #include "io/solids.h"
 #include "sim/core/assert.h"
 #include "sim/core/number_text.h"
+#include "sim/core/pose.h"
 #include "sim/io/world_io.h"
 #include "sim/world/limits.h"
 #include "sim/world/robot_model.h"
@@ -526,7 +527,7 @@ std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon&
          {0.0, std::numbers::pi / 2.0, std::numbers::pi, -std::numbers::pi / 2.0}) {
       double free_m = -1.0;
       for (int k = 0; k * kStep_m <= kFarEnough_m; ++k) {
-        const Vec2 ahead = p + k * kStep_m * Vec2(std::cos(yaw_rad), std::sin(yaw_rad));
+        const Vec2 ahead = p + k * kStep_m * unit_vector(yaw_rad);
         if (!is_free({ahead.x(), ahead.y(), yaw_rad})) break;
         free_m = k * kStep_m;
       }

@@ -6,6 +6,8 @@
 #include <cstdint>
 
 #include "sim/core/assert.h"
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
 #include "sim/navigation/distance_field.h"
 
 namespace sim {
@@ -53,7 +55,7 @@ ScanPoints scan_points(const Pose& X_BL, std::span<const double> ranges_m, doubl
     const double range_m = ranges_m[beam];
     if (!(range_m > 0.0) || range_m >= range_max_m) continue;
     const double angle = angle_min_rad + static_cast<double>(beam) * resolution_rad;
-    scan.p_BQ.push_back(X_BL * Vec2(range_m * std::cos(angle), range_m * std::sin(angle)));
+    scan.p_BQ.push_back(X_BL * (range_m * unit_vector(angle)));
   }
   return scan;
 }
@@ -63,7 +65,7 @@ LikelihoodField::LikelihoodField(const OccupancyMap& map, const LikelihoodSettin
       height_(map.height),
       cell_size_m_(map.cell_size_m),
       origin_(map.origin),
-      log_bad_(static_cast<float>(std::log(settings.bad_share))) {
+      log_bad_(static_cast<float>(math::log(settings.bad_share))) {
   SIM_ASSERT(settings.deviation_m > 0.0 && settings.bad_share > 0.0 && settings.bad_share < 1.0);
   // Beyond this the Gaussian part is below 1e-6.
   const DistanceField field = distance_field(surface_of(map), 5.3 * settings.deviation_m);
@@ -73,8 +75,8 @@ LikelihoodField::LikelihoodField(const OccupancyMap& map, const LikelihoodSettin
       if (map.at(column, row) < 0.5F) free_.push_back(static_cast<std::uint32_t>(log_p_.size()));
       const double share = double{field.at(column, row)} / settings.deviation_m;
       const double p =
-          (1.0 - settings.bad_share) * std::exp(-0.5 * share * share) + settings.bad_share;
-      log_p_.push_back(static_cast<float>(std::log(p)));
+          (1.0 - settings.bad_share) * math::exp(-0.5 * share * share) + settings.bad_share;
+      log_p_.push_back(static_cast<float>(math::log(p)));
     }
   }
 }
@@ -82,8 +84,8 @@ LikelihoodField::LikelihoodField(const OccupancyMap& map, const LikelihoodSettin
 double LikelihoodField::mean_log_likelihood(const Pose& X_WB, const ScanPoints& scan) const {
   if (scan.p_BQ.empty()) return 0.0;
   const double per_m = 1.0 / cell_size_m_;
-  const double c = std::cos(X_WB.yaw_rad) * per_m;
-  const double s = std::sin(X_WB.yaw_rad) * per_m;
+  const double c = math::cos(X_WB.yaw_rad) * per_m;
+  const double s = math::sin(X_WB.yaw_rad) * per_m;
   const double x0 = (X_WB.x_m - origin_.x()) * per_m;
   const double y0 = (X_WB.y_m - origin_.y()) * per_m;
   const double columns = width_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim/core/assert.h"
+#include "sim/core/math.h"
 
 namespace sim {
 namespace {
@@ -75,13 +76,13 @@ void MonteCarloLocalizer::move(const Pose& X_AB) {
 
 bool MonteCarloLocalizer::wants_scan() const {
   if (particles_.empty()) return false;
-  return is_new_ || std::hypot(moved_.x_m, moved_.y_m) >= settings_.update_m ||
+  return is_new_ || math::hypot(moved_.x_m, moved_.y_m) >= settings_.update_m ||
          std::abs(moved_.yaw_rad) >= settings_.update_rad;
 }
 
 double MonteCarloLocalizer::scan_weight(const Pose& X_WB, const ScanPoints& scan) const {
   const double share = is_spread_ ? 1.0 : kSelection;
-  return std::exp(share * settings_.independent_beams * field_->mean_log_likelihood(X_WB, scan));
+  return math::exp(share * settings_.independent_beams * field_->mean_log_likelihood(X_WB, scan));
 }
 
 void MonteCarloLocalizer::draw_from_scan(const ScanPoints& scan, std::size_t count,
@@ -103,8 +104,8 @@ double MonteCarloLocalizer::weigh(const ScanPoints& scan) {
   double mean = 0.0;
   for (Particle& particle : particles_) {
     const double log_likelihood = field_->mean_log_likelihood(particle.pose, scan);
-    mean += particle.weight * std::exp(log_likelihood);
-    particle.weight *= std::exp(settings_.independent_beams * log_likelihood);
+    mean += particle.weight * math::exp(log_likelihood);
+    particle.weight *= math::exp(settings_.independent_beams * log_likelihood);
     sum += particle.weight;
   }
   for (Particle& particle : particles_) particle.weight /= sum;

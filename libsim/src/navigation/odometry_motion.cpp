@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/core/math.h"
+
 namespace sim {
 namespace {
 
@@ -19,8 +21,8 @@ double turn_without_reverse(double turn_rad) {
 }  // namespace
 
 OdometryMotion::OdometryMotion(const Pose& X_AB, const OdometryNoise& noise) {
-  drive_m_ = std::hypot(X_AB.x_m, X_AB.y_m);
-  turn1_rad_ = drive_m_ < kNoDirection_m ? 0.0 : std::atan2(X_AB.y_m, X_AB.x_m);
+  drive_m_ = math::hypot(X_AB.x_m, X_AB.y_m);
+  turn1_rad_ = drive_m_ < kNoDirection_m ? 0.0 : math::atan2(X_AB.y_m, X_AB.x_m);
   turn2_rad_ = normalize_angle(X_AB.yaw_rad - turn1_rad_);
   const double a = turn_without_reverse(turn1_rad_);
   const double b = turn_without_reverse(turn2_rad_);
@@ -35,7 +37,7 @@ Pose OdometryMotion::sample(RandomStream& random) const {
   const double turn1 = turn1_rad_ + random.gaussian(turn1_deviation_rad_);
   const double drive = drive_m_ + random.gaussian(drive_deviation_m_);
   const double turn2 = turn2_rad_ + random.gaussian(turn2_deviation_rad_);
-  return {drive * std::cos(turn1), drive * std::sin(turn1), normalize_angle(turn1 + turn2)};
+  return {drive * math::cos(turn1), drive * math::sin(turn1), normalize_angle(turn1 + turn2)};
 }
 
 }  // namespace sim

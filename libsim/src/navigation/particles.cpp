@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "sim/core/assert.h"
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
 
 namespace sim {
 namespace {
@@ -224,13 +226,12 @@ std::vector<PoseHypothesis> pose_hypotheses(std::span<const Particle> particles,
     sums.first = std::min(sums.first, index);
     sums.weight += particle.weight;
     sums.position += particle.weight * particle.pose.position();
-    sums.direction +=
-        particle.weight * Vec2(std::cos(particle.pose.yaw_rad), std::sin(particle.pose.yaw_rad));
+    sums.direction += particle.weight * unit_vector(particle.pose.yaw_rad);
   });
   for (Sums& sums : clusters) {
     if (!(sums.weight > 0.0)) continue;
     const Vec2 mean = sums.position / sums.weight;
-    sums.mean = {mean.x(), mean.y(), std::atan2(sums.direction.y(), sums.direction.x())};
+    sums.mean = {mean.x(), mean.y(), math::atan2(sums.direction.y(), sums.direction.x())};
   }
   for_each([](Sums& sums, std::size_t /*index*/, const Particle& particle) {
     if (!(sums.weight > 0.0)) return;

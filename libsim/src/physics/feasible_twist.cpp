@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sim/core/math.h"
+
 namespace sim {
 namespace {
 
@@ -43,7 +45,7 @@ Twist feasible_twist(const Twist& target, double mass_kg, double inertia_kgm2,
   for (const TwistConstraint& c : constraints) {
     const double nx = c.along / sv;
     const double ny = c.turning / sw;
-    const double length = std::hypot(nx, ny);
+    const double length = math::hypot(nx, ny);
     // Neither driving nor turning can push against such a contact (its normal runs along the axle
     // through B), so it constrains nothing.
     if (length < 1e-12) continue;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/core/math.h"
 #include "sim/world/outline.h"
 
 namespace sim::physics {
@@ -49,7 +50,7 @@ constexpr int kPositionIterations = 3;
 // sin(x) / x. For small x (half the rotation of a step is small) the series is exact to the last
 // bit.
 inline double sinc(double x) {
-  if (std::abs(x) > 0.05) return std::sin(x) / x;
+  if (std::abs(x) > 0.05) return math::sin(x) / x;
   const double x2 = x * x;
   return 1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0));
 }
@@ -77,8 +78,8 @@ inline Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
   const double chord = twist.v_mps * dt_s * sinc(half_turn);
   const double side = twist.lateral_mps * dt_s * sinc(half_turn);
   const double heading = X_WB.yaw_rad + half_turn;
-  return {X_WB.x_m + chord * std::cos(heading) - side * std::sin(heading),
-          X_WB.y_m + chord * std::sin(heading) + side * std::cos(heading),
+  return {X_WB.x_m + chord * math::cos(heading) - side * math::sin(heading),
+          X_WB.y_m + chord * math::sin(heading) + side * math::cos(heading),
           X_WB.yaw_rad + twist.omega_radps * dt_s};
 }
 
@@ -86,8 +87,7 @@ inline Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
 Twist twist_of(const Vec2& v_WB, double omega_radps, double yaw_rad, double dt_s) {
   if (omega_radps == 0.0 && v_WB.isZero(0.0)) return {};
   const double half_turn = 0.5 * omega_radps * dt_s;
-  const double c = std::cos(yaw_rad + half_turn);
-  const double s = std::sin(yaw_rad + half_turn);
+  const auto [s, c] = math::sin_cos(yaw_rad + half_turn);
   const double arc_per_chord = 1.0 / sinc(half_turn);
   return {(v_WB.x() * c + v_WB.y() * s) * arc_per_chord, omega_radps,
           (v_WB.y() * c - v_WB.x() * s) * arc_per_chord};
@@ -99,7 +99,7 @@ Twist twist_of(const Vec2& v_WB, double omega_radps, double yaw_rad, double dt_s
 // remains against a push.
 void slow_down(ObstacleBody& o, double dt_s) {
   const double most_mps = o.friction_mps2 * dt_s;
-  const double speed_mps = std::hypot(o.v_WB.x(), o.v_WB.y(), o.friction_arm_m * o.omega_radps);
+  const double speed_mps = math::hypot(o.v_WB.norm(), o.friction_arm_m * o.omega_radps);
   if (speed_mps <= most_mps) {
     o.v_WB.setZero();
     o.omega_radps = 0.0;
@@ -174,7 +174,7 @@ inline void Mover::move_to_goal(Body& r, const Pose& goal, const Twist& twist, d
   const double side = twist.lateral_mps * dt_s;
   r.state->travel_m += travel;
   r.state->side_m += side;
-  record_travel(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side),
+  record_travel(r, side == 0.0 ? std::abs(travel) : math::hypot(travel, side),
                 twist.omega_radps * dt_s);
 }
 
@@ -285,8 +285,7 @@ void Mover::add_round_constraints(const Body& r, std::size_t part, const b2Circl
   const b2Vec2 center = b2Mul(circle_xf, circle.m_p);
   const auto& shape = static_cast<const b2PolygonShape&>(r.details->part(part));
   const double radius_m = metres(core_radius(circle));
-  const double c = std::cos(r.X_WB.yaw_rad);
-  const double s = std::sin(r.X_WB.yaw_rad);
+  const auto [s, c] = math::sin_cos(r.X_WB.yaw_rad);
   const double dx = metres(center.x) - r.X_WB.x_m;
   const double dy = metres(center.y) - r.X_WB.y_m;
   const Vec2 p_BC(c * dx + s * dy, c * dy - s * dx);
@@ -348,8 +347,7 @@ void Mover::add_disc_constraint(const Body& r, const b2Shape& other, const b2Tra
   const b2Vec2 normal = (1.0F / found.distance) * (found.pointB - found.pointA);
   const double nx = static_cast<double>(normal.x);
   const double ny = static_cast<double>(normal.y);
-  const double c = std::cos(r.X_WB.yaw_rad);
-  const double s = std::sin(r.X_WB.yaw_rad);
+  const auto [s, c] = math::sin_cos(r.X_WB.yaw_rad);
   constraints_.push_back(
       {nx * c + ny * s, 0.0, share * std::max(0.0, gap_m - kRestingGap_m) / dt_s, ny * c - nx * s});
 }
@@ -393,8 +391,7 @@ void Mover::add_constraints(const Body& r, std::size_t part, const b2Shape& othe
   if (manifold.pointCount == 0) return;
   const double nx = sign * static_cast<double>(points.normal.x);
   const double ny = sign * static_cast<double>(points.normal.y);
-  const double c = std::cos(r.X_WB.yaw_rad);
-  const double s = std::sin(r.X_WB.yaw_rad);
+  const auto [s, c] = math::sin_cos(r.X_WB.yaw_rad);
   const double skins = static_cast<double>(reaching.m_radius + other.m_radius);
   const b2Vec2 normal_B = static_cast<float>(sign) * b2MulT(xf.q, points.normal);
   for (int32 i = 0; i < manifold.pointCount; ++i) {
@@ -514,7 +511,7 @@ Twist Mover::limit_by_traction(Body& r, const Twist& wanted, double dt_s) const 
   const double dv = change(wanted.v_mps, before.v_mps, most_mps, excess.v_mps);
   const double dl = change(wanted.lateral_mps, before.lateral_mps, most_mps, excess.lateral_mps);
   const double dw = change(wanted.omega_radps, before.omega_radps, most_radps, excess.omega_radps);
-  const double share = most_mps / std::max(most_mps, std::hypot(dv, dl));
+  const double share = most_mps / std::max(most_mps, math::hypot(dv, dl));
   return {before.v_mps + share * dv, before.omega_radps + std::clamp(dw, -most_radps, most_radps),
           before.lateral_mps + share * dl};
 }
@@ -627,12 +624,12 @@ void Mover::follow_body(std::size_t index, double dt_s) {
   const double dx = r.X_WB.x_m - before.x_m;
   const double dy = r.X_WB.y_m - before.y_m;
   // The wheels' path is the arc with this chord.
-  r.state->travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
-  r.state->side_m += dy * std::cos(heading) - dx * std::sin(heading);
-  record_travel(r, std::hypot(dx, dy), turn);
+  r.state->travel_m += (dx * math::cos(heading) + dy * math::sin(heading)) / sinc(0.5 * turn);
+  r.state->side_m += dy * math::cos(heading) - dx * math::sin(heading);
+  record_travel(r, math::hypot(dx, dy), turn);
   if (!bodies_.has_pushable()) return;
-  r.details->achieved = {(dx * std::cos(heading) + dy * std::sin(heading)) / dt_s, turn / dt_s,
-                         (dy * std::cos(heading) - dx * std::sin(heading)) / dt_s};
+  r.details->achieved = {(dx * math::cos(heading) + dy * math::sin(heading)) / dt_s, turn / dt_s,
+                         (dy * math::cos(heading) - dx * math::sin(heading)) / dt_s};
   if (r.pushable) note_velocity(r);
 }
 
@@ -648,7 +645,7 @@ void Mover::plain_box2d_step(double dt_s) {
     bodies_.ensure_box2d_body(r);
     const double yaw = static_cast<double>(r.body->GetAngle());
     r.body->SetLinearVelocity(
-        to_box2d({r.target.v_mps * std::cos(yaw), r.target.v_mps * std::sin(yaw)}));
+        to_box2d({r.target.v_mps * math::cos(yaw), r.target.v_mps * math::sin(yaw)}));
     r.body->SetAngularVelocity(static_cast<float>(r.target.omega_radps));
   }
   bodies_.world().Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);

@@ -8,6 +8,7 @@
 #include "physics/mover.h"
 #include "physics/neighbours.h"
 #include "physics/sensor_view.h"
+#include "sim/core/math.h"
 
 namespace sim {
 
@@ -72,8 +73,7 @@ void PhysicsWorld::drive_obstacle(int body, const Pose& X_WO, double dt_s) {
 
 Vec2 PhysicsWorld::obstacle_velocity(int body) const {
   const BodyState& state = *impl_->bodies.at(body).state;
-  const double c = std::cos(state.X_WB.yaw_rad);
-  const double s = std::sin(state.X_WB.yaw_rad);
+  const auto [s, c] = math::sin_cos(state.X_WB.yaw_rad);
   const Twist& twist = state.twist;
   return {c * twist.v_mps - s * twist.lateral_mps, s * twist.v_mps + c * twist.lateral_mps};
 }

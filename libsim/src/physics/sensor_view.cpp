@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "physics/hilbert_curve.h"
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
 #include "sim/world/limits.h"
 #include "sim/world/outline.h"
 
@@ -157,8 +159,7 @@ void SensorView::rebuild_outlines() {
     const Body& r = bodies_.at(by_hilbert_index_[k].robot);
     robot_discs_.add(static_cast<float>(r.X_WB.x_m), static_cast<float>(r.X_WB.y_m),
                      static_cast<float>(r.details->seen_radius_m));
-    const double c = std::cos(r.X_WB.yaw_rad);
-    const double s = std::sin(r.X_WB.yaw_rad);
+    const auto [s, c] = math::sin_cos(r.X_WB.yaw_rad);
     Outline& outline = outlines_[k];
     const bool one_polygon = !r.details->round && r.details->further.empty();
     outline.count = one_polygon ? static_cast<std::size_t>(r.details->shape.m_count) : 0;
@@ -552,7 +553,7 @@ double SensorView::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_m
       return f;
     }
   } closest;
-  const Vec2 end = p_WL + range_max_m * Vec2(std::cos(angle_rad), std::sin(angle_rad));
+  const Vec2 end = p_WL + range_max_m * unit_vector(angle_rad);
   bodies_.world().RayCast(&closest, to_box2d(p_WL), to_box2d(end));
   cast_at_robots(
       p_WL, end, [&](int robot) { return robot != own_robot; },

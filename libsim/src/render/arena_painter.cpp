@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/core/pose.h"
 #include "sim/world/outline.h"
 
 namespace sim::render {
@@ -262,8 +263,7 @@ class SolidsPainter {
       std::vector<Vec2> arc;
       for (int i = 0; i <= kPieces; ++i) {
         const double angle_rad = turn_rad / dashes * (dash + 0.5 * i / kPieces);
-        arc.push_back(obstacle.center +
-                      radius_m(obstacle) * Vec2(std::cos(angle_rad), std::sin(angle_rad)));
+        arc.push_back(obstacle.center + radius_m(obstacle) * unit_vector(angle_rad));
       }
       into.add_line(layout_(arc), width_px);
     }

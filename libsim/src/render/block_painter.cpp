@@ -7,6 +7,7 @@
 
 #include "render/controller_painter.h"
 #include "render/robot_place.h"
+#include "sim/core/math.h"
 #include "sim/world/outline.h"
 
 namespace sim::render {
@@ -64,8 +65,8 @@ class BlockFigure {
       : outline_(obstacle_outline(block, layout)),
         center_(layout(block.center)),
         half_(0.5 * layout.pixels_per_m * block.size),
-        x_axis_(std::cos(block.yaw_rad), -std::sin(block.yaw_rad)),
-        y_axis_(-std::sin(block.yaw_rad), -std::cos(block.yaw_rad)) {
+        x_axis_(math::cos(block.yaw_rad), -math::sin(block.yaw_rad)),
+        y_axis_(-math::sin(block.yaw_rad), -math::cos(block.yaw_rad)) {
     for (const Vec2& corner : outline_) reach_px_ = std::max(reach_px_, (corner - center_).norm());
   }
 

@@ -14,6 +14,7 @@
 #include "render/layout.h"
 #include "render/painter.h"
 #include "sim/core/base64.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 
 namespace sim::render {
@@ -249,12 +250,12 @@ std::vector<Tick> ticks(double least, double most, int count) {
   const double largest = std::max(std::abs(least), std::abs(most));
   const double rough = (most - least) / std::max(count, 1);
   if (!(rough > kResolved * largest) || !std::isfinite(rough)) return {};
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double power = math::pow(10.0, std::floor(math::log10(rough)));
   double step = 10.0 * power;
   for (const double factor : {5.0, 2.0, 1.0}) {
     if (factor * power >= rough * (1.0 - kTolerance)) step = factor * power;
   }
-  const int needed = 2 + static_cast<int>(std::floor(std::log10(largest) - std::log10(power)));
+  const int needed = 2 + static_cast<int>(std::floor(math::log10(largest) - math::log10(power)));
   std::vector<Tick> all;
   for (double i = std::ceil(least / step - kTolerance); i * step <= most + kTolerance * step;
        i += 1.0) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "render/text_outline.h"
+#include "sim/core/math.h"
 
 namespace sim::render {
 namespace {
@@ -27,7 +28,7 @@ double luma(Colour colour) {
 }
 
 double round_below(double limit) {
-  const double power = std::pow(10.0, std::floor(std::log10(limit)));
+  const double power = math::pow(10.0, std::floor(math::log10(limit)));
   // The tolerance allows for 0.999...9, which logarithm and power may give for a power of ten.
   for (const double factor : {5.0, 2.0}) {
     if (factor * power <= limit * (1.0 + 1e-9)) return factor * power;

@@ -8,6 +8,7 @@
 
 #include "render/controller_painter.h"
 #include "render/robot_place.h"
+#include "sim/core/math.h"
 
 namespace sim::render {
 namespace {
@@ -114,7 +115,7 @@ class MoverPainter {
   void add_chevron(const ObstacleDescription& mover, Shape& marks) const {
     const double half_px = 0.25 * mover.size.minCoeff() * layout_.pixels_per_m;
     if (half_px < 2.0) return;
-    const Vec2 ahead = half_px * Vec2(std::cos(mover.yaw_rad), -std::sin(mover.yaw_rad));
+    const Vec2 ahead = half_px * Vec2(math::cos(mover.yaw_rad), -math::sin(mover.yaw_rad));
     const Vec2 aside(ahead.y(), -ahead.x());
     const Vec2 center = layout_(mover.center);
     marks.add_piece({center + ahead, center - 0.8 * ahead + 0.9 * aside, center - 0.3 * ahead});

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "render/robot_place.h"
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
 #include "sim/world/outline.h"
 
 namespace sim::render {
@@ -84,16 +86,16 @@ std::vector<Vec2> ellipse_of(const PoseHypothesis& hypothesis) {
   const auto [xx, yy, aa] = hypothesis.covariance.variance;
   const double xy = hypothesis.covariance.covariance[0];
   // Principal axes of a symmetric matrix of 2 x 2.
-  const double turn = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  const double turn = 0.5 * math::atan2(2.0 * xy, xx - yy);
   const double middle = 0.5 * (xx + yy);
-  const double half = std::hypot(0.5 * (xx - yy), xy);
+  const double half = math::hypot(0.5 * (xx - yy), xy);
   const double major = 2.0 * std::sqrt(std::max(kLeast_m2, middle + half));
   const double minor = 2.0 * std::sqrt(std::max(kLeast_m2, middle - half));
   const Pose X_WE{hypothesis.mean.x_m, hypothesis.mean.y_m, turn};
   std::vector<Vec2> rim;
   for (int i = 0; i < kCorners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kCorners;
-    rim.push_back(X_WE * Vec2(major * std::cos(angle), minor * std::sin(angle)));
+    rim.push_back(X_WE * Vec2(major * math::cos(angle), minor * math::sin(angle)));
   }
   return rim;
 }
@@ -265,7 +267,7 @@ class RobotPainter {
           // Two neighbouring beams of the maximum length have most likely met nothing.
           const bool missed = std::min(a.norm(), b.norm()) >= farthest_px * (1.0 - 1e-6);
           const double cross = std::abs(a.x() * b.y() - a.y() * b.x());
-          const double along_px = std::min(a.norm(), b.norm()) * std::atan2(cross, a.dot(b));
+          const double along_px = std::min(a.norm(), b.norm()) * math::atan2(cross, a.dot(b));
           const bool behind = (b - a).norm() > 8.0 * along_px + 1.5 * layout_.unit_px;
           if (missed || behind) end_surface();
         }
@@ -461,8 +463,7 @@ class RobotPainter {
     for (int i = 0; i <= steps; ++i) {
       const double share = steps == 0 ? 0.5 : static_cast<double>(i) / steps;
       const double angle = cone.field_of_view_rad * (share - 0.5);
-      rim.push_back(cone.X_WS *
-                    Vec2(cone.range_m * std::cos(angle), cone.range_m * std::sin(angle)));
+      rim.push_back(cone.X_WS * (cone.range_m * unit_vector(angle)));
     }
     return rim;
   }
@@ -529,7 +530,7 @@ class RobotPainter {
   // Opacity factor for overlapping fans of many robots, which together must not hide the floor.
   [[nodiscard]] double fan_strength() const {
     const std::ptrdiff_t count = fan_count();
-    return 1.0 / std::pow(static_cast<double>(std::max<std::ptrdiff_t>(count, 1)), 0.7);
+    return 1.0 / math::pow(static_cast<double>(std::max<std::ptrdiff_t>(count, 1)), 0.7);
   }
 
   // Fraction of the canvas's cells that are not empty.
@@ -573,7 +574,7 @@ class RobotPainter {
     disc.add_disc(center, radius);
     painter_.fill(disc, colour, 0.35);
     Shape rim;
-    const Vec2 ahead(std::cos(robot.X_WB.yaw_rad), -std::sin(robot.X_WB.yaw_rad));
+    const Vec2 ahead(math::cos(robot.X_WB.yaw_rad), -math::sin(robot.X_WB.yaw_rad));
     rim.add_line({center, center + ahead * (1.7 * radius)}, layout_.line_px(2.0, 1.0));
     painter_.fill(rim, mix(colour, palette::kWheel, 0.3));
     painter_.fill_ring(center, radius, layout_.line_px(1.4), mix(colour, palette::kWheel, 0.3));

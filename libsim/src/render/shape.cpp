@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/painter.h"
+#include "sim/core/math.h"
 
 namespace sim::render {
 namespace {
@@ -44,8 +45,8 @@ void Shape::add_disc(const Vec2& center, double radius_px) {
   points.reserve(static_cast<std::size_t>(corners));
   for (int i = 0; i < corners; ++i) {
     const double angle_rad = 2.0 * std::numbers::pi * i / corners;
-    points.emplace_back(center.x() + radius_px * std::cos(angle_rad),
-                        center.y() + radius_px * std::sin(angle_rad));
+    points.emplace_back(center.x() + radius_px * math::cos(angle_rad),
+                        center.y() + radius_px * math::sin(angle_rad));
   }
   add_piece(std::move(points));
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "render/text_outline.h"
+#include "sim/core/pose.h"
 
 namespace sim::render {
 
@@ -65,7 +66,7 @@ std::vector<Vec2> rounded(const Rectangle& place, double radius_px) {
   for (std::size_t i = 0; i < centers.size(); ++i) {
     for (int k = 0; k <= kParts; ++k) {
       const double angle = kQuarter * (static_cast<double>(i) + static_cast<double>(k) / kParts);
-      points.emplace_back(centers[i] + r * Vec2(std::cos(angle), std::sin(angle)));
+      points.emplace_back(centers[i] + r * unit_vector(angle));
     }
   }
   return points;

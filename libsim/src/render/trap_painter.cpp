@@ -10,6 +10,7 @@
 
 #include "render/controller_painter.h"
 #include "render/robot_place.h"
+#include "sim/core/pose.h"
 #include "sim/core/time.h"
 
 namespace sim::render {
@@ -131,7 +132,7 @@ std::vector<Vec2> trap_outline(const TrapMark& trap, const Layout& layout) {
         std::clamp(std::round(std::numbers::pi * radius_px / dash_px(layout)), 16.0, 720.0);
     for (int i = 0; i < static_cast<int>(corners); ++i) {
       const double angle_rad = 2.0 * std::numbers::pi * i / corners;
-      outline.push_back(center + radius_px * Vec2(std::cos(angle_rad), std::sin(angle_rad)));
+      outline.push_back(center + radius_px * unit_vector(angle_rad));
     }
   }
   if (outline.size() < 3 || !is_in_view(outline, layout)) return {};

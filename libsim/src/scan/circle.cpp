@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "scan/scan_job.h"
+#include "sim/core/math.h"
 #include "sim/scan/cone.h"
 
 namespace sim::scan {
@@ -36,17 +37,17 @@ double least_range_in_cone_m(std::span<const Circle> circles, const Cone& cone,
         std::sqrt(from_apex.x_m * from_apex.x_m + from_apex.y_m * from_apex.y_m);
     if (distance_m < circle.radius_m || distance_m - circle.radius_m >= least_m) continue;
     // The direction of the centre, counter-clockwise from the middle of the cone.
-    const double c = std::cos(cone.yaw_rad);
-    const double s = std::sin(cone.yaw_rad);
+    const auto [s, c] = math::sin_cos(cone.yaw_rad);
     const double off_rad =
-        std::atan2(c * from_apex.y_m - s * from_apex.x_m, c * from_apex.x_m + s * from_apex.y_m);
+        math::atan2(c * from_apex.y_m - s * from_apex.x_m, c * from_apex.x_m + s * from_apex.y_m);
     const double half_rad = 0.5 * cone.field_of_view_rad;
     if (std::abs(off_rad) <= half_rad) {
       least_m = distance_m - circle.radius_m;
       continue;
     }
     const double side_rad = cone.yaw_rad + std::copysign(half_rad, off_rad);
-    const std::optional<Chord> chord = chord_of(from_apex, std::cos(side_rad), std::sin(side_rad));
+    const std::optional<Chord> chord =
+        chord_of(from_apex, math::cos(side_rad), math::sin(side_rad));
     if (chord && chord->enter_m >= 0.0) least_m = std::min(least_m, chord->enter_m);
   }
   return least_m;
@@ -60,8 +61,8 @@ void scan_circle(const ScanJob& job, const Circle& circle) {
   const double distance_m = std::sqrt(turned.x_m * turned.x_m + turned.y_m * turned.y_m);
   if (distance_m < turned.radius_m || distance_m - turned.radius_m >= job.range_max_m) return;
   // The beams between the two tangents, and one more on either side: the chord decides.
-  const double middle_rad = std::atan2(turned.y_m, turned.x_m);
-  const double half_rad = std::asin(turned.radius_m / distance_m);
+  const double middle_rad = math::atan2(turned.y_m, turned.x_m);
+  const double half_rad = math::asin(turned.radius_m / distance_m);
   const double center = 0.5 * static_cast<double>(job.beam_count - 1);
   const auto last_beam = static_cast<double>(job.beam_count - 1);
   for (const int turn : {-1, 0, 1}) {

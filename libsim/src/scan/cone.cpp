@@ -4,16 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/math.h"
+
 namespace sim::scan {
 namespace {
 
 // The two boundary lines of a cone. For a single ray, both are the ray itself.
 struct Sides {
   explicit Sides(const Cone& cone)
-      : lx(std::cos(cone.yaw_rad + 0.5 * cone.field_of_view_rad)),
-        ly(std::sin(cone.yaw_rad + 0.5 * cone.field_of_view_rad)),
-        rx(std::cos(cone.yaw_rad - 0.5 * cone.field_of_view_rad)),
-        ry(std::sin(cone.yaw_rad - 0.5 * cone.field_of_view_rad)) {}
+      : lx(math::cos(cone.yaw_rad + 0.5 * cone.field_of_view_rad)),
+        ly(math::sin(cone.yaw_rad + 0.5 * cone.field_of_view_rad)),
+        rx(math::cos(cone.yaw_rad - 0.5 * cone.field_of_view_rad)),
+        ry(math::sin(cone.yaw_rad - 0.5 * cone.field_of_view_rad)) {}
 
   double lx, ly;
   double rx, ry;

@@ -10,6 +10,7 @@
 
 #include "scan/scan_kernel_impl.h"
 #include "sim/core/assert.h"
+#include "sim/core/math.h"
 
 #if defined(__x86_64__)
 #include <emmintrin.h>
@@ -235,8 +236,8 @@ std::int32_t append_exact_spans(const ScanJob& job, std::int32_t edge, std::int3
   const Edge& corners = job.edges[edge];
   const Point high = turned(job, corners.x0_m, corners.y0_m);
   const Point low = turned(job, corners.x1_m, corners.y1_m);
-  const double angle_high = std::atan2(high.y, high.x);
-  const double angle_low = std::atan2(low.y, low.x);
+  const double angle_high = math::atan2(high.y, high.x);
+  const double angle_low = math::atan2(low.y, low.x);
 
   // Angles determine the beam unless a beam is closer than their rounding; then the sign of the
   // cross product decides. Two edges that share a corner get the same answer, and the beam is in
@@ -361,18 +362,18 @@ struct Tables {
     beams.reserve(2 * static_cast<std::size_t>(count + 2));
     for (int beam = -1; beam <= count; ++beam) {
       const double angle_rad = geometry.angle_rad(beam);
-      beams.push_back(std::cos(angle_rad));
-      beams.push_back(std::sin(angle_rad));
+      beams.push_back(math::cos(angle_rad));
+      beams.push_back(math::sin(angle_rad));
     }
     for (int k = -reach; k <= reach; ++k) {
       const double angle_rad = resolution_rad * static_cast<double>(k);
-      cosines.push_back(static_cast<float>(std::cos(angle_rad)));
-      sines.push_back(static_cast<float>(std::sin(angle_rad)));
+      cosines.push_back(static_cast<float>(math::cos(angle_rad)));
+      sines.push_back(static_cast<float>(math::sin(angle_rad)));
     }
     const double half_fan_rad =
         std::min(0.5 * (count + 1) * resolution_rad + 1e-3, std::numbers::pi);
-    fan_cos = static_cast<float>(std::cos(half_fan_rad));
-    fan_sin = static_cast<float>(std::sin(half_fan_rad));
+    fan_cos = static_cast<float>(math::cos(half_fan_rad));
+    fan_sin = static_cast<float>(math::sin(half_fan_rad));
   }
 
   double resolution_rad;
@@ -524,8 +525,8 @@ void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double>
 }
 
 void ScanKernel::begin(double yaw_rad) {
-  scratch_->job.cos_yaw = std::cos(yaw_rad);
-  scratch_->job.sin_yaw = std::sin(yaw_rad);
+  scratch_->job.cos_yaw = math::cos(yaw_rad);
+  scratch_->job.sin_yaw = math::sin(yaw_rad);
   scratch_->inside = false;
   scratch_->circles.clear();
   steps_->clear(scratch_->job);

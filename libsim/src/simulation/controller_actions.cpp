@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "sim/core/assert.h"
+#include "sim/core/math.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/fiducial.h"
 #include "simulation/blocks.h"
@@ -69,7 +70,7 @@ std::optional<double> Simulation::Impl::Controller::quantity(RobotQuantity quant
       return impl_.robots[robot].statistics.collisions;
     case RobotQuantity::kSpeed: {
       const Twist& twist = impl_.physics->body(static_cast<int>(robot)).twist;
-      return std::hypot(twist.v_mps, twist.lateral_mps);
+      return math::hypot(twist.v_mps, twist.lateral_mps);
     }
     case RobotQuantity::kBattery: {
       const auto* reading = reading_of<BatteryReading>(impl_.robots[robot], batteries_[robot]);

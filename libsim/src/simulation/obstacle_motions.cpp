@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "sim/core/assert.h"
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
 #include "sim/world/outline.h"
 #include "simulation/social_force.h"
 
@@ -38,7 +40,7 @@ double radius_about_center(const ObstacleDescription& obstacle) {
   return radius;
 }
 
-double yaw_of(const Vec2& way) { return std::atan2(way.y(), way.x()); }
+double yaw_of(const Vec2& way) { return math::atan2(way.y(), way.x()); }
 
 // The next angle of something that turns by at most `most_rad` towards another.
 double turned(double yaw_rad, double wanted_rad, double most_rad) {
@@ -144,7 +146,7 @@ void Simulation::Impl::ObstacleMotions::choose_leg(Moving& m) {
   for (int i = 0; i < kTries; ++i) {
     const double yaw_rad = 2.0 * std::numbers::pi * m.random->uniform() - std::numbers::pi;
     const double length_m = m.motion.leg_m * (0.5 + m.random->uniform());
-    m.goal = m.from + length_m * Vec2(std::cos(yaw_rad), std::sin(yaw_rad));
+    m.goal = m.from + length_m * unit_vector(yaw_rad);
     if (((m.goal - middle).array().abs() <= half.array()).all()) return;
   }
   m.goal = middle;

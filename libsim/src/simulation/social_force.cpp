@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "sim/core/math.h"
+
 namespace sim::social_force {
 namespace {
 
@@ -37,7 +39,7 @@ Vec2 repulsion(const Vec2& offset, const Vec2& velocity, const Vec2& direction,
   }
   const Vec2 gradient = sum_m / (4.0 * b_m) * (offset / distance_m + ahead / ahead_m);
   const Vec2 force = constants.repulsion_m2ps2 / constants.repulsion_range_m *
-                     std::exp(-b_m / constants.repulsion_range_m) * gradient;
+                     math::exp(-b_m / constants.repulsion_range_m) * gradient;
   const bool behind = direction.dot(-force) < force.norm() * kCosPhi;
   return behind ? Vec2(kBehind * force) : force;
 }
@@ -46,7 +48,7 @@ Vec2 wall_repulsion(const Vec2& offset, const SocialForce& constants) {
   const double distance_m = offset.norm();
   if (!(distance_m > 1e-6) || distance_m > wall_reach_m(constants)) return {0.0, 0.0};
   return constants.wall_repulsion_m2ps2 / constants.wall_range_m *
-         std::exp(-distance_m / constants.wall_range_m) / distance_m * offset;
+         math::exp(-distance_m / constants.wall_range_m) / distance_m * offset;
 }
 
 double wall_reach_m(const SocialForce& constants) { return kReach * constants.wall_range_m; }

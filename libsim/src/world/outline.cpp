@@ -8,6 +8,9 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
+
 namespace sim {
 namespace {
 
@@ -62,7 +65,7 @@ Polygon joined_at_side(const Polygon& a, const Polygon& b) {
         const auto n = static_cast<std::ptrdiff_t>(corners.size());
         const Vec2 before = corner - corners[static_cast<std::size_t>((at + n - 1) % n)];
         const Vec2 after = corners[static_cast<std::size_t>((at + 1) % n)] - corner;
-        return std::abs(std::atan2(cross(before, after), before.dot(after))) < kStraight_rad;
+        return std::abs(math::atan2(cross(before, after), before.dot(after))) < kStraight_rad;
       });
       return joined;
     }
@@ -86,7 +89,7 @@ bool is_convex(const Polygon& outline) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 before = outline[(i + 1) % n] - outline[i];
     const Vec2 after = outline[(i + 2) % n] - outline[(i + 1) % n];
-    const double turn_rad = std::atan2(cross(before, after), before.dot(after));
+    const double turn_rad = math::atan2(cross(before, after), before.dot(after));
     if (turn_rad < 1e-6) return false;
     turned_rad += turn_rad;
   }
@@ -258,13 +261,13 @@ Polygon outline_of(const ObstacleDescription& obstacle, double tolerance_m) {
   constexpr double kMostVertices = 720.0;
   const double r = radius_m(obstacle);
   // A chord is r (1 - cos(half angle)) away from the middle of its arc.
-  const double half_rad = std::acos(std::clamp(1.0 - tolerance_m / r, 0.0, 1.0));
+  const double half_rad = math::acos(std::clamp(1.0 - tolerance_m / r, 0.0, 1.0));
   const int count = static_cast<int>(
       std::clamp(std::ceil(std::numbers::pi / std::max(half_rad, 1e-6)), 12.0, kMostVertices));
   Polygon outline;
   for (int i = 0; i < count; ++i) {
     const double angle_rad = 2.0 * std::numbers::pi * i / count;
-    outline.push_back(obstacle.center + r * Vec2(std::cos(angle_rad), std::sin(angle_rad)));
+    outline.push_back(obstacle.center + r * unit_vector(angle_rad));
   }
   return outline;
 }

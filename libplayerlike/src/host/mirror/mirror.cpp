@@ -17,6 +17,7 @@
 #include "host/stepping/commanders.h"
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"
+#include "sim/core/pose.h"
 #include "sim/devices/amcl.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
@@ -534,8 +535,7 @@ void Mirror::Robot::show(sim::SceneSnapshot& scene) const {
       const double angle = scan_->angle_min_rad + scan_->resolution_rad * static_cast<double>(beam);
       const double range_m = scan_->ranges_m[beam];
       if (!std::isfinite(range_m)) continue;
-      shot.scan_points.push_back(X_WL_scan_ *
-                                 sim::Vec2(range_m * std::cos(angle), range_m * std::sin(angle)));
+      shot.scan_points.push_back(X_WL_scan_ * (range_m * sim::unit_vector(angle)));
     }
   }
   if (!loss_.empty()) shot.says = "connection lost";

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sim/core/pose.h"
+
 namespace playerlike {
 
 ScanDifference compare_scans(const sim::LaserReading& real, const sim::LaserReading& predicted) {
@@ -31,8 +33,7 @@ ScanDifference compare_scans(const sim::LaserReading& real, const sim::LaserRead
     ++different;
     const bool unexpected = real_m < expected_m;
     const double place_m = unexpected ? real_m : expected_m;
-    result.places.push_back(
-        {place_m * sim::Vec2(std::cos(angle_rad), std::sin(angle_rad)), unexpected});
+    result.places.push_back({place_m * sim::unit_vector(angle_rad), unexpected});
   }
   if (result.beams == 0) return result;
   result.mean_m = sum_m / result.beams;

@@ -23,6 +23,7 @@
 #include "host/results/kept_memory.h"
 #include "host/results/outputs.h"
 #include "playerlike/host/report.h"
+#include "sim/core/pose.h"
 #include "sim/core/replace_file.h"
 #include "sim/core/time.h"
 #include "sim/simulation/simulation.h"
@@ -199,7 +200,7 @@ void take_scan(const KeptScan& kept, sim::RobotSnapshot& robot) {
   for (std::size_t beam = 0; beam < std::min<std::uint64_t>(kept.count, kMostKeptBeams); ++beam) {
     const double angle = kept.angle_min_rad + kept.resolution_rad * static_cast<double>(beam);
     const double range = kept.ranges_m[beam];
-    const sim::Vec2 hit = X_WL * sim::Vec2(range * std::cos(angle), range * std::sin(angle));
+    const sim::Vec2 hit = X_WL * (range * sim::unit_vector(angle));
     if (!hit.allFinite()) throw std::runtime_error("a scan is not finite");
     robot.scan_points.push_back(hit);
   }

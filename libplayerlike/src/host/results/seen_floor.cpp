@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
 #include "sim/devices/rangers.h"
 #include "sim/world/occupancy_map.h"
 #include "sim/world/outline.h"
@@ -34,7 +36,9 @@ sim::OccupancyMap map_of_walls(const sim::WorldDescription& world,
 class ToFrame {
  public:
   explicit ToFrame(const sim::Pose& X_WS)
-      : p_WS_(X_WS.position()), cos_(std::cos(X_WS.yaw_rad)), sin_(std::sin(X_WS.yaw_rad)) {}
+      : p_WS_(X_WS.position()),
+        cos_(sim::math::cos(X_WS.yaw_rad)),
+        sin_(sim::math::sin(X_WS.yaw_rad)) {}
   [[nodiscard]] sim::Vec2 operator()(const sim::Vec2& p_W) const {
     const sim::Vec2 p = p_W - p_WS_;
     return {cos_ * p.x() + sin_ * p.y(), cos_ * p.y() - sin_ * p.x()};
@@ -150,11 +154,10 @@ void SeenFloor::see_scan(const sim::Pose& X_WL, const sim::LaserReading& scan) {
     resolution_rad_ = scan.resolution_rad;
     for (std::size_t i = 0; i < beams; ++i) {
       const double angle = first_angle_rad_ + resolution_rad_ * static_cast<double>(i);
-      directions_.emplace_back(std::cos(angle), std::sin(angle));
+      directions_.emplace_back(sim::math::cos(angle), sim::math::sin(angle));
     }
   }
-  const double c = std::cos(X_WL.yaw_rad);
-  const double s = std::sin(X_WL.yaw_rad);
+  const auto [s, c] = sim::math::sin_cos(X_WL.yaw_rad);
   const sim::Vec2 p_WL = X_WL.position();
   const auto end_of = [&](std::size_t beam, double range_m) {
     const sim::Vec2& d = directions_[beam];
@@ -173,13 +176,13 @@ void SeenFloor::see_cone(const sim::Pose& X_WS, double field_of_view_rad, double
   if (!(range_m > 0.0)) return;
   // A single ray sees the cells whose centres are at most half a cell from it.
   const double half_rad =
-      std::max(0.5 * field_of_view_rad, std::asin(std::min(0.5 * cell_m_ / range_m, 1.0)));
+      std::max(0.5 * field_of_view_rad, sim::math::asin(std::min(0.5 * cell_m_ / range_m, 1.0)));
   constexpr double kStep_rad = 0.05;  // the chord is 0.03 % shorter than the arc's radius
   const int steps = 1 + static_cast<int>(2.0 * half_rad / kStep_rad);
   corners_.assign(1, X_WS.position());
   for (int i = 0; i <= steps; ++i) {
     const double angle = X_WS.yaw_rad - half_rad + 2.0 * half_rad * i / steps;
-    corners_.push_back(X_WS.position() + range_m * sim::Vec2(std::cos(angle), std::sin(angle)));
+    corners_.push_back(X_WS.position() + range_m * sim::unit_vector(angle));
   }
   see_area();
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "session/range_settings.h"
+#include "sim/core/math.h"
 #include "sim/devices/fiducial.h"
 
 /// @file
@@ -19,10 +20,13 @@ template <typename Item>
   item.pose = {X_ST.x_m, X_ST.y_m, 0.0, 0.0, 0.0, X_ST.yaw_rad};
   // The distance is uncertain along the line of sight, the bearing across it.
   const double along = setting_of(settings, "noise");
-  const double across = setting_of(settings, "noise_bearing") * std::hypot(X_ST.x_m, X_ST.y_m);
-  const double bearing = std::atan2(X_ST.y_m, X_ST.x_m);
-  item.upose.px = std::hypot(along * std::cos(bearing), across * std::sin(bearing));
-  item.upose.py = std::hypot(along * std::sin(bearing), across * std::cos(bearing));
+  const double across =
+      setting_of(settings, "noise_bearing") * sim::math::hypot(X_ST.x_m, X_ST.y_m);
+  const double bearing = sim::math::atan2(X_ST.y_m, X_ST.x_m);
+  item.upose.px =
+      sim::math::hypot(along * sim::math::cos(bearing), across * sim::math::sin(bearing));
+  item.upose.py =
+      sim::math::hypot(along * sim::math::sin(bearing), across * sim::math::cos(bearing));
   item.upose.pyaw = setting_of(settings, "noise_yaw");
   return item;
 }

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/math.h"
+#include "sim/core/pose.h"
+
 namespace playerlike {
 
 ParticleMoments moments_of(const std::vector<LocalizationParticle>& particles) {
@@ -15,12 +18,11 @@ ParticleMoments moments_of(const std::vector<LocalizationParticle>& particles) {
     weight += particle.weight;
     position += particle.weight * particle.pose.position();
     squares += particle.weight * particle.pose.position().squaredNorm();
-    direction += particle.weight *
-                 sim::Vec2(std::cos(particle.pose.yaw_rad), std::sin(particle.pose.yaw_rad));
+    direction += particle.weight * sim::unit_vector(particle.pose.yaw_rad);
   }
   if (!(weight > 0.0)) return {};
   position /= weight;
-  return {{position.x(), position.y(), std::atan2(direction.y(), direction.x())},
+  return {{position.x(), position.y(), sim::math::atan2(direction.y(), direction.x())},
           std::max(0.0, 0.5 * (squares / weight - position.squaredNorm()))};
 }
 

@@ -6,6 +6,7 @@
 
 #include "playerlike/messages/messages.h"
 #include "session/player_values/poses.h"
+#include "sim/core/math.h"
 #include "sim/devices/device.h"
 #include "sim/devices/localization.h"
 
@@ -43,7 +44,8 @@ void same_values(Command& command, Drive& drive, Same same) {
 template <typename Pose2d>
 [[nodiscard]] sim::PositionCommand position_command(const Pose2d& goal, const Pose2d& speeds,
                                                     int frame) {
-  return {normalized_pose(goal), std::hypot(speeds.px, speeds.py), std::abs(speeds.pa), frame};
+  return {normalized_pose(goal), sim::math::hypot(speeds.px, speeds.py), std::abs(speeds.pa),
+          frame};
 }
 
 /// The place of the robot's centre.

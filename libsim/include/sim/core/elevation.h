@@ -31,6 +31,12 @@ struct EulerAngles {
 /// A rotation from its angles about the moved axes z, y, x.
 [[nodiscard]] Eigen::Matrix3d rotation_of(double roll_rad, double pitch_rad, double yaw_rad);
 
+/// The rotation by an angle about an axis of length 1 (O. Rodrigues, 1840).
+[[nodiscard]] Eigen::Matrix3d rotation_about(const Eigen::Vector3d& axis, double angle_rad);
+
+/// The axis of a rotation, as long as its angle in [0, pi] [rad].
+[[nodiscard]] Eigen::Vector3d rotation_vector_of(const Eigen::Matrix3d& rotation);
+
 /// The angles of a rotation. Inverse of rotation_of() for a pitch in (-pi/2, pi/2).
 [[nodiscard]] EulerAngles euler_angles_of(const Eigen::Matrix3d& rotation);
 

@@ -5,10 +5,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/core/math.h"
+
 namespace sim {
 
 /// A point or a vector in the plane, in metres unless its name says otherwise.
 using Vec2 = Eigen::Vector2d;
+
+/// The vector of length 1 in a direction [rad].
+[[nodiscard]] inline Vec2 unit_vector(double angle_rad) {
+  const auto [s, c] = math::sin_cos(angle_rad);
+  return {c, s};
+}
 
 /// Wraps an angle into (-pi, pi].
 /// @param angle_rad  any finite angle [rad].
@@ -43,15 +51,13 @@ struct Pose {
 
   /// p_AQ = X_AB * p_BQ: a point given in B, expressed in A [m].
   [[nodiscard]] friend Vec2 operator*(const Pose& X_AB, const Vec2& p_BQ) {
-    const double c = std::cos(X_AB.yaw_rad);
-    const double s = std::sin(X_AB.yaw_rad);
+    const auto [s, c] = math::sin_cos(X_AB.yaw_rad);
     return {X_AB.x_m + c * p_BQ.x() - s * p_BQ.y(), X_AB.y_m + s * p_BQ.x() + c * p_BQ.y()};
   }
 
   /// X_BA, the pose of A in B.
   [[nodiscard]] Pose inverse() const {
-    const double c = std::cos(yaw_rad);
-    const double s = std::sin(yaw_rad);
+    const auto [s, c] = math::sin_cos(yaw_rad);
     return {-c * x_m - s * y_m, s * x_m - c * y_m, normalize_angle(-yaw_rad)};
   }
 
@@ -62,7 +68,7 @@ struct Pose {
 /// bits as those of the pose.
 struct Frame {
   explicit Frame(const Pose& pose)
-      : X_AB(pose), cos_yaw(std::cos(pose.yaw_rad)), sin_yaw(std::sin(pose.yaw_rad)) {}
+      : X_AB(pose), cos_yaw(math::cos(pose.yaw_rad)), sin_yaw(math::sin(pose.yaw_rad)) {}
 
   /// X_AC = X_AB * X_BC.
   [[nodiscard]] Pose operator*(const Pose& X_BC) const {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "io/stage/draft.h"
+#include "sim/core/math.h"
 #include "sim/world/outline.h"
 
 namespace sim::io::stage {
@@ -31,7 +32,7 @@ std::vector<Json> walls_of(const Polygon& outline, const Json& solid) {
     Json wall = solid;
     for (const char* key : {"shape", "outline", "fiducial"}) wall.erase(key);
     wall["center"] = point_json(begin + 0.5 * side + 0.5 * kBoundaryThickness_m * left);
-    wall["yaw_deg"] = neat_deg(std::atan2(side.y(), side.x()));
+    wall["yaw_deg"] = neat_deg(math::atan2(side.y(), side.x()));
     wall["size"] = Json::array({neat(length_m), kBoundaryThickness_m});
     walls.push_back(std::move(wall));
   }

@@ -6,6 +6,7 @@
 
 #include "io/document.h"
 #include "io/stage/draft.h"
+#include "sim/core/math.h"
 #include "sim/core/random_stream.h"
 #include "sim/world/robot_model.h"
 
@@ -61,7 +62,7 @@ Json odometry_of(const Properties& model, const Context& context, const RobotDra
   origin.pose = robot.X_WB;
   origin = model.pose("localization_origin", origin);
   const Pose X_OB = origin.pose.inverse() * robot.X_WB;
-  if (std::hypot(X_OB.x_m, X_OB.y_m) > 1e-9 || std::abs(X_OB.yaw_rad) > 1e-9) {
+  if (math::hypot(X_OB.x_m, X_OB.y_m) > 1e-9 || std::abs(X_OB.yaw_rad) > 1e-9) {
     odometry["start"] = pose_json(X_OB);
   }
   odometry["frequency"] = neat(read_frequency_hz(model, context));

@@ -15,6 +15,7 @@
 #include "io/stage/translation.h"
 #include "io/world_document.h"
 #include "sim/core/file.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 #include "sim/io/stage_import.h"
 #include "sim/world/robot_model.h"
@@ -170,8 +171,8 @@ std::optional<Pose> nearest_free_pose(const WorldDescription& world, const std::
   for (double distance_m = kStep_m; distance_m <= kFarthest_m; distance_m *= 1.2) {
     for (int i = 0; i < kDirections; ++i) {
       const double angle_rad = 2.0 * std::numbers::pi * i / kDirections;
-      const Pose moved{own.x_m + distance_m * std::cos(angle_rad),
-                       own.y_m + distance_m * std::sin(angle_rad), own.yaw_rad};
+      const Pose moved{own.x_m + distance_m * math::cos(angle_rad),
+                       own.y_m + distance_m * math::sin(angle_rad), own.yaw_rad};
       if (!blocked_by(world, poses, robot, moved)) return moved;
     }
   }
@@ -195,7 +196,7 @@ bool make_room(const WorldDescription& world, const std::vector<ConfigIssue>& is
     const std::optional<Pose> pose = nearest_free_pose(world, poses, robot);
     if (!pose) return false;
     const double distance_m =
-        std::hypot(pose->x_m - poses[robot].x_m, pose->y_m - poses[robot].y_m);
+        math::hypot(pose->x_m - poses[robot].x_m, pose->y_m - poses[robot].y_m);
     poses[robot] = *pose;
     translation.world["robots"][robot]["pose"] = pose_json(*pose);
     report.note("place of " + world.robots[robot].name, translation.robots[robot].place,
