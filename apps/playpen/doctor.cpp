@@ -27,6 +27,7 @@ constexpr Section kSections[] = {
     {"The live window (--view)", check_display},
     {"Films (--record)", check_films},
     {"Core dumps", check_core_dumps},
+    {"Equal results on other machines", check_mathematics},
     {"Variables of the environment", check_variables},
 };
 

@@ -1,11 +1,13 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "doctor_checks.h"
 
+#include <dlfcn.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -30,6 +32,8 @@
 #include "scratch_folder.h"
 #include "shipped.h"
 #include "sim/core/error.h"
+#include "sim/core/hash.h"
+#include "sim/core/math.h"
 #include "sim/render/render.h"
 #include "terminal.h"
 
@@ -37,6 +41,9 @@ namespace playpen {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Of some values of sim/core/math.h.
+constexpr std::uint64_t kHashOfMathematics = 0xa5147b32faf33eULL;
 
 constexpr const char* kInstallAgain =
     "install Playpen again: cmake --install BUILD --prefix PREFIX";
@@ -488,6 +495,43 @@ Findings check_core_dumps() {
            "a program that crashes leaves a core dump, named by the pattern '" + pattern + "'" +
                (is_limited ? ", of at most " + std::to_string(limit.rlim_cur) + " bytes" : ""),
            is_limited ? "ulimit -c unlimited" : "gdb PROGRAM CORE looks at it"}};
+}
+
+Findings check_mathematics() {
+  constexpr int kArguments = 100'000;
+  const auto argument = [](int i) { return 1e-4 * i - 2.0; };
+  sim::StateHash hash;
+  for (int i = 0; i < kArguments; i += 100) {
+    const double x = argument(i);
+    for (const double y : {sim::math::sin(x), sim::math::exp(x), sim::math::atan2(x, 1.3)})
+      hash.add(y);
+  }
+  if (hash.value() != kHashOfMathematics) {
+    return {{Health::kWarning, "this machine computes other bits than Playpen's tests expect",
+             "results differ from those of other machines; please report this"}};
+  }
+  Findings findings;
+  if (!sim::math::bound()) {
+    findings.push_back(
+        {Health::kNote,
+         "a program's own calls of sin, cos and their kind go to the C library of this "
+         "system, which may round otherwise than that of other machines",
+         "playpen doc trust: what is equal everywhere"});
+  }
+  const std::unique_ptr<void, int (*)(void*)> library(dlopen("libm.so.6", RTLD_LAZY), &dlclose);
+  void* const found = library == nullptr ? nullptr : dlsym(library.get(), "sin");
+  if (found != nullptr) {
+    auto* const c_sin = reinterpret_cast<double (*)(double)>(found);
+    int others = 0;
+    for (int i = 0; i < kArguments; ++i) {
+      if (c_sin(argument(i)) != sim::math::sin(argument(i))) ++others;
+    }
+    findings.push_back({Health::kGood,
+                        "the last bits are as everywhere; the C library's sin has others for " +
+                            std::to_string(others) + " of 100 000 arguments",
+                        ""});
+  }
+  return findings;
 }
 
 Findings check_variables() {

@@ -41,6 +41,8 @@ using Findings = std::vector<Finding>;
 [[nodiscard]] Findings check_films();
 /// What happens to a program that crashes.
 [[nodiscard]] Findings check_core_dumps();
+/// Whether this machine computes what others compute.
+[[nodiscard]] Findings check_mathematics();
 /// The environment variables that change what programs do.
 [[nodiscard]] Findings check_variables();
 

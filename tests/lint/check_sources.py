@@ -290,14 +290,24 @@ def seam(tree):
         yield f"{path}:1: class Session has {count} virtual functions, not 1 to 14"
 
 
-# --- numbers: no locale in files and on wires
+# --- numbers: no locale in files and on wires, equal bits on every machine
 
 LOCALE = [re.compile(r"\b(std::)?(sto[df]|stold|strto[df]|strtold|atof|sscanf)\s*\("),
           re.compile(r"printf\s*\([^;]*%[-+ #0-9.*]*[aefgAEFG]")]
 
 
+C_MATHEMATICS = re.compile(r"std::(a?sin|a?cos|a?tan|atan2|hypot|cbrt|exp2?|expm1|log(?:2|10|1p)?|pow"
+                           r"|a?sinh|a?cosh|a?tanh|erfc?|[lt]gamma|lerp)\s*\(")
+
+
 def numbers(tree):
-    """Numbers do not follow the locale: a student's program may set one with a decimal comma."""
+    """Numbers do not follow the locale: a student's program may set one with a decimal comma. Nor do
+    they follow the C library's mathematics, whose last bits depend on it and on the processor."""
+    for path, text in tree.sources("libsim", "libplayerlike/src", "libplayerlike/include/playerlike",
+                                   "apps/playpen"):
+        for match in C_MATHEMATICS.finditer(text):
+            yield at(path, text, match.start(),
+                     f"{match[0][:-1]} has other bits elsewhere: use sim/core/math.h")
     # Player's functions that print for users follow the locale, as Player's own do.
     for path, text in tree.sources("libsim/src", "libplayerlike/src(?!/playerc/)", "apps/playpen"):
         for pattern in LOCALE:
@@ -643,6 +653,7 @@ def self_test():
 
     rule(numbers, {"libsim/src/x.cpp": "x = std::stod(t);\ny = strtod(t, &e);"}, ":1: std", ":2: str")
     rule(numbers, {"apps/playpen/x.cpp": 'snprintf(a, n, "%s: %6.2f", b, c);'}, "printf()")
+    rule(numbers, {"libsim/include/sim/x.h": "y = std::sqrt(x);\nz = std::atan2(y, x);"}, ":2: std::atan2 ")
     rule(numbers, {"apps/playpen/x.cpp": 'snprintf(a, n, "%06d of %s", b, c);',
                    "libplayerlike/src/playerc/x.cpp": "strtod(t, &e);"})
 

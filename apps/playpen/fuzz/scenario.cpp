@@ -11,6 +11,7 @@
 #include "grade/map_score.h"
 #include "sim/core/degrees.h"
 #include "sim/core/error.h"
+#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/robot_model.h"
@@ -50,7 +51,7 @@ ordered_json box_json(const std::string& name, const sim::Vec2& center, const si
 void add_door(ordered_json& list, const Element& door, const std::string& name) {
   const double part_m = std::max(0.5 * (door.size.x() - door.opening_m), 0.02);
   const double yaw_rad = door.yaw_deg * sim::kDegrees;
-  const sim::Vec2 along(std::cos(yaw_rad), std::sin(yaw_rad));
+  const sim::Vec2 along(sim::math::cos(yaw_rad), sim::math::sin(yaw_rad));
   for (const int side : {-1, 1}) {
     const sim::Vec2 center = door.center + side * 0.5 * (door.opening_m + part_m) * along;
     list.push_back(
@@ -228,7 +229,7 @@ Element Base::random_element(const Scenario& scenario, sim::RandomStream& random
                                   : Element::Shape::kDoor;
     // Small things are as likely as large ones: sizes are uniform in their logarithm.
     const auto size = [&](double low, double high) {
-      return centimetres(low * std::pow(high / low, random.uniform()));
+      return centimetres(low * sim::math::pow(high / low, random.uniform()));
     };
     element.center = random_place(random, 0.02);
     element.yaw_deg = static_cast<int>(5 * index_below(random, 36));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/core/math.h"
+
 namespace playpen::fuzz {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr double kLook_s = 0.5;  // between situations
 // The distance from a place to something solid in a direction, at most kFar_m, by steps of the
 // distance to the nearest solid.
 double free_m(const sim::DistanceField& field, const sim::Vec2& from, double angle_rad) {
-  const sim::Vec2 way(std::cos(angle_rad), std::sin(angle_rad));
+  const sim::Vec2 way(sim::math::cos(angle_rad), sim::math::sin(angle_rad));
   double driven_m = 0.0;
   while (driven_m < kFar_m) {
     const double room_m = room_at(field, from + driven_m * way);

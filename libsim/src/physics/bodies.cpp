@@ -426,7 +426,7 @@ int Bodies::robot_within(const b2Shape& shape, const b2Transform& xf, int ignore
   const auto it = std::find_if(all_.begin(), all_.end(), [&](const Body& r) {
     if (r.details->info->body == ignored || !r.details->info->solid) return false;
     for (std::size_t i = 0; i < r.details->part_count(); ++i) {
-      if (b2TestOverlap(&shape, 0, &r.details->part(i), 0, xf, transform_of(r))) return true;
+      if (overlap(shape, xf, r.details->part(i), transform_of(r))) return true;
     }
     return false;
   });
@@ -440,7 +440,7 @@ int Bodies::robot_within(const std::vector<Vec2>& outline, int ignored) const {
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const b2EdgeShape side = edge_shape(outline, i);
       for (std::size_t k = 0; k < r.details->part_count(); ++k) {
-        if (b2TestOverlap(&side, 0, &r.details->part(k), 0, identity_transform(), xf)) return true;
+        if (overlap(side, identity_transform(), r.details->part(k), xf)) return true;
       }
     }
     const auto is_within = [&](const b2Vec2& p_B) {

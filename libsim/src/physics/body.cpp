@@ -30,24 +30,21 @@ b2AABB box_of(const BodyDetails& d, const b2Transform& xf) {
   return box;
 }
 
-b2DistanceOutput distance_between(const BodyDetails& a, const b2Transform& xf_a, const b2Shape& b,
-                                  const b2Transform& xf_b, b2SimplexCache& cache) {
-  b2DistanceOutput least = distance_between(a.solid(), xf_a, b, xf_b, cache);
+ShapeDistance distance_between(const BodyDetails& a, const b2Transform& xf_a, const b2Shape& b,
+                               const b2Transform& xf_b) {
+  ShapeDistance least = distance_between(a.solid(), xf_a, b, xf_b);
   for (const b2PolygonShape& part : a.further) {
-    const b2DistanceOutput found = distance_between(part, xf_a, b, xf_b);
+    const ShapeDistance found = distance_between(part, xf_a, b, xf_b);
     if (found.distance < least.distance) least = found;
   }
   return least;
 }
 
-b2DistanceOutput distance_between(const BodyDetails& a, const b2Transform& xf_a,
-                                  const BodyDetails& b, const b2Transform& xf_b,
-                                  b2SimplexCache& cache) {
-  b2DistanceOutput least = distance_between(a, xf_a, b.solid(), xf_b, cache);
+ShapeDistance distance_between(const BodyDetails& a, const b2Transform& xf_a, const BodyDetails& b,
+                               const b2Transform& xf_b) {
+  ShapeDistance least = distance_between(a, xf_a, b.solid(), xf_b);
   for (const b2PolygonShape& part : b.further) {
-    b2SimplexCache none;
-    none.count = 0;
-    const b2DistanceOutput found = distance_between(a, xf_a, part, xf_b, none);
+    const ShapeDistance found = distance_between(a, xf_a, part, xf_b);
     if (found.distance < least.distance) least = found;
   }
   return least;

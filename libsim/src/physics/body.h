@@ -40,9 +40,8 @@ inline constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 /// A static solid near a robot.
 struct Wall {
   const b2Shape* shape = nullptr;
-  int fixture = 0;         ///< its FixtureInfo::id
-  b2SimplexCache cache{};  ///< for the nearest points of the wall and the robot
-  bool is_edge = false;    ///< an edge of a map, with this start, direction and length:
+  int fixture = 0;       ///< its FixtureInfo::id
+  bool is_edge = false;  ///< an edge of a map, with this start, direction and length:
   Vec2 start = Vec2::Zero();
   Vec2 along = Vec2::UnitX();
   double length_m = 0.0;
@@ -51,9 +50,8 @@ struct Wall {
 /// A solid that may be the nearest one to a robot.
 struct Candidate {
   const b2Shape* shape;
-  int robot;             ///< index; if < 0, the fixture with the FixtureInfo::id -1 - robot
-  b2AABB box;            ///< bounding box of a static solid
-  b2SimplexCache cache;  ///< for the nearest points of the candidate and the robot
+  int robot;   ///< index; if < 0, the fixture with the FixtureInfo::id -1 - robot
+  b2AABB box;  ///< bounding box of a static solid
 };
 
 /// What a body that is an obstacle has besides a robot.
@@ -161,13 +159,10 @@ void for_each_corner(const BodyDetails& d, Visitor visit) {
 [[nodiscard]] b2AABB box_of(const BodyDetails& d, const b2Transform& xf);
 
 /// Distance of a body from a shape or another body; see distance_between().
-/// @param cache  of solid(), or of both solid(); is updated. Other parts have none.
-[[nodiscard]] b2DistanceOutput distance_between(const BodyDetails& a, const b2Transform& xf_a,
-                                                const b2Shape& b, const b2Transform& xf_b,
-                                                b2SimplexCache& cache);
-[[nodiscard]] b2DistanceOutput distance_between(const BodyDetails& a, const b2Transform& xf_a,
-                                                const BodyDetails& b, const b2Transform& xf_b,
-                                                b2SimplexCache& cache);
+[[nodiscard]] ShapeDistance distance_between(const BodyDetails& a, const b2Transform& xf_a,
+                                             const b2Shape& b, const b2Transform& xf_b);
+[[nodiscard]] ShapeDistance distance_between(const BodyDetails& a, const b2Transform& xf_a,
+                                             const BodyDetails& b, const b2Transform& xf_b);
 
 /// Whether a contact of a part is inside the body, where that part meets another one: then the
 /// other part decides. Otherwise a corner that slides along a side of two parts would stop at the

@@ -230,22 +230,6 @@ void archive_tree(StateArchive& archive, b2DynamicTree& tree,
 
 }  // namespace
 
-void archive_cache(StateArchive& archive, b2SimplexCache& cache, const b2Shape& a,
-                   const b2Shape& b) {
-  const auto corners = [](const b2Shape& shape) {
-    if (shape.GetType() == b2Shape::e_circle) return std::size_t{1};
-    if (shape.GetType() != b2Shape::e_polygon) return std::size_t{2};
-    return static_cast<std::size_t>(static_cast<const b2PolygonShape&>(shape).m_count);
-  };
-  archive.index(cache.count, 4);
-  if (cache.count == 0) return;
-  archive(cache.metric);
-  for (int i = 0; i < cache.count; ++i) {
-    archive.index(cache.indexA[i], corners(a));
-    archive.index(cache.indexB[i], corners(b));
-  }
-}
-
 void archive_joint(StateArchive& archive, b2FrictionJoint& joint) {
   archive_vector(archive, joint.*member_of(JointImpulse{}));
   archive(joint.*member_of(JointTurnImpulse{}));

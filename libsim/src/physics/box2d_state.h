@@ -22,11 +22,6 @@ void archive_box2d(StateArchive& archive, b2World& world, const std::vector<b2Fi
 /// Writes or reads the impulses with which a joint starts its next step.
 void archive_joint(StateArchive& archive, b2FrictionJoint& joint);
 
-/// Writes or reads the starting point of b2Distance.
-/// @param a, b  the two shapes.
-void archive_cache(StateArchive& archive, b2SimplexCache& cache, const b2Shape& a,
-                   const b2Shape& b);
-
 inline void archive_vector(StateArchive& archive, b2Vec2& vector) { archive(vector.x, vector.y); }
 
 }  // namespace sim::physics

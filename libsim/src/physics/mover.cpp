@@ -331,16 +331,7 @@ void Mover::add_round_constraints(const Body& r, std::size_t part, const b2Circl
 // direction to the nearest point is sufficient.
 void Mover::add_disc_constraint(const Body& r, const b2Shape& other, const b2Transform& other_xf,
                                 double share, double dt_s) {
-  b2SimplexCache cache;
-  cache.count = 0;
-  b2DistanceInput input;
-  input.proxyA.Set(&r.details->disc, 0);
-  input.proxyB.Set(&other, 0);
-  input.transformA = transform_of(r);
-  input.transformB = other_xf;
-  input.useRadii = false;
-  b2DistanceOutput found;  // to the centre of the disc, and of a circle
-  b2Distance(&found, &cache, &input);
+  const ShapeDistance found = core_distance(r.details->disc, transform_of(r), other, other_xf);
   if (found.distance <= 0.0F) return;
   const double gap_m = metres(found.distance - core_radius(r.details->disc) - core_radius(other));
   if (gap_m > metres(kReach)) return;
@@ -355,6 +346,7 @@ void Mover::add_disc_constraint(const Body& r, const b2Shape& other, const b2Tra
 // Adds the limits of the closing speed that a solid implies for all parts of robot `r`.
 void Mover::add_constraints(const Body& r, const b2Shape& other, const b2Transform& other_xf,
                             double share, double dt_s) {
+  used_box2d_ = true;
   for (std::size_t part = 0; part < r.details->part_count(); ++part) {
     add_constraints(r, part, other, other_xf, share, dt_s);
   }
@@ -549,6 +541,7 @@ void Mover::find_contact_groups(double dt_s) {
 // 0, and they rest.
 void Mover::contact_substep(double dt_s, double others_dt_s) {
   if (!bodies_.has_robots_in_box2d()) return;
+  used_box2d_ = used_box2d_ || !hindered_.empty();
   const float inv_dt = static_cast<float>(1.0 / dt_s);
   for (const std::size_t i : hindered_) {
     Body& r = bodies_.all()[i];

@@ -23,6 +23,8 @@ class Mover {
   void archive(StateArchive& archive);
   /// Upper bound of how far any robot moved in the last step [m].
   [[nodiscard]] double farthest_move_m() const noexcept { return step_max_travel_m_; }
+  /// Whether Box2D has computed what a robot may do, or did.
+  [[nodiscard]] bool used_box2d() const noexcept { return used_box2d_; }
   /// See PhysicsWorld::plain_box2d_step().
   void plain_box2d_step(double dt_s);
 
@@ -58,6 +60,7 @@ class Mover {
   double step_max_travel_m_ = 0.0;     // upper bound of how far any robot moved in the last step
   double farthest_m_ = 0.0;            // maximum travel of any robot in the current substep
   std::vector<std::size_t> hindered_;  // robots that are not free
+  bool used_box2d_ = false;
   double max_contact_travel_m_ = 0.0;
   std::vector<std::size_t> contact_robots_;  // robots that touch others, or are near such robots
   std::vector<Pose> goals_;                  // poses of hindered robots if nothing stops them

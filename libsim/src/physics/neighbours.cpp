@@ -64,12 +64,8 @@ void Neighbours::list_pairs() {
       const double dy = b.y - a.y;
       if (dx * dx + dy * dy >= reach * reach) continue;
       if (!is_solid(a.robot) || !is_solid(b.robot)) continue;
-      pairs_.push_back({std::min(a.robot, b.robot),
-                        std::max(a.robot, b.robot),
-                        0.0,
-                        kUnknown,
-                        {1.0F, 0.0F},
-                        {}});
+      pairs_.push_back(
+          {std::min(a.robot, b.robot), std::max(a.robot, b.robot), 0.0, kUnknown, {1.0F, 0.0F}});
     }
   }
   std::sort(pairs_.begin(), pairs_.end(), comes_before);
@@ -104,7 +100,7 @@ double Neighbours::distance_m(const Body& a, const Body& b, double enough_m, Pai
   const double along_m = metres(least_along(pair.direction, *b.details, xf_b) +
                                 least_along(-pair.direction, *a.details, xf_a));
   if (along_m > enough_m) return along_m;
-  const b2DistanceOutput found = distance_between(*a.details, xf_a, *b.details, xf_b, pair.cache);
+  const ShapeDistance found = distance_between(*a.details, xf_a, *b.details, xf_b);
   if (found.distance > 0.0F) {
     pair.direction = (1.0F / found.distance) * (found.pointB - found.pointA);
   }
@@ -195,14 +191,14 @@ void Neighbours::collect_candidates(Body& r, const b2AABB& box, double reach_m) 
   visit_fixed(bodies_.world(), expanded(box, reach_m), [&](const b2Fixture& fixture) {
     if (!info_of(&fixture).solid) return;
     r.details->candidates.push_back(
-        {fixture.GetShape(), -1 - static_cast<int>(info_of(&fixture).id), fixture.GetAABB(0), {}});
+        {fixture.GetShape(), -1 - static_cast<int>(info_of(&fixture).id), fixture.GetAABB(0)});
   });
   const Vec2 p_WB = r.X_WB.position();
   const Vec2 reach(r.radius_m + reach_m, r.radius_m + reach_m);
   bodies_.for_robots_in(p_WB - reach, p_WB + reach, [&](const Bodies::Circle& circle) {
     const Body& other = bodies_.at(circle.robot);
     if (&other == &r || !other.details->info->solid) return;
-    r.details->candidates.push_back({&other.details->solid(), circle.robot, {}, {}});
+    r.details->candidates.push_back({&other.details->solid(), circle.robot, {}});
   });
 }
 
@@ -250,8 +246,7 @@ double Neighbours::distance_to_walls_m(Body& r) {
         continue;
       }
     }
-    const b2DistanceOutput found =
-        distance_between(*r.details, xf, *wall.shape, identity_transform(), wall.cache);
+    const ShapeDistance found = distance_between(*r.details, xf, *wall.shape, identity_transform());
     least_m = std::min(least_m, metres(found.distance));
   }
   return least_m;
@@ -273,10 +268,8 @@ bool Neighbours::is_near_wall(const Body& r, const b2Contact& contact) const {
   if (other->GetBody() == r.body) other = contact.GetFixtureB();
   if (info_of(other).body >= 0) return false;
   const b2Transform& xf = r.body->GetTransform();
-  b2SimplexCache none;
-  none.count = 0;
-  const double apart_m = metres(
-      distance_between(*r.details, xf, *other->GetShape(), identity_transform(), none).distance);
+  const double apart_m =
+      metres(distance_between(*r.details, xf, *other->GetShape(), identity_transform()).distance);
   return apart_m <= wall_reach_m();
 }
 
@@ -323,12 +316,9 @@ double Neighbours::clearance_m(Body& r, double limit_m, double exact_below_m) {
       least_m = bound_m;
       continue;
     }
-    const b2SimplexCache cache = candidate.cache;
-    const b2DistanceOutput found =
-        other == nullptr
-            ? distance_between(*r.details, xf, *candidate.shape, their_xf, candidate.cache)
-            : distance_between(*r.details, xf, *other->details, their_xf, candidate.cache);
-    if (!same_bits(cache, candidate.cache)) r.details->clearance_settled = false;
+    const ShapeDistance found = other == nullptr
+                                    ? distance_between(*r.details, xf, *candidate.shape, their_xf)
+                                    : distance_between(*r.details, xf, *other->details, their_xf);
     if (metres(found.distance) >= least_m) continue;
     if (found.distance > 0.0F) {
       const b2Vec2 direction = (1.0F / found.distance) * (found.pointB - found.pointA);

@@ -70,7 +70,6 @@ class Neighbours {
     double pair_at_travel_m;  // when the sum of both robots' travel had this value,
     double apart_m;           // this was a lower bound of their distance
     b2Vec2 direction;         // from the first to the second, between their nearest points
-    b2SimplexCache cache;     // of these points
   };
 
   static bool comes_before(const Pair& a, const Pair& b);

@@ -224,7 +224,6 @@ void Neighbours::archive_robot(StateArchive& archive, Body& r,
         candidate.shape = solid->GetShape();
         candidate.box = solid->GetAABB(0);
       }
-      archive_cache(archive, candidate.cache, d.solid(), *candidate.shape);
     });
   }
   if (std::isinf(d.walls_until_m)) return;
@@ -235,7 +234,6 @@ void Neighbours::archive_robot(StateArchive& archive, Body& r,
       archive.expect(solid != nullptr && info_of(solid).body < 0, "walls");
       wall = wall_of(*solid);
     }
-    archive_cache(archive, wall.cache, d.solid(), *wall.shape);
   });
 }
 
@@ -248,8 +246,6 @@ void Neighbours::archive(StateArchive& archive) {
     archive(pair.pair_at_travel_m);
     archive.unbounded(pair.apart_m);
     archive_vector(archive, pair.direction);
-    archive_cache(archive, pair.cache, bodies_.at(pair.first).details->solid(),
-                  bodies_.at(pair.second).details->solid());
   });
   meet_at_travel_m_.resize(pairs_.size());
   for (double& meet_m : meet_at_travel_m_) archive.unbounded(meet_m);
@@ -258,7 +254,7 @@ void Neighbours::archive(StateArchive& archive) {
 }
 
 void Mover::archive(StateArchive& archive) {
-  archive(step_max_travel_m_);
+  archive(step_max_travel_m_, used_box2d_);
   if (!archive.reading()) return;
   contact_robots_.clear();
   for (std::size_t i = 0; i < bodies_.all().size(); ++i) {

@@ -107,6 +107,10 @@ void PhysicsWorld::step(double dt_s) {
   impl_->sensor_view.robots_changed();
 }
 
+bool PhysicsWorld::used_box2d() const noexcept {
+  return impl_->mover.used_box2d() || !impl_->contacts.fresh().empty();
+}
+
 double PhysicsWorld::farthest_move_m() const noexcept { return impl_->mover.farthest_move_m(); }
 
 const BodyState& PhysicsWorld::body(int robot) const { return *impl_->bodies.at(robot).state; }

@@ -68,6 +68,10 @@ class PhysicsWorld {
   /// Advances by dt_s (> 0).
   void step(double dt_s);
   [[nodiscard]] const BodyState& body(int robot) const;
+  /// Whether Box2D's code has computed part of the state: a robot was so near to something that it
+  /// might touch it within a step, or touched it. Box2D's last bits depend on its compiler's
+  /// processor; those of everything else do not.
+  [[nodiscard]] bool used_box2d() const noexcept;
   /// Upper bound of how far any point of any robot moved in the last step [m].
   [[nodiscard]] double farthest_move_m() const noexcept;
 

@@ -71,13 +71,23 @@ inline constexpr float kScaleF = 10.0F;
   return least + b2Dot(n, xf.p);
 }
 
-/// Distance of two shapes without their skins, and their nearest points.
-/// @param cache  of an earlier call for the same shapes, or with a count of 0; is updated.
-[[nodiscard]] b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a,
-                                                const b2Shape& b, const b2Transform& xf_b,
-                                                b2SimplexCache& cache);
-[[nodiscard]] b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a,
-                                                const b2Shape& b, const b2Transform& xf_b);
+/// Nearest points of two shapes, in W, and their distance; 0: they overlap, and the points mean
+/// nothing [Box2D units].
+struct ShapeDistance {
+  b2Vec2 pointA;
+  b2Vec2 pointB;
+  float distance;
+};
+
+/// Distance of two shapes without their skins.
+[[nodiscard]] ShapeDistance distance_between(const b2Shape& a, const b2Transform& xf_a,
+                                             const b2Shape& b, const b2Transform& xf_b);
+/// The same with circles as their centres.
+[[nodiscard]] ShapeDistance core_distance(const b2Shape& a, const b2Transform& xf_a,
+                                          const b2Shape& b, const b2Transform& xf_b);
+/// Whether two shapes with their skins overlap.
+[[nodiscard]] bool overlap(const b2Shape& a, const b2Transform& xf_a, const b2Shape& b,
+                           const b2Transform& xf_b);
 
 /// Distance of two boxes; 0 if they overlap.
 [[nodiscard]] inline float gap_between(const b2AABB& a, const b2AABB& b) {

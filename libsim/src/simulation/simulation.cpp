@@ -358,6 +358,7 @@ void Simulation::Impl::step() {
   loads->follow_robots();
   now_ns += world.simulation.step_ns;
   ++steps;
+  if (!box2d_since_ns && physics->used_box2d()) box2d_since_ns = now_ns;
   if (obstacle_motions) obstacle_motions->after_step();
   record_collisions();
   blocks->after_step(dt_s);
@@ -386,6 +387,8 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 void Simulation::step() { impl_->step(); }
 SimTime Simulation::now_ns() const noexcept { return impl_->now_ns; }
 std::uint64_t Simulation::steps() const noexcept { return impl_->steps; }
+
+std::optional<SimTime> Simulation::box2d_since_ns() const noexcept { return impl_->box2d_since_ns; }
 
 bool Simulation::finished() const noexcept {
   const auto& duration = impl_->world.simulation.duration_ns;

@@ -168,6 +168,7 @@ struct Simulation::Impl {
   std::vector<DeviceId> updated;
   SimTime now_ns = 0;
   std::uint64_t steps = 0;
+  std::optional<SimTime> box2d_since_ns;
   mutable std::optional<std::uint64_t> known_start_hash;
   // About as many bytes as the parts of the state take: as many as were written last; 0: unknown.
   std::size_t bodies_bytes = 0;

@@ -30,7 +30,7 @@ struct SnapshotHeader {
   std::uint64_t hash;      // of both
 };
 constexpr std::array<char, 8> kMagic = {'P', 'l', 'a', 'y', 'p', 'e', 'n', '\n'};
-constexpr std::uint64_t kSnapshotVersion = 3;
+constexpr std::uint64_t kSnapshotVersion = 4;
 
 std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
   StateHash hash;
@@ -150,7 +150,7 @@ void Simulation::Impl::archive(StateArchive& archive) {
 void Simulation::Impl::archive_bodies(StateArchive& archive) {
   const ByteCount count(archive, bodies_bytes);
   archive.time(now_ns);
-  archive(steps);
+  archive(steps, box2d_since_ns);
   physics->archive(archive);
   for (ObstacleDescription& thing : world.arena.obstacles) archive_obstacle(archive, thing);
   for (std::size_t i = 0; i < robots.size(); ++i) archive_robot(archive, i);
@@ -283,6 +283,7 @@ void Simulation::Impl::take_over_from(Impl& before) {
   }
   now_ns = before.now_ns;
   steps = before.steps;
+  if (before.box2d_since_ns) box2d_since_ns = before.box2d_since_ns;
   chronicle.take_over_from(before.chronicle);
   if (controller) controller->take_over_from(*before.controller, later_ns);
   if (obstacle_motions) obstacle_motions->shift_times(later_ns);

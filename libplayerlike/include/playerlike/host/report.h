@@ -88,6 +88,8 @@ struct Report {
     std::optional<std::string> world_file;
     bool repeatable = true;
     std::optional<std::vector<std::string>> repeatable_why;
+    std::optional<std::string> repeatable_on;
+    std::optional<double> box2d_from_s;
   };
   /// The floor that a robot's sensors have seen; see SeenFloor for the cells.
   struct Seen {

@@ -10,6 +10,7 @@
 #include "host/mirror/mirror.h"
 #include "host/requests/arena.h"
 #include "host/results/recorder.h"
+#include "sim/core/math.h"
 #include "sim/core/time.h"
 #include "sim/world/realism.h"
 
@@ -17,6 +18,18 @@ namespace playerlike {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Box2D comes compiled: its last bits are those of its processor family, and the functions of the
+// C library that it calls are ours where math::bound().
+const char* machines_of(bool used_box2d) {
+  if (!used_box2d && sim::math::bound()) return "any machine";
+  if (!sim::math::bound()) return "this machine";
+#if defined(__x86_64__)
+  return "any x86-64 machine";
+#else
+  return "any aarch64 machine";
+#endif
+}
 
 Report::Run run_of(const sim::Simulation& simulation, const TimeStatistics& time) {
   const sim::WorldDescription& world = simulation.world();
@@ -34,6 +47,9 @@ Report::Run run_of(const sim::Simulation& simulation, const TimeStatistics& time
   if (!error && fs::is_regular_file(file, error)) run.world_file = file.string();
   run.repeatable = time.unrepeatable.empty();
   if (!run.repeatable) run.repeatable_why = time.unrepeatable;
+  const std::optional<sim::SimTime> box2d_since_ns = simulation.box2d_since_ns();
+  if (box2d_since_ns) run.box2d_from_s = sim::to_seconds(*box2d_since_ns);
+  if (run.repeatable) run.repeatable_on = machines_of(box2d_since_ns.has_value());
   return run;
 }
 

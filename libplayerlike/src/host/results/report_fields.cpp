@@ -68,30 +68,39 @@ MESSAGE(playerlike::MirrorReport, field<&T::robot>("robot", "", "name of the rob
             .nullable(),
         field<&T::scan_difference>("scan_difference").nullable(),
         field<&T::ghost>("ghost").nullable().or_default())
-MESSAGE(playerlike::Report::Run, field<&T::world>("world", "", "the world's name").or_default(),
-        field<&T::seed>("seed", "", "of all random numbers").or_default(),
-        field<&T::realism>("realism", "", "[level of realism](realism.md)").or_default(),
-        field<&T::steps>("steps", "", "simulated steps").or_default(),
-        field<&T::sim_time_s>("sim_time", "s", "simulated time"),
-        field<&T::wall_time_s>("wall_time", "s", "wall-clock time from the first step to the last")
-            .or_default(),
-        field<&T::real_time_factor>("real_time_factor", "", "`sim_time` divided by `wall_time`")
-            .or_default(),
-        field<&T::state_hash>("state_hash", "",
-                              "hash of the final state; equal runs have equal hashes; `null` while "
-                              "the run goes on, and if the program died")
-            .nullable()
-            .or_default(),
-        field<&T::world_file>(
-            "world_file", "",
-            "the world's file, if the world has one; [`playpen plot`](command.md#plot) reads it"),
-        field<&T::repeatable>(
-            "repeatable", "",
-            "whether another run gives the same result; `false` if a wall-clock rule affected the "
-            "run, see [virtual time](virtual_time.md#when-a-run-is-not-repeatable)")
-            .or_default(),
-        field<&T::repeatable_why>("repeatable_why", "",
-                                  "the reasons why the run is not repeatable, a list of sentences"))
+MESSAGE(
+    playerlike::Report::Run, field<&T::world>("world", "", "the world's name").or_default(),
+    field<&T::seed>("seed", "", "of all random numbers").or_default(),
+    field<&T::realism>("realism", "", "[level of realism](realism.md)").or_default(),
+    field<&T::steps>("steps", "", "simulated steps").or_default(),
+    field<&T::sim_time_s>("sim_time", "s", "simulated time"),
+    field<&T::wall_time_s>("wall_time", "s", "wall-clock time from the first step to the last")
+        .or_default(),
+    field<&T::real_time_factor>("real_time_factor", "", "`sim_time` divided by `wall_time`")
+        .or_default(),
+    field<&T::state_hash>("state_hash", "",
+                          "hash of the final state; equal runs have equal hashes; `null` while "
+                          "the run goes on, and if the program died")
+        .nullable()
+        .or_default(),
+    field<&T::world_file>(
+        "world_file", "",
+        "the world's file, if the world has one; [`playpen plot`](command.md#plot) reads it"),
+    field<&T::repeatable>(
+        "repeatable", "",
+        "whether another run gives the same result; `false` if a wall-clock rule affected the "
+        "run, see [virtual time](virtual_time.md#when-a-run-is-not-repeatable)")
+        .or_default(),
+    field<&T::repeatable_why>("repeatable_why", "",
+                              "the reasons why the run is not repeatable, a list of sentences"),
+    field<&T::repeatable_on>(
+        "repeatable_on", "",
+        "machines on which another run gives the same bits: `any machine`, `any x86-64 machine` "
+        "or `any aarch64 machine`; see "
+        "[trust](trust.md#the-same-result-on-every-machine)"),
+    field<&T::box2d_from_s>("box2d_from", "s",
+                            "when a robot first touched something or might have, so that Box2D "
+                            "computed part of the result; missing: never"))
 MESSAGE(playerlike::Report::Seen, field<&T::area_m2>("area").or_default(),
         field<&T::cell_size_m>("cell_size"), field<&T::origin>(""), field<&T::width>("width"),
         field<&T::height>("height"), field<&T::cells>("cells"))

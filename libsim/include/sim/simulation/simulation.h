@@ -125,6 +125,10 @@ class Simulation {
 
   [[nodiscard]] SimTime now_ns() const noexcept;
   [[nodiscard]] std::uint64_t steps() const noexcept;
+  /// The end of the first step in which Box2D's code took part: a robot touched something, or might
+  /// have. Up to there the simulation has the same bits on every machine; from then on, on machines
+  /// of one processor family. nullopt: not yet.
+  [[nodiscard]] std::optional<SimTime> box2d_since_ns() const noexcept;
   /// Whether the world's duration is over, or the arena controller has ended the run. step() may
   /// still be called; the arena controller does nothing more then.
   [[nodiscard]] bool finished() const noexcept;
