@@ -39,7 +39,7 @@ constexpr std::pair<const char*, bool Freedom::*> kChanges[] = {
     {"starts", &Freedom::starts}, {"obstacles", &Freedom::obstacles}, {"moving", &Freedom::moving},
     {"maps", &Freedom::maps},     {"blocks", &Freedom::blocks},       {"noise", &Freedom::noise}};
 
-constexpr double kBody_m = 0.05;                // thickness of the walls of doors and corridors
+constexpr double kBody_m = 0.05;     // thickness of the walls of doors and corridors
 constexpr double kOpenShare = 0.75;  // of the floor, for generated maps; the SyRoTek arena has less
 constexpr double kDefaultWidth[] = {1.6, 5.0};  // of passages, in radii of the robot
 // Sensors whose readings programs use.
@@ -197,6 +197,34 @@ std::optional<Base::World> Base::world_of(const Scenario& scenario) const {
   const bool has_room = !scenario.start || room_at(made.room, scenario.start->position()) >=
                                                robot_radius_m_ + kStartRoom_m;
   return has_room ? std::optional(std::move(made)) : std::nullopt;
+}
+
+bool Base::allows_element(const Element& element) const {
+  if (element.of_map) return true;
+  const auto is_inside = [](double value, const sim::Vec2& range) {
+    return value > range.x() - 1e-9 && value < range.y() + 1e-9;
+  };
+  if (!(element.moves ? freedom_.moving : freedom_.obstacles)) return false;
+  if (!element.moves && std::ranges::find(shapes_, element.shape) == shapes_.end()) return false;
+  if (!element.has_opening()) {
+    return is_inside(element.size.x(), bounds_.obstacles.size_m) &&
+           is_inside(element.size.y(), bounds_.obstacles.size_m);
+  }
+  const bool is_door = element.shape == Shape::kDoor;
+  const auto& width_m = is_door ? bounds_.doors.width_m : bounds_.corridors.width_m;
+  return !width_m || is_inside(element.opening_m, *width_m);
+}
+
+bool Base::allows(const Scenario& scenario) const {
+  const auto is_in_area = [this](const sim::Vec2& place) {
+    return !bounds_.area ||
+           ((place - low_).minCoeff() > -1e-9 && (high_ - place).minCoeff() > -1e-9);
+  };
+  if (scenario.start && !is_in_area(scenario.start->position())) return false;
+  return std::ranges::all_of(scenario.elements, [&](const Element& element) {
+    return allows_element(element) && is_in_area(element.center) &&
+           (!element.moves || is_in_area(element.goes_to));
+  });
 }
 
 double room_at(const sim::DistanceField& room, const sim::Vec2& place) {

@@ -81,6 +81,9 @@ class Base {
   ///     than kStartRoom_m.
   [[nodiscard]] std::optional<World> world_of(const Scenario& scenario) const;
 
+  /// Whether a simpler scenario still is within the bounds of the section "fuzz".
+  [[nodiscard]] bool allows(const Scenario& scenario) const;
+
   /// A scenario of its own, and a change of a scenario. Both may be no worlds.
   [[nodiscard]] Scenario random(sim::RandomStream& random) const;
   [[nodiscard]] Scenario mutated(Scenario scenario, sim::RandomStream& random) const;
@@ -89,6 +92,7 @@ class Base {
   void read_bounds();
   void find_devices(const sim::RobotDescription& robot, const std::string& pointer);
   [[nodiscard]] bool is_open() const;
+  [[nodiscard]] bool allows_element(const Element& element) const;
 
   [[nodiscard]] Element::Shape random_shape(bool moves, sim::RandomStream& random) const;
   [[nodiscard]] Element random_element(const Scenario& scenario, sim::RandomStream& random) const;

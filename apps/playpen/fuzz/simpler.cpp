@@ -152,8 +152,8 @@ std::string description_of(const Scenario& scenario) {
     parts.push_back("a laser that is late by " + sim::shortest_text(scenario.latency_s) + " s");
   }
   if (scenario.dropouts > 0.0) {
-    parts.push_back("a laser that loses " + sim::shortest_text(std::round(100.0 * scenario.dropouts)) +
-                    " % of its beams");
+    parts.push_back("a laser that loses " +
+                    sim::shortest_text(std::round(100.0 * scenario.dropouts)) + " % of its beams");
   }
   if (scenario.seed != 1) parts.push_back("seed " + std::to_string(scenario.seed));
   if (parts.empty()) return "the world as it is";

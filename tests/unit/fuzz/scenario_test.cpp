@@ -246,11 +246,17 @@ TEST_F(FuzzSection, BoundsHoldInAllScenarios) {
         EXPECT_GE(element.size.x(), 0.05);
         EXPECT_LE(element.size.x(), 0.2);
       }
-      if (element.moves) { EXPECT_NEAR(element.speed_mps, 0.125, 0.026); }
+      if (element.moves) {
+        EXPECT_NEAR(element.speed_mps, 0.125, 0.026);
+      }
     }
     EXPECT_FALSE(one.real);
-    if (one.latency_s > 0.0) { EXPECT_NEAR(one.latency_s, 0.015, 0.006); }
-    if (one.dropouts > 0.0) { EXPECT_NEAR(one.dropouts, 0.55, 0.06); }
+    if (one.latency_s > 0.0) {
+      EXPECT_NEAR(one.latency_s, 0.015, 0.006);
+    }
+    if (one.dropouts > 0.0) {
+      EXPECT_NEAR(one.dropouts, 0.55, 0.06);
+    }
     EXPECT_LE(one.faults.size(), 1U);
     for (const DeviceFault& fault : one.faults) {
       ++faults;
@@ -259,6 +265,34 @@ TEST_F(FuzzSection, BoundsHoldInAllScenarios) {
     }
   }
   EXPECT_GT(faults, 20);
+}
+
+TEST_F(FuzzSection, SimplerScenario_StaysWithinBounds) {
+  const Base base(file(R"({
+      "without": ["moving"], "area": {"center": [3, 2], "size": [2, 1]},
+      "obstacles": {"size": [0.1, 0.2], "shapes": ["box", "door"]},
+      "doors": {"width": [0.42, 0.44]}})"),
+                  "");
+  Scenario scenario;
+  scenario.start = grade::StartPose{3.0, 2.0, 0};
+  Element box;
+  box.center = {3.2, 2.2};
+  Element door = box;
+  door.shape = Element::Shape::kDoor;
+  door.opening_m = 0.43;
+  scenario.elements = {box, door};
+  EXPECT_TRUE(base.allows(scenario));
+  const auto expect_refused = [&](const auto& change) {
+    Scenario other = scenario;
+    change(other);
+    EXPECT_FALSE(base.allows(other)) << description_of(other);
+  };
+  expect_refused([](Scenario& s) { s.start->x_m = 4.1; });
+  expect_refused([](Scenario& s) { s.elements[0].center.y() = 2.6; });
+  expect_refused([](Scenario& s) { s.elements[0].size.y() = 0.3; });
+  expect_refused([](Scenario& s) { s.elements[0].shape = Element::Shape::kCircle; });
+  expect_refused([](Scenario& s) { s.elements[0].moves = true; });
+  expect_refused([](Scenario& s) { s.elements[1].opening_m = 0.4; });
 }
 
 TEST_F(FuzzSection, CommandNarrowsIt) {

@@ -18,8 +18,7 @@ struct FuzzDescription {
   struct Obstacles {
     int most = 8;               ///< of a scenario, without the walls of generated maps
     Vec2 size_m = {0.03, 0.6};  ///< of a side or a diameter [m]
-    /// Of things that stand; those that move have the first three of them.
-    std::vector<std::string> shapes = {"box", "circle", "triangle", "door", "corridor"};
+    std::vector<std::string> shapes = {"box", "circle", "triangle", "door", "corridor"};  ///< words
   };
   /// Doors and corridors.
   struct Passages {
@@ -31,8 +30,7 @@ struct FuzzDescription {
   };
   /// Generated maps.
   struct Maps {
-    /// "maze" and "rooms".
-    std::vector<std::string> kinds = {"maze", "rooms"};
+    std::vector<std::string> kinds = {"maze", "rooms"};  ///< of maps
   };
   /// Errors of devices during the whole run.
   struct Noise {
@@ -43,9 +41,8 @@ struct FuzzDescription {
 
   /// Faults of the robot's devices, which begin during a run.
   struct Faults {
-    int most = 2;  ///< of a scenario
-    /// What may be wrong with a device.
-    std::vector<std::string> kinds = {"dead", "gap", "blind", "jump", "drift"};
+    int most = 2;                                                                ///< of a scenario
+    std::vector<std::string> kinds = {"dead", "gap", "blind", "jump", "drift"};  ///< what is wrong
     Vec2 at_s = {1.0, 20.0};  ///< when they begin [s]
   };
 
