@@ -76,8 +76,8 @@ void add_fuzz(CommandLine& line) {
   command.footer(
       "After '--' come the client program and its arguments, for example\n"
       "  playpen fuzz par_intro --budget 5m -- build/my_robot\n"
-      "Adds obstacles, doors, mazes, moving things, noise and other starts to the world,\n"
-      "and makes what is found as simple as possible.\n"
+      "Adds obstacles, doors, mazes, moving things, noise and other starts to the\n"
+      "world, and makes what is found as simple as possible.\n"
       "Exit status: 0 nothing was found, 1 something was, 2 bad input.");
   CLI::Option* const world =
       command.add_option("world", request->world, "World or task, a file or a name");
