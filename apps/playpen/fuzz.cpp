@@ -63,6 +63,7 @@ struct Subject {
   std::string robot;       ///< "": the first
   std::vector<std::string> program;
   fuzz::Rules rules;
+  std::string task_file;  ///< "": it is no task
 };
 
 // A task, or otherwise a world.
@@ -80,6 +81,7 @@ Subject subject_of(const FuzzRequest& request) {
   if (task) {
     const grade::TaskWorld& world = task->worlds.front();
     subject.world_file = world.file;
+    subject.task_file = task->file;
     subject.rules.goal = world.goal ? world.goal : task->goal;
     if (subject.robot.empty()) subject.robot = task->robot;
     for (const std::string& word : task->arguments) subject.program.push_back(word);
@@ -242,6 +244,7 @@ fuzz::RunnerSettings runner_settings(const FuzzRequest& request, const Subject& 
 int fuzz_program(FuzzRequest request) {
   Subject subject = subject_of(request);
   subject.program.front() = playerlike::find_program(subject.program.front());
+  request.freedom.task_file = subject.task_file;
   const fuzz::Base base(subject.world_file, subject.robot, request.freedom);
   for (const expect::Expectation& one : request.expectations) one.require_robot_of(base.world());
   if (request.output_folder.empty()) request.output_folder = "out/fuzz/" + subject.name;

@@ -36,21 +36,24 @@ bool parse_kinds(const std::string& text, std::vector<fuzz::Kind>& kinds) {
   return true;
 }
 
-bool parse_without(const std::string& text, fuzz::Freedom& freedom) {
+/// Reads words and sets what they mean. @param value  of `faults`.
+bool parse_changes(const std::string& text, bool only_faults, bool value, fuzz::Freedom& freedom) {
   const std::pair<const char*, bool fuzz::Freedom::*> all[] = {
-      {"starts", &fuzz::Freedom::starts},
-      {"obstacles", &fuzz::Freedom::obstacles},
-      {"moving", &fuzz::Freedom::moving},
-      {"blocks", &fuzz::Freedom::blocks},
-      {"noise", &fuzz::Freedom::noise}};
+      {"starts", &fuzz::Freedom::starts}, {"obstacles", &fuzz::Freedom::obstacles},
+      {"moving", &fuzz::Freedom::moving}, {"maps", &fuzz::Freedom::maps},
+      {"blocks", &fuzz::Freedom::blocks}, {"noise", &fuzz::Freedom::noise}};
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string name = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (name == "faults") {
+      freedom.faults = value;
+      continue;
+    }
     const auto* const found =
         std::ranges::find_if(all, [&name](const auto& one) { return name == one.first; });
-    if (found == std::end(all)) return false;
-    freedom.*(found->second) = false;
-    begin = end + 1;
+    if (only_faults || found == std::end(all)) return false;
+    freedom.*(found->second) = value;
   }
   return true;
 }
@@ -73,8 +76,8 @@ void add_fuzz(CommandLine& line) {
   command.footer(
       "After '--' come the client program and its arguments, for example\n"
       "  playpen fuzz par_intro --budget 5m -- build/my_robot\n"
-      "Adds obstacles, doors, moving things, noise and other starts to the world, and\n"
-      "makes what is found as simple as possible.\n"
+      "Adds obstacles, doors, mazes, moving things, noise and other starts to the\n"
+      "world, and makes what is found as simple as possible.\n"
       "Exit status: 0 nothing was found, 1 something was, 2 bad input.");
   CLI::Option* const world =
       command.add_option("world", request->world, "World or task, a file or a name");
@@ -118,9 +121,16 @@ void add_fuzz(CommandLine& line) {
       ->expected(1)
       ->take_all()
       ->type_name("EXPECTATION");
-  add_parsed(command, "--without", "What is not changed: starts, obstacles, moving, blocks, noise",
-             "LIST", "a list of starts, obstacles, moving, blocks and noise",
-             [request](const std::string& text) { return parse_without(text, request->freedom); });
+  add_parsed(command, "--without",
+             "What is not changed: starts, obstacles, moving, maps, blocks, noise, faults", "LIST",
+             "a list of starts, obstacles, moving, maps, blocks, noise and faults",
+             [request](const std::string& text) {
+               return parse_changes(text, false, false, request->freedom);
+             });
+  add_parsed(command, "--with", "What is changed, too: faults (devices that fail)", "LIST",
+             "faults", [request](const std::string& text) {
+               return parse_changes(text, true, true, request->freedom);
+             });
   command.add_flag("--random", request->random, "Do not learn from earlier runs");
   CLI::Option* const out =
       command.add_option("--out", request->output_folder, "Folder for findings [out/fuzz/<world>]");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,10 +78,35 @@ TEST_F(PlaypenFuzz, NothingFound_StatusZero) {
   EXPECT_THAT(result.out, HasSubstr("nothing found: 32 runs"));
 }
 
+TEST_F(PlaypenFuzz, Faults_AreInTheWorldThatIsFound) {
+  // An avoider of obstacles whose laser is blind drives against the wall.
+  const std::string world = folder_ / "room.json";
+  std::ofstream(world) << R"({"arena": {"size": [3, 3]},
+      "robots": [{"name": "r1", "pose": {"x": 1, "y": 1.5}, "devices": {"laser": {}}}],
+      "fuzz": {"without": ["starts", "obstacles", "moving", "maps", "noise"],
+               "with": ["faults"], "faults": {"kinds": ["blind"], "at": [1, 5]}}})";
+  const std::string out = folder_ / "out";
+  const ProcessResult result = playpen({"fuzz", world, "--runs", "32", "--most", "1", "--look-for",
+                                        "collision", "--out", out, "--", AVOID_PROGRAM});
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("in the device laser blind from "));
+  EXPECT_THAT(result.out, testing::Not(HasSubstr("did not happen again")));
+  EXPECT_THAT(world_in(out), HasSubstr("\"kind\": \"blind\""));
+}
+
+TEST_F(PlaypenFuzz, SectionOfWorldIsWrong_StatusTwo) {
+  const std::string world = folder_ / "room.json";
+  std::ofstream(world) << R"({"fuzz": {"doors": {"width": [2, 1]}}})";
+  const ProcessResult result = playpen({"fuzz", world, "--", AVOID_PROGRAM});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("/fuzz/doors/width"), HasSubstr("[least, greatest]")));
+}
+
 TEST_F(PlaypenFuzz, BadArguments_AreRefused) {
   const std::pair<Words, const char*> cases[] = {
       {{"--look-for", "boredom"}, "crash, sanitizer"},
       {{"--without", "walls"}, "starts, obstacles, moving"},
+      {{"--with", "moving"}, "faults"},
       {{"--budget", "0"}, "30s, 5m or 1h"},
       {{"--robot", "r9"}, "no robot 'r9'"},
       {{"--expect", "luck > 1"}, "no figure 'luck'"}};

@@ -266,8 +266,12 @@ class SchemaMaker {
         return point(field);
       case FieldType::kPose:
         return pose();
-      case FieldType::kTexts:
-        return list(field, {{"type", "string"}});
+      case FieldType::kTexts: {
+        if (field.words.empty()) return list(field, {{"type", "string"}});
+        Json some = list(field, words(field));
+        some["uniqueItems"] = true;
+        return some;
+      }
       case FieldType::kPoints:
         return list(field, point(field));
       case FieldType::kPoses:

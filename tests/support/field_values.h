@@ -65,7 +65,11 @@ inline void fill(const Field& field, void* value) {
       as<Pose>(value) = {0.5, 0.25, 30.0 * kDegrees};
       return;
     case FieldType::kTexts:
-      as<std::vector<std::string>>(value) = {"abc", "def"};
+      if (field.words.empty()) {
+        as<std::vector<std::string>>(value) = {"abc", "def"};
+      } else {
+        as<std::vector<std::string>>(value) = {field.words.back()};
+      }
       return;
     case FieldType::kPoints:
       as<std::vector<Vec2>>(value) = {{1.0, 2.0}, {3.0, 4.0}, {5.0, 7.0}};

@@ -21,8 +21,11 @@ std::map<std::string, std::set<std::string>> known_keys(Read read) {
   } catch (const sim::ConfigError& error) {
     for (const sim::ConfigIssue& issue : error.issues()) {
       if (issue.id != "world/unknown-key") continue;
-      // "one of the keys a, b or c"
-      std::string list = issue.expected.substr(std::string("one of the keys ").size());
+      // "one of the keys a, b or c", or "no key but a"
+      const std::string one = "no key but ";
+      const bool is_one = issue.expected.starts_with(one);
+      std::string list =
+          issue.expected.substr(is_one ? one.size() : std::string("one of the keys ").size());
       for (char& c : list) c = c == ',' ? ' ' : c;
       std::istringstream words(list);
       std::set<std::string>& keys = known[issue.pointer.substr(0, issue.pointer.rfind('/'))];

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/element.h"
+#include "fuzz/fault.h"
 #include "grade/world_patch.h"
 #include "sim/core/pose.h"
 #include "sim/core/random_stream.h"
@@ -16,28 +18,6 @@
 
 /// The search for worlds in which a program fails (docs/fuzz.md).
 namespace playpen::fuzz {
-
-/// An obstacle that a scenario adds to its world. Its numbers are round, so that people can read
-/// them: lengths in centimetres, angles in degrees.
-struct Element {
-  enum class Shape {
-    kBox,
-    kCircle,    ///< of the diameter size.x
-    kTriangle,  ///< its base is size.x, its height size.y
-    kDoor,      ///< a wall of the length size.x and the thickness size.y with an opening
-  };
-  Shape shape = Shape::kBox;
-  sim::Vec2 center = sim::Vec2::Zero();  ///< in W [m]
-  sim::Vec2 size = {0.1, 0.1};           ///< [m]
-  int yaw_deg = 0;
-  double opening_m = 0.0;                 ///< of a door, in the middle of the wall [m]
-  bool moves = false;                     ///< there and back
-  sim::Vec2 goes_to = sim::Vec2::Zero();  ///< if it moves [m]
-  double speed_mps = 0.0;                 ///< if it moves [m/s]
-
-  /// Radius of a circle around its centre that contains it [m].
-  [[nodiscard]] double radius_m() const { return 0.5 * size.norm(); }
-};
 
 /// What differs from the base world.
 struct Scenario {
@@ -48,6 +28,7 @@ struct Scenario {
   bool real = false;                              ///< the level of realism is `real`
   double latency_s = 0.0;                         ///< of the laser; 0: the world's [s]
   double dropouts = 0.0;  ///< share of its beams that measure nothing; 0: the world's
+  std::vector<DeviceFault> faults;
 };
 
 /// Distances in Base::World::room are at most this [m].
@@ -55,13 +36,16 @@ inline constexpr double kFarthestRoom_m = 0.8;
 /// Between the robot at a start of a scenario and everything solid [m].
 inline constexpr double kStartRoom_m = 0.1;
 
-/// What scenarios may change.
+/// What scenarios may change, within the bounds of the section "fuzz" of the world and the task.
 struct Freedom {
   bool starts = true;
-  bool obstacles = true;  ///< that stand
-  bool moving = true;     ///< obstacles that move
-  bool blocks = true;     ///< which dynamic blocks are raised
-  bool noise = true;      ///< levels of realism, latency and dropouts
+  bool obstacles = true;            ///< that stand
+  bool moving = true;               ///< obstacles that move
+  bool maps = true;                 ///< generated ones
+  bool blocks = true;               ///< which dynamic blocks are raised
+  bool noise = true;                ///< levels of realism, latency and dropouts
+  std::optional<bool> faults = {};  ///< of devices; none: if the section "fuzz" asks for them
+  std::string task_file = {};       ///< whose section "fuzz" replaces keys of the world's; "": none
 };
 
 /// The base of all scenarios, and what they may change.
@@ -69,9 +53,9 @@ class Base {
  public:
   /// @param file   of the world; "" for the default world.
   /// @param robot  name of the robot under test; "": the first.
-  /// @throws sim::ConfigError as grade::read_json_world(); std::invalid_argument for a world
-  /// without
-  ///     the robot.
+  /// @throws sim::ConfigError as grade::read_json_world() and grade::read_fuzz();
+  ///     std::invalid_argument for a world without the robot, or if the area of the section "fuzz"
+  ///     has no place for it.
   Base(const std::string& file, const std::string& robot, const Freedom& freedom = {});
 
   [[nodiscard]] const sim::WorldDescription& world() const noexcept { return json_.description; }
@@ -82,6 +66,8 @@ class Base {
   }
   /// Radius of the smallest circle around the robot's centre that contains its body [m].
   [[nodiscard]] double robot_radius_m() const noexcept { return robot_radius_m_; }
+  /// What the world's file, the task and the command allow.
+  [[nodiscard]] const Freedom& freedom() const noexcept { return freedom_; }
   /// Whether the world's file states settings of the robot's laser, so that these can be changed.
   [[nodiscard]] bool has_laser_settings() const noexcept { return !laser_.empty(); }
 
@@ -95,21 +81,49 @@ class Base {
   ///     than kStartRoom_m.
   [[nodiscard]] std::optional<World> world_of(const Scenario& scenario) const;
 
+  /// Whether a simpler scenario still is within the bounds of the section "fuzz".
+  [[nodiscard]] bool allows(const Scenario& scenario) const;
+
   /// A scenario of its own, and a change of a scenario. Both may be no worlds.
   [[nodiscard]] Scenario random(sim::RandomStream& random) const;
   [[nodiscard]] Scenario mutated(Scenario scenario, sim::RandomStream& random) const;
 
  private:
+  void read_bounds();
+  void find_devices(const sim::RobotDescription& robot, const std::string& pointer);
+  [[nodiscard]] bool is_open() const;
+  [[nodiscard]] bool allows_element(const Element& element) const;
+
+  [[nodiscard]] Element::Shape random_shape(bool moves, sim::RandomStream& random) const;
   [[nodiscard]] Element random_element(const Scenario& scenario, sim::RandomStream& random) const;
+  [[nodiscard]] std::vector<Element> random_map(const Scenario& scenario,
+                                                sim::RandomStream& random) const;
+  [[nodiscard]] DeviceFault random_fault(sim::RandomStream& random) const;
   [[nodiscard]] grade::StartPose random_start(sim::RandomStream& random) const;
   [[nodiscard]] sim::Vec2 random_place(sim::RandomStream& random, double margin_m) const;
+  [[nodiscard]] sim::Vec2 within_area(const sim::Vec2& place) const;
   [[nodiscard]] sim::Vec2 start_of(const Scenario& scenario) const;
+  [[nodiscard]] double random_width(const std::optional<sim::Vec2>& width_m,
+                                    sim::RandomStream& random) const;
+  [[nodiscard]] sim::Vec2 widths(const std::optional<sim::Vec2>& width_m) const;
+  void change_element(Element& element, sim::RandomStream& random) const;
+  void change_start(Scenario& scenario, sim::RandomStream& random) const;
+  void change_fault(Scenario& scenario, sim::RandomStream& random) const;
+  void add_noise(Scenario& scenario, sim::RandomStream& random) const;
 
-  const Freedom freedom_;
+  Freedom freedom_;
+  sim::FuzzDescription bounds_;
   grade::JsonWorld json_;
-  std::string obstacles_;            ///< JSON of the list in the file; "": none
-  std::string laser_;                ///< JSON pointer of the laser's settings; "": none
-  std::vector<std::string> blocks_;  ///< names of the dynamic ones
+  sim::Vec2 low_ = sim::Vec2::Zero();   ///< corners of the area [m]
+  sim::Vec2 high_ = sim::Vec2::Zero();  ///< [m]
+  std::string obstacles_;               ///< JSON of the list in the file; "": none
+  std::string timers_;                  ///< JSON of the controller's timers in the file; "": none
+  std::string laser_;                   ///< JSON pointer of the laser's settings; "": none
+  std::string odometry_;                ///< JSON pointer for the odometry's settings; "": none
+  std::vector<std::string> blocks_;     ///< names of the dynamic ones
+  /// Faults that the robot's devices may have; those of a random one are to be set.
+  std::vector<DeviceFault> faults_;
+  std::vector<Element::Shape> shapes_;  ///< of things that stand, by their frequency
   std::size_t robot_ = 0;
   double robot_radius_m_ = 0.0;
 };
@@ -117,7 +131,8 @@ class Base {
 /// The distance of a place to the nearest solid [m]; 0 outside of the field.
 [[nodiscard]] double room_at(const sim::DistanceField& room, const sim::Vec2& place);
 
-/// Scenarios that are a little simpler, the simplest first.
+/// Scenarios that are a little simpler: with a half, a quarter, ... of the elements left out,
+/// without another thing, or with rounder numbers. Each weighs less.
 [[nodiscard]] std::vector<Scenario> simpler(const Scenario& scenario);
 
 /// How simple a scenario is: fewer things come first, then rounder numbers.

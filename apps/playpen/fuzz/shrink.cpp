@@ -18,7 +18,7 @@ struct Candidate {
 std::vector<Candidate> candidates_of(const Scenario& scenario, const Base& base) {
   std::vector<Candidate> all;
   for (Scenario& one : simpler(scenario)) {
-    if (weight_of(one) >= weight_of(scenario)) continue;
+    if (weight_of(one) >= weight_of(scenario) || !base.allows(one)) continue;
     if (auto world = base.world_of(one)) all.push_back({std::move(one), *std::move(world)});
   }
   std::ranges::stable_sort(all, {}, [](const Candidate& one) { return weight_of(one.scenario); });

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "grade/rubric_reader.h"
+#include "sim/io/field_reader.h"
 #include "sim/io/reader.h"
 #include "sim/io/settings_file.h"
 
@@ -33,6 +34,14 @@ constexpr NumberRange kPoints{-1e9, 1e9, false, ""};
 std::optional<double> optional_number(Reader& reader, const char* key, const NumberRange& range) {
   if (!reader.has(key)) return std::nullopt;
   return reader.number(key, 0.0, range);
+}
+
+/// Reads what `playpen fuzz` may change.
+void read_fuzz_section(Reader& root, sim::FuzzDescription& fuzz) {
+  std::optional<Reader> section = root.object("fuzz");
+  if (!section) return;
+  sim::io::read_fields(*section, sim::fields_of<sim::FuzzDescription>(), &fuzz);
+  section->finish();
 }
 
 class TaskReader {
@@ -65,6 +74,8 @@ class TaskReader {
       if (need == FigureNeed::kMap) require_map(root, item, "figure");
       if (need == FigureNeed::kGoal) require_goal(root, item, "figure");
     });
+    sim::FuzzDescription fuzz;
+    read_fuzz_section(root, fuzz);
     root.finish();
   }
 
@@ -282,6 +293,10 @@ Task read_task(const std::string& path) {
   TaskReader reader(path);
   sim::io::read_settings(path, "task", [&reader](Reader& root) { reader.read(root); });
   return reader.take();
+}
+
+void read_fuzz(const std::string& path, sim::FuzzDescription& fuzz) {
+  sim::io::read_settings(path, "task", [&fuzz](Reader& root) { read_fuzz_section(root, fuzz); });
 }
 
 Task read_task_text(std::string_view text, const std::string& file) {

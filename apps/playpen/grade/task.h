@@ -10,6 +10,7 @@
 #include "grade/rubric.h"
 #include "playerlike/host/task_rules.h"
 #include "sim/core/pose.h"
+#include "sim/world/fuzz.h"
 
 /// The implementation of `playpen grade`, without argument parsing.
 namespace playpen::grade {
@@ -79,6 +80,10 @@ inline constexpr std::string_view kTaskSuffix = ".task.json";
 /// Reads a task file. Names of worlds in it are relative to its folder.
 /// @throws sim::ConfigError with every issue of the file (docs/errors.md).
 [[nodiscard]] Task read_task(const std::string& path);
+
+/// Reads the section "fuzz" of a task file into that of its world: the task's keys replace the
+/// world's. @throws sim::ConfigError as read_task().
+void read_fuzz(const std::string& path, sim::FuzzDescription& fuzz);
 
 /// Reads a task from text. `file` is the name in messages; worlds are relative to its folder.
 [[nodiscard]] Task read_task_text(std::string_view text, const std::string& file);

@@ -22,6 +22,14 @@ void Device::set_active(bool active, RobotControl& robot) {
   if (!active_) deactivated(robot);
 }
 
+void Device::archive(StateArchive& archive) {
+  auto state = static_cast<std::uint8_t>((active_ ? 1U : 0U) | (blind_ ? 2U : 0U));
+  archive(state);
+  archive.expect(state <= 3, "the state of a device");
+  active_ = (state & 1U) != 0;
+  blind_ = (state & 2U) != 0;
+}
+
 Sensor::Sensor(std::string name, std::string type, double frequency_hz, double latency_s)
     : Device(std::move(name), std::move(type)),
       frequency_hz_(frequency_hz),

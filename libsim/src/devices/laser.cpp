@@ -62,6 +62,7 @@ void Laser::measure(const StepContext& context) {
       if (noise_.uniform() < params_.dropouts) range = params_.range_max_m;
     }
   }
+  if (blind()) std::ranges::fill(reading.ranges_m, params_.range_max_m);
   reading.X_WB = context.body.X_WB;
 }
 

@@ -137,6 +137,7 @@ void Ranger::measure(const StepContext& context) {
       range_m = std::clamp(range_m + noise_.gaussian(sigma_m), 0.0, range_max_m);
     }
     if (params_.dropouts > 0.0 && noise_.uniform() < params_.dropouts) range_m = range_max_m;
+    if (blind()) range_m = range_max_m;
     reading.ranges_m[i] = range_m;
   }
 }

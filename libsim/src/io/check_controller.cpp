@@ -342,6 +342,29 @@ class ControllerChecker {
     }
   }
 
+  void check(const FaultAction& action, const std::string& place) {
+    const auto robot = robots_.find(action.robot);
+    if (!robots_trusted_ || !trusted_(place) || robot == robots_.end()) return;
+    const auto& devices = robot->second->devices;
+    const auto device = std::ranges::find(devices, action.device, &DeviceDescription::name);
+    if (device == devices.end()) {
+      std::vector<std::string> names;
+      for (const DeviceDescription& one : devices) names.push_back(one.name);
+      return add_unknown("world/missing-device", place + "/device",
+                         "the name of a device of robot " + action.robot, action.device, names);
+    }
+    const auto need_type = [&](std::initializer_list<const char*> types, const char* words) {
+      if (std::ranges::find(types, device->type) != types.end()) return;
+      add("world/missing-device", place + "/device", words,
+          in_quotes(action.device) + ", which is of type " + device->type);
+    };
+    if (action.kind == FaultAction::Kind::kBlind) {
+      need_type({"laser", "sonar", "infrared"}, "a laser, sonar or infrared ranger");
+    } else if (action.kind == FaultAction::Kind::kJump) {
+      need_type({"odometry", "pose"}, "an odometry or pose device");
+    }
+  }
+
   const WorldDescription& world_;
   const ControllerDescription& controller_;
   const std::function<bool(const std::string&)>& trusted_;

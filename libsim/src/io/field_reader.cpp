@@ -47,6 +47,33 @@ void read_names(Reader& settings, const Field& field, std::vector<std::string>& 
   }
 }
 
+/// A list of some of the words of a field, each once.
+void read_words(Reader& settings, const Field& field, std::vector<std::string>& words) {
+  const std::optional<Reader> list = settings.child(field.name);
+  if (!list) return;
+  const std::vector<std::string> known(field.words.begin(), field.words.end());
+  std::vector<std::string> known_in_quotes;
+  for (const std::string& word : known) known_in_quotes.push_back(in_quotes(word));
+  words.clear();
+  for (Reader& element : settings.array(field.name)) {
+    const std::string word = read_name(element);
+    if (!element.is_string()) continue;
+    if (std::ranges::find(known, word) == known.end()) {
+      const std::string near = nearest_word(word, known);
+      element.issue("world/unknown-value", list_text(known_in_quotes), in_quotes(word),
+                    near.empty() ? "" : "did you mean " + in_quotes(near) + '?');
+    } else if (std::ranges::find(words, word) != words.end()) {
+      element.issue("world/unknown-value", "each word once", in_quotes(word) + " again");
+    } else {
+      words.push_back(word);
+    }
+  }
+  if (list->is_array() && list->elements().size() < field.min_count) {
+    settings.issue("world/out-of-range", "at least one of " + list_text(known_in_quotes), "none",
+                   "", field.name);
+  }
+}
+
 void read_points(Reader& settings, const Field& field, std::vector<Vec2>& points) {
   const std::optional<Reader> list = settings.child(field.name);
   if (!list) return;
@@ -199,6 +226,9 @@ void read_as_usual(Reader& settings, const Field& field, void* object) {
       return;
     }
     case FieldType::kTexts:
+      if (!field.words.empty()) {
+        return read_words(settings, field, *static_cast<std::vector<std::string>*>(value));
+      }
       return read_names(settings, field, *static_cast<std::vector<std::string>*>(value));
     case FieldType::kPoints:
       return read_points(settings, field, *static_cast<std::vector<Vec2>*>(value));

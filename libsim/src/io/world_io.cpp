@@ -66,6 +66,7 @@ class WorldReader {
     read_canvas(root);
     read_robots(root);
     world_.controller = read_controller(root);
+    read_some(root, world_, {"fuzz"});
     root.finish();
     for (ConfigIssue& issue : check_world_parts(world_, [this](const std::string& pointer) {
            return !document_.has_issue_at(pointer);

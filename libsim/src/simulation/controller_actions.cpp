@@ -28,6 +28,21 @@ const Kind* reading_of(const RobotParts& robot, int device) {
   return reading == nullptr || reading->sequence == 0 ? nullptr : reading;
 }
 
+// What a fault does, after "the laser of r1".
+const char* fault_words(FaultAction::Kind kind) {
+  switch (kind) {
+    case FaultAction::Kind::kDead:
+      return " is dead";
+    case FaultAction::Kind::kBlind:
+      return " is blind";
+    case FaultAction::Kind::kJump:
+      return " jumps";
+    case FaultAction::Kind::kNone:
+      break;
+  }
+  return " works again";
+}
+
 }  // namespace
 
 int Simulation::Impl::Controller::robot_of(const std::string& name, int cause) const {
@@ -238,6 +253,17 @@ void Simulation::Impl::Controller::act(const MoveAction& action, const Cause&) {
   const std::optional<int> obstacle = impl_.find_obstacle(action.obstacle);
   SIM_ASSERT(obstacle.has_value() && impl_.obstacle_motions);
   impl_.obstacle_motions->move(*obstacle, action.motion);
+}
+
+template <>
+void Simulation::Impl::Controller::act(const FaultAction& action, const Cause& cause) {
+  const int index = robot_of(action.robot, cause.robot);
+  if (index < 0) return;
+  const auto robot = static_cast<std::size_t>(index);
+  if (!impl_.set_fault(robot, action)) return;
+  impl_.record(
+      ArenaEventKind::kMessage, cause.name, {},
+      "the " + action.device + " of " + impl_.world.robots[robot].name + fault_words(action.kind));
 }
 
 void Simulation::Impl::Controller::act(const std::vector<ArenaAction>& actions,

@@ -488,6 +488,20 @@ void Simulation::set_active(DeviceId id, bool active) {
   impl_->device(id).set_active(active, control);
 }
 
+bool Simulation::Impl::set_fault(std::size_t robot, const FaultAction& fault) {
+  const std::optional<int> index = find_named(world.robots[robot].devices, fault.device);
+  if (!index) return false;
+  Device& device = *robots[robot].devices[static_cast<std::size_t>(*index)];
+  if (fault.kind == FaultAction::Kind::kJump) {
+    const std::optional<Pose> estimate = device.pose_estimate();
+    return estimate && !device.apply(SetPoseCommand{*estimate * fault.by});
+  }
+  Control control(*this, robot);
+  device.set_blind(fault.kind == FaultAction::Kind::kBlind);
+  device.set_active(fault.kind != FaultAction::Kind::kDead, control);
+  return true;
+}
+
 bool Simulation::active(DeviceId id) const { return impl_->device(id).active(); }
 
 std::optional<std::string> Simulation::set_dynamics(bool on) {

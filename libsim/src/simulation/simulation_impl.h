@@ -128,6 +128,8 @@ struct Simulation::Impl {
   [[nodiscard]] ObstacleDescription& obstacle(int index) {
     return world.arena.obstacles.at(static_cast<std::size_t>(index));
   }
+  // Gives a device a fault. @return whether the robot has such a device.
+  bool set_fault(std::size_t robot, const FaultAction& fault);
   // Keeps and logs an event if the world records events.
   void record(ArenaEventKind kind, std::string what, std::string who = {}, std::string text = {},
               double value = 0.0) {

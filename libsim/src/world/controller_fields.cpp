@@ -198,6 +198,20 @@ constexpr Field kMoveAction[] = {
         .in_format(io::kMoveFormat),
 };
 
+constexpr const char* kFaults[] = {"dead", "blind", "jump", "none"};
+constexpr Field kFaultAction[] = {
+    robot_field<&FaultAction::robot>(),
+    field<&FaultAction::device>("device", "", "name of one of its devices")
+        .needed("the name of a device of the robot"),
+    field<&FaultAction::kind>(
+        "kind", "",
+        "dead: it is switched off; blind: a laser, sonar or infrared ranger reads its maximum "
+        "everywhere; jump: the pose of an odometry or pose device changes at once; none: it is "
+        "repaired")
+        .one_of(kFaults),
+    field<&FaultAction::by>("by", "m, degrees", "of a jump, in the frame of the robot"),
+};
+
 template <BlocksAction::Change kChange, const auto& kFields>
 [[nodiscard]] constexpr Kind blocks_kind(const char* word) {
   return kind<ArenaAction, &BlocksAction::change, kChange, kFields>(word, "").bare();
@@ -219,6 +233,7 @@ constexpr Kind kActionKinds[] = {
     kind<ArenaAction, &SwitchAction::on, false, kDisableAction>("disable", "").bare(),
     kind<ArenaAction, EndAction, kEndAction>("end", "ends the run"),
     kind<ArenaAction, MoveAction, kMoveAction>("move", "moves or turns an obstacle"),
+    kind<ArenaAction, FaultAction, kFaultAction>("fault", "gives a device a fault"),
 };
 
 // --- Configurations, timers and traps

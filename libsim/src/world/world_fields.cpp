@@ -436,6 +436,9 @@ constexpr Field kWorldFields[] = {
         "[the arena controller](arena_controller.md), which changes the arena during a run")
         .defaults_to("the arena changes only by commands of clients")
         .read_apart(),
+    field<&WorldDescription::fuzz>(
+        "fuzz", "", "[what `playpen fuzz` may change](fuzz.md#bounds); runs ignore it")
+        .not_identity(),
 };
 
 }  // namespace

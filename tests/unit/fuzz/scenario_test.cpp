@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "fuzz/situations.h"
+#include "temporary_folder.h"
 
 namespace playpen::fuzz {
 namespace {
@@ -43,7 +46,17 @@ class ScenarioTest : public testing::Test {
     mover.moves = true;
     mover.goes_to = {1.5, 3.5};
     mover.speed_mps = 0.2;
-    scenario.elements = {box, door, mover};
+    Element corridor;
+    corridor.shape = Element::Shape::kCorridor;
+    corridor.center = {1.8, 0.6};
+    corridor.size = {0.5, 0.05};
+    corridor.opening_m = 0.32;
+    scenario.elements = {box, door, mover, corridor};
+    scenario.faults = {
+        {.kind = DeviceFault::Kind::kDead, .device = "laser", .at_s = 12.3},
+        {.kind = DeviceFault::Kind::kGap, .device = "laser", .at_s = 4.0, .for_s = 1.5},
+        {.kind = DeviceFault::Kind::kJump, .device = "odometry", .x_m = 0.2, .yaw_deg = 30},
+        {.kind = DeviceFault::Kind::kDrift, .device = "odometry", .scale = 1.13}};
     scenario.extended = {{"d1"}};
     scenario.real = true;
     scenario.latency_s = 0.15;
@@ -61,11 +74,20 @@ TEST_F(ScenarioTest, World_HasWhatTheScenarioAdds) {
   EXPECT_EQ(world.simulation.seed, 7U);
   EXPECT_EQ(world.simulation.realism, sim::Realism::kReal);
   EXPECT_EQ(world.robots[0].pose.x_m, 0.63);
-  // A box, two parts of a door, a circle, after those of the arena.
-  EXPECT_THAT(world.arena.obstacles, SizeIs(base.world().arena.obstacles.size() + 4));
-  EXPECT_TRUE(world.arena.obstacles.back().motion);
+  // A box, two parts of a door, a circle, two walls of a corridor, after those of the arena.
+  const std::size_t before = base.world().arena.obstacles.size();
+  ASSERT_THAT(world.arena.obstacles, SizeIs(before + 6));
+  EXPECT_TRUE(world.arena.obstacles[before + 3].motion);
+  // The corridor is free from 0.44 m to 0.76 m.
+  EXPECT_NEAR(world.arena.obstacles[before + 4].center.y(), 0.44 - 0.025, 0.006);
+  EXPECT_NEAR(world.arena.obstacles[before + 5].center.y(), 0.76 + 0.025, 0.006);
+  ASSERT_THAT(world.controller.timers, SizeIs(4));
+  const auto& gap = std::get<sim::FaultAction>(world.controller.timers[2].actions.at(0));
+  EXPECT_EQ(gap.kind, sim::FaultAction::Kind::kNone);
+  EXPECT_EQ(world.controller.timers[2].at_s, 5.5);
   const auto text = nlohmann::json::parse(made->text);
   EXPECT_EQ(text["robots"][0]["devices"]["laser"]["latency"], 0.15);
+  EXPECT_EQ(text["robots"][0]["devices"]["odometry"]["scale"], 1.13);
   // The other settings of the laser are as before.
   EXPECT_EQ(text["robots"][0]["devices"]["laser"]["frequency"], 10);
 }
@@ -124,7 +146,7 @@ TEST_F(ScenarioTest, Simpler_EachRemovesOrRoundsOneThing) {
   EXPECT_TRUE(std::ranges::any_of(all, [](const Scenario& s) { return s.elements.empty(); }));
   // Step by step everything goes.
   Scenario now = scenario;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const std::vector<Scenario> next = simpler(now);
     if (next.empty()) break;
     now = *std::ranges::min_element(next, {}, weight_of);
@@ -140,6 +162,11 @@ TEST_F(ScenarioTest, Description_NamesEverything) {
                     HasSubstr("a round obstacle of 0.1 m at (1.2, 3.5) that moves to (1.5, 3.5) "
                               "and back at 0.2 m/s"),
                     HasSubstr("the start (0.63, 0.72), 30 degrees"), HasSubstr("raised blocks d1"),
+                    HasSubstr("a corridor of 0.5 m that is 0.32 m wide at (1.8, 0.6)"),
+                    HasSubstr("the device laser dead from 12.3 s on"),
+                    HasSubstr("the device laser without readings for 1.5 s from 4 s on"),
+                    HasSubstr("the device odometry that jumps by 0.2 m and 30 degrees at 1 s"),
+                    HasSubstr("the device odometry that measures 1.13 times the distance"),
                     HasSubstr("late by 0.15 s"), HasSubstr("loses 5 % of its beams"),
                     HasSubstr(" and seed 7")));
 }
@@ -157,6 +184,158 @@ TEST_F(ScenarioTest, Situations_CountNewOnesOnce) {
   EXPECT_EQ(situations.add(result, base, *world), 2U);
   EXPECT_EQ(situations.add(result, base, *world), 0U);
   EXPECT_EQ(situations.count(), 2U);
+}
+
+TEST_F(ScenarioTest, ManyElements_AreLeftOutInHalves) {
+  Scenario scenario;
+  scenario.elements.resize(8);
+  std::set<std::size_t> sizes;
+  for (const Scenario& one : simpler(scenario)) sizes.insert(one.elements.size());
+  // Without all, four, two and one of them.
+  EXPECT_EQ(sizes, (std::set<std::size_t>{0, 4, 6, 7}));
+}
+
+TEST_F(ScenarioTest, MapOfManyWalls_IsOnePhrase) {
+  Scenario scenario;
+  Element wall;
+  wall.of_map = true;
+  scenario.elements.assign(5, wall);
+  EXPECT_THAT(description_of(scenario), HasSubstr("a wall of 0.1 m x 0.1 m at (0, 0), a wall"));
+  scenario.elements.push_back(wall);
+  EXPECT_EQ(description_of(scenario), "a map of 6 walls");
+}
+
+/// A world file with a section "fuzz".
+class FuzzSection : public testing::Test {
+ protected:
+  [[nodiscard]] std::string file(const std::string& section) const {
+    std::ofstream(folder_ / "world.json")
+        << R"({"arena": {"size": [6, 4]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1},
+             "devices": {"laser": {}}}], "fuzz": )"
+        << section << '}';
+    return folder_ / "world.json";
+  }
+  const test_support::TemporaryFolder folder_;
+};
+
+TEST_F(FuzzSection, BoundsHoldInAllScenarios) {
+  const Base base(file(R"({
+      "without": ["starts"], "with": ["faults"],
+      "area": {"center": [3, 2], "size": [2, 1]},
+      "obstacles": {"most": 2, "size": [0.05, 0.2], "shapes": ["circle", "corridor"]},
+      "corridors": {"width": [0.4, 0.5]},
+      "moving": {"speed": [0.1, 0.15]},
+      "noise": {"real": false, "latency": [0.01, 0.02], "dropouts": [0.5, 0.6]},
+      "faults": {"most": 1, "kinds": ["gap"], "at": [3, 4]}})"),
+                  "", {.maps = false});
+  sim::RandomStream random(1, "");
+  int faults = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Scenario one = base.mutated(base.random(random), random);
+    EXPECT_FALSE(one.start);
+    EXPECT_LE(one.elements.size(), 2U);
+    for (const Element& element : one.elements) {
+      EXPECT_LE((element.center - sim::Vec2(3, 2)).cwiseAbs().x(), 1.001);
+      EXPECT_LE((element.center - sim::Vec2(3, 2)).cwiseAbs().y(), 0.501);
+      if (element.shape == Element::Shape::kCorridor) {
+        EXPECT_FALSE(element.moves);
+        EXPECT_GE(element.opening_m, 0.4);
+        EXPECT_LE(element.opening_m, 0.5);
+      } else {
+        EXPECT_EQ(element.shape, Element::Shape::kCircle);
+        EXPECT_GE(element.size.x(), 0.05);
+        EXPECT_LE(element.size.x(), 0.2);
+      }
+      if (element.moves) {
+        EXPECT_NEAR(element.speed_mps, 0.125, 0.026);
+      }
+    }
+    EXPECT_FALSE(one.real);
+    if (one.latency_s > 0.0) {
+      EXPECT_NEAR(one.latency_s, 0.015, 0.006);
+    }
+    if (one.dropouts > 0.0) {
+      EXPECT_NEAR(one.dropouts, 0.55, 0.06);
+    }
+    EXPECT_LE(one.faults.size(), 1U);
+    for (const DeviceFault& fault : one.faults) {
+      ++faults;
+      EXPECT_EQ(fault.kind, DeviceFault::Kind::kGap);
+      EXPECT_NEAR(fault.at_s, 3.5, 0.51);
+    }
+  }
+  EXPECT_GT(faults, 20);
+}
+
+TEST_F(FuzzSection, SimplerScenario_StaysWithinBounds) {
+  const Base base(file(R"({
+      "without": ["moving"], "area": {"center": [3, 2], "size": [2, 1]},
+      "obstacles": {"size": [0.1, 0.2], "shapes": ["box", "door"]},
+      "doors": {"width": [0.42, 0.44]}})"),
+                  "");
+  Scenario scenario;
+  scenario.start = grade::StartPose{3.0, 2.0, 0};
+  Element box;
+  box.center = {3.2, 2.2};
+  Element door = box;
+  door.shape = Element::Shape::kDoor;
+  door.opening_m = 0.43;
+  scenario.elements = {box, door};
+  EXPECT_TRUE(base.allows(scenario));
+  const auto expect_refused = [&](const auto& change) {
+    Scenario other = scenario;
+    change(other);
+    EXPECT_FALSE(base.allows(other)) << description_of(other);
+  };
+  expect_refused([](Scenario& s) { s.start->x_m = 4.1; });
+  expect_refused([](Scenario& s) { s.elements[0].center.y() = 2.6; });
+  expect_refused([](Scenario& s) { s.elements[0].size.y() = 0.3; });
+  expect_refused([](Scenario& s) { s.elements[0].shape = Element::Shape::kCircle; });
+  expect_refused([](Scenario& s) { s.elements[0].moves = true; });
+  expect_refused([](Scenario& s) { s.elements[1].opening_m = 0.4; });
+}
+
+TEST_F(FuzzSection, CommandNarrowsIt) {
+  const std::string name = file(R"({"with": ["faults"], "without": ["maps"]})");
+  EXPECT_TRUE(*Base(name, "").freedom().faults);
+  const Base narrow(name, "", {.blocks = false, .faults = false});
+  EXPECT_FALSE(*narrow.freedom().faults);
+  EXPECT_FALSE(narrow.freedom().blocks);
+  EXPECT_FALSE(narrow.freedom().maps);
+  EXPECT_TRUE(narrow.freedom().starts);
+  EXPECT_FALSE(*Base(file("{}"), "").freedom().faults);
+}
+
+TEST_F(FuzzSection, TaskReplacesKeys) {
+  std::ofstream(folder_ / "own.task.json")
+      << R"({"worlds": ["world.json"], "fuzz": {"without": ["noise"]}})";
+  const Base base(file(R"({"without": ["starts"]})"), "", {.task_file = folder_ / "own.task.json"});
+  EXPECT_TRUE(base.freedom().starts);
+  EXPECT_FALSE(base.freedom().noise);
+}
+
+TEST_F(FuzzSection, AreaWithoutPlace_Error) {
+  const std::string name = file(R"({"area": {"center": [9, 2], "size": [2, 1]}})");
+  EXPECT_THAT([&] { Base(name, ""); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("no place for the robot")));
+}
+
+TEST_F(FuzzSection, OnlyOpenWorldsGetMaps) {
+  const Base open(file("{}"), "");
+  EXPECT_TRUE(open.freedom().maps);
+  int maps = 0;
+  for (int i = 0; i < 60; ++i) {
+    sim::RandomStream random(1, std::to_string(i));
+    const Scenario one = open.random(random);
+    const bool has_map = std::ranges::any_of(one.elements, &Element::of_map);
+    maps += has_map && open.world_of(one) ? 1 : 0;
+  }
+  EXPECT_GT(maps, 3);
+  EXPECT_FALSE(Base(kIntroWorld, "").freedom().maps);
+  std::ofstream(folder_ / "full.json")
+      << R"({"arena": {"size": [2, 2], "obstacles": [{"center": [1.25, 1], "size": [1.5, 2]}]},
+             "robots": [{"pose": {"x": 0.2, "y": 1}}]})";
+  EXPECT_FALSE(Base(folder_ / "full.json", "").freedom().maps);
 }
 
 TEST(FuzzBase, UnknownRobot_Error) {

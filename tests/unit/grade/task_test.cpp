@@ -276,6 +276,10 @@ const BadTask kBadTasks[] = {
      R"({"worlds": [{"world": "b.json", "goal": {"x": 1, "y": 1}}, "a.json"],
          "thresholds": {"max_path_ratio": 2}})",
      "task/missing-goal", "/thresholds/max_path_ratio", "a \"goal\"", "none for \"a\""},
+    {"fuzz_word", R"("fuzz": {"without": ["wals"]})", "world/unknown-value", "/fuzz/without/0",
+     "\"maps\"", "\"wals\""},
+    {"fuzz_key", R"("fuzz": {"doors": {"widht": [1, 2]}})", "world/unknown-key",
+     "/fuzz/doors/widht", "width", "widht"},
     {"schema_number", R"("$schema": 1)", "world/wrong-type", "/$schema", "a text", "1"},
 };
 
@@ -305,12 +309,29 @@ TEST_F(TaskTest, SeveralFaults_ReportedTogether) {
               SizeIs(3));
 }
 
+TEST_F(TaskTest, Fuzz_ReplacesKeysOfWorld) {
+  const std::string file = folder_ / "own.task.json";
+  std::ofstream(file) << R"({"worlds": ["a.json"], "fuzz": {
+    "without": ["moving"], "obstacles": {"most": 2}, "noise": {"latency": [0, 0.1]}}})";
+  static_cast<void>(read_task(file));
+  sim::FuzzDescription fuzz;
+  fuzz.without = {"starts", "noise"};
+  fuzz.obstacles.shapes = {"circle"};
+  fuzz.noise.real = false;
+  read_fuzz(file, fuzz);
+  EXPECT_THAT(fuzz.without, ElementsAre("moving"));
+  EXPECT_EQ(fuzz.obstacles.most, 2);
+  EXPECT_THAT(fuzz.obstacles.shapes, ElementsAre("circle"));  // as before
+  EXPECT_FALSE(fuzz.noise.real);
+  EXPECT_EQ(fuzz.noise.latency_s, sim::Vec2(0.0, 0.1));
+}
+
 /// The keys that the reader knows in each object, from its messages about unknown keys.
 std::map<std::string, std::set<std::string>> keys_of_reader() {
   return test_support::known_keys([] {
     static_cast<void>(read_task_text(
         R"({"zz": 0, "worlds": [{"zz": 0, "world": "x"}], "goal": {"zz": 0, "x": 0, "y": 0},
-            "may_use": {"zz": 0}, "thresholds": {"zz": 0}, "map": "m",
+            "may_use": {"zz": 0}, "fuzz": {"zz": 0}, "thresholds": {"zz": 0}, "map": "m",
             "rubric": [{"zz": 0, "figure": "score", "points": 1, "best": 1, "worst": 0},
                        {"zz": 0, "figure": "score", "steps": [{"zz": 0, "at_most": 1, "points": 1}]},
                        {"figure": "score", "steps": [{"zz": 0, "at_least": 1, "points": 1}]}]})",
@@ -325,6 +346,7 @@ TEST(TaskSchema, HasAllKeysWithDescriptions) {
                                                        {"/worlds/0", "world"},
                                                        {"/goal", "goal"},
                                                        {"/may_use", "may_use"},
+                                                       {"/fuzz", "fuzz"},
                                                        {"/thresholds", "thresholds"},
                                                        {"/rubric/0", "rubric_item"},
                                                        {"/rubric/1", "rubric_item"},

@@ -173,7 +173,7 @@ std::map<std::string, std::set<std::string>> keys_of_reader() {
           {"zz": 0, "place": {"zz": 0, "obstacle": "", "pose": {}}},
           {"text": {"zz": 0, "text": ""}}, {"canvas": {"zz": 0}}, {"restart": {"zz": 0}},
           {"score": {"zz": 0}}, {"end": {"zz": 0, "verdict": "passed"}},
-          {"move": {"zz": 0, "obstacle": "", "to": [1, 1]}}
+          {"move": {"zz": 0, "obstacle": "", "to": [1, 1]}}, {"fault": {"zz": 0, "device": ""}}
         ]
       }],
       "traps": [
@@ -181,6 +181,11 @@ std::map<std::string, std::set<std::string>> keys_of_reader() {
         {"region": {"circle": {"zz": 0, "center": [1, 1]}}},
         {"near": {"zz": 0, "place": [1, 1]}}
       ]
+    },
+    "fuzz": {
+      "zz": 0, "obstacles": {"zz": 0}, "moving": {"zz": 0}, "doors": {"zz": 0},
+      "corridors": {"zz": 0}, "maps": {"zz": 0}, "noise": {"zz": 0},
+      "faults": {"zz": 0}
     }
   })";
   return test_support::known_keys(
@@ -232,11 +237,20 @@ TEST(WorldSchema, HasKeysOfReader) {
       {"/controller/timers/0/do/4/score", "action_score"},
       {"/controller/timers/0/do/5/end", "action_end"},
       {"/controller/timers/0/do/6/move", "action_move"},
+      {"/controller/timers/0/do/7/fault", "action_fault"},
       {"/controller/traps/0", "trap"},
       {"/controller/traps/0/region", "region"},
       {"/controller/traps/0/region/box", "region_box"},
       {"/controller/traps/1/region/circle", "region_circle"},
       {"/controller/traps/2/near", "near"},
+      {"/fuzz", "fuzz"},
+      {"/fuzz/obstacles", "obstacles"},
+      {"/fuzz/moving", "moving"},
+      {"/fuzz/doors", "doors"},
+      {"/fuzz/corridors", "corridors"},
+      {"/fuzz/maps", "maps"},
+      {"/fuzz/noise", "noise"},
+      {"/fuzz/faults", "faults"},
   };
   const std::map<std::string, std::set<std::string>> known = keys_of_reader();
   ASSERT_EQ(known.size(), definitions.size());
@@ -260,6 +274,19 @@ void expect_generated(const std::string& name, const std::function<Json(const Js
 }
 
 TEST(WorldSchema, World_MatchesFields) { expect_generated("world.schema.json", world_schema); }
+
+TEST(WorldSchema, FuzzOfTask_MatchesFields) {
+  expect_generated("task.schema.json", [](const Json& now) {
+    Json made = now;
+    made["$defs"]["fuzz"] = {{"description",
+                              "What playpen fuzz may change; the keys replace those "
+                              "of the world. docs/fuzz.md explains them."}};
+    FuzzDescription defaults;
+    made["$defs"]["fuzz"].update(
+        test::SchemaMaker().object(fields_of<FuzzDescription>(), &defaults));
+    return made;
+  });
+}
 
 TEST(WorldSchema, Model_MatchesFields) {
   expect_generated("model.schema.json", [](const Json&) { return model_schema(); });
@@ -303,6 +330,15 @@ TEST(WorldPages, Tables_MatchFields) {
   expect_table(moving, "## Obstacles that can be pushed",
                table_of<ObstacleDescription>({"mass", "friction"}));
 
+  const std::string fuzz = "fuzz.md";
+  expect_table(fuzz, "## Bounds", table_of<FuzzDescription>());
+  expect_table(fuzz, "### `obstacles`", table_of<FuzzDescription::Obstacles>());
+  expect_table(fuzz, "### `moving`", table_of<FuzzDescription::Moving>());
+  expect_table(fuzz, "### `doors`, `corridors`", table_of<FuzzDescription::Passages>());
+  expect_table(fuzz, "### `maps`", table_of<FuzzDescription::Maps>());
+  expect_table(fuzz, "### `noise`", table_of<FuzzDescription::Noise>());
+  expect_table(fuzz, "### `faults`", table_of<FuzzDescription::Faults>());
+
   const std::string controller = "arena_controller.md";
   expect_table(controller, "## Configurations", table_of<ArenaConfiguration>());
   expect_table(controller, "## Blocks that take their time",
@@ -310,10 +346,12 @@ TEST(WorldPages, Tables_MatchFields) {
   expect_table(controller, "## Timers", table_of<TimerDescription>());
   expect_table(controller, "## Traps", table_of<TrapDescription>());
   for (const Kind& kind : field_named(fields_of<TimerDescription>(), "do").kinds) {
-    if (kind.word != std::string("move")) continue;
-    ArenaAction move;
-    expect_table(moving, "## The action `move`",
-                 test::fields_table(kind.table(), kind.make(&move)));
+    ArenaAction action;
+    const auto table = [&] { return test::fields_table(kind.table(), kind.make(&action)); };
+    if (kind.word == std::string("move")) expect_table(moving, "## The action `move`", table());
+    if (kind.word == std::string("fault")) {
+      expect_table(controller, "## Faults of devices", table());
+    }
   }
 }
 

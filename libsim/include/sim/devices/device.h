@@ -305,6 +305,10 @@ class Device {
   /// no commands and does not act.
   [[nodiscard]] bool active() const noexcept { return active_; }
   void set_active(bool active, RobotControl& robot);
+  /// Whether a sensor of ranges reads its maximum everywhere (FaultAction); initially false. Other
+  /// devices ignore it.
+  [[nodiscard]] bool blind() const noexcept { return blind_; }
+  void set_blind(bool blind) noexcept { blind_ = blind; }
 
   /// Called once after all devices of the world are created. A device that is wired to others looks
   /// them up here.
@@ -385,7 +389,7 @@ class Device {
   /// Writes the state, or reads one that a device with the same settings has written. The state is
   /// everything that a step or a command changes. Overrides call the base class's function first.
   /// @throws SnapshotError if the bytes are invalid; the device's behaviour is then undefined.
-  virtual void archive(StateArchive& archive) { archive(active_); }
+  virtual void archive(StateArchive& archive);
 
  protected:
   /// Called when active() has become false; the device releases the robot here.
@@ -393,6 +397,7 @@ class Device {
 
  private:
   bool active_ = true;
+  bool blind_ = false;
   bool acts_ = true;
   bool integrates_ = true;
   std::string name_;

@@ -181,10 +181,25 @@ struct EndAction {
   std::string reason;  ///< for people
 };
 
+/// Gives a device of a robot a fault, instead of the one that it has.
+struct FaultAction {
+  /// What is wrong with a device.
+  enum class Kind {
+    kDead,   ///< it is switched off: a sensor makes no readings, motors stop
+    kBlind,  ///< a laser, sonar or infrared ranger reads its maximum range everywhere
+    kJump,   ///< the pose of an odometry or pose device jumps once; no lasting fault
+    kNone,   ///< nothing: it is repaired
+  };
+  std::string robot;        ///< "": the robot that sprang the trap
+  std::string device;       ///< its name
+  Kind kind = Kind::kDead;  ///< what happens
+  Pose by;                  ///< of a jump: the new estimate is the old one times this
+};
+
 /// An action of a timer or a trap.
-using ArenaAction =
-    std::variant<ConfigurationAction, BlocksAction, PlaceAction, MessageAction, TextAction,
-                 CanvasAction, RestartAction, ScoreAction, SwitchAction, EndAction, MoveAction>;
+using ArenaAction = std::variant<ConfigurationAction, BlocksAction, PlaceAction, MessageAction,
+                                 TextAction, CanvasAction, RestartAction, ScoreAction, SwitchAction,
+                                 EndAction, MoveAction, FaultAction>;
 
 /// Acts at certain times. Times count from when the timer is switched on.
 struct TimerDescription {

@@ -17,6 +17,7 @@
 #include "sim/core/pose.h"
 #include "sim/core/time.h"
 #include "sim/world/controller.h"
+#include "sim/world/fuzz.h"
 #include "sim/world/obstacle_motion.h"
 
 /// The description of a world: plain structs without behaviour. io fills them from a file; a
@@ -287,6 +288,7 @@ struct WorldDescription {
   int robots_on_port = 0;  ///< Player port of all robots without their own port; 0: none
   CanvasDescription canvas;
   ControllerDescription controller;  ///< timers, traps and configurations of the arena
+  FuzzDescription fuzz;              ///< what `playpen fuzz` may change; not used by simulations
 };
 
 }  // namespace sim
