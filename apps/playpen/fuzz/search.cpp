@@ -56,7 +56,6 @@ const Search::Parent& Search::chosen_parent(sim::RandomStream& random) const {
 }
 
 double Search::random_share() const {
-  if (rare_.empty()) return 1.0;
   // One new situation more than there were, so that neither starts at 0.
   const auto rate = [this](std::size_t i) { return (news_of_[i] + 1.0) / (runs_of_[i] + 1.0); };
   return std::clamp(rate(0) / (rate(0) + rate(1)), kLeastRandom, kMostRandom);
@@ -64,7 +63,7 @@ double Search::random_share() const {
 
 Scenario Search::next_scenario(sim::RandomStream& random, std::size_t& parent) const {
   parent = 0;
-  if (!settings_.guided || random.uniform() < random_share()) {
+  if (!settings_.guided || rare_.empty() || random.uniform() < random_share()) {
     return base_.random(random);
   }
   const Parent& first = chosen_parent(random);

@@ -34,7 +34,7 @@ constexpr Fault kFaults[] = {
     {"none", "has no fault"},
     {"sign", "steers to the wrong side while it drives"},
     {"degrees", "predicts its turns in degrees instead of radians"},
-    {"shifted", "takes the beams for those 60 indices away"},
+    {"shifted", "takes the beams for those 75 indices away"},
     {"narrow", "looks at the beams within 0.3 rad of its heading only"},
     {"integer", "rounds the index of a beam down to a sector in an integer division"},
     {"overflow", "compares headings without the jump at 180 degrees"},
@@ -44,8 +44,8 @@ constexpr Fault kFaults[] = {
     {"zero", "divides by the number of beams that are longer than 0.4 m, which can be 0"},
     {"hang", "waits for a free way without reading the next scan"},
     {"oscillates", "chooses the side of its turn anew each time"},
-    {"tries", "drives back without looking after three turns with little way between"},
-    {"log", "has room for 14 turns in its log"},
+    {"tries", "drives back without looking after a second turn with little way before it"},
+    {"log", "has room for 11 turns in its log"},
     {"gap", "takes a smaller radius between two obstacles, to get through"},
 };
 
@@ -78,12 +78,12 @@ double speed_mps() { return has("latency") ? 0.3 : 0.22; }
 double stop_way_m() { return has("latency") ? 0.07 : 0.12; }
 
 double bearing_of(const LaserProxy& laser, unsigned beam) {
-  return laser.GetBearing(has("integer") ? beam / 120 * 120 : beam);
+  return laser.GetBearing(has("integer") ? beam / 170 * 170 : beam);
 }
 
 double range_of(const LaserProxy& laser, unsigned beam) {
   const unsigned count = laser.GetCount();
-  return laser[has("shifted") ? std::min(beam + 60, count - 1) : beam];
+  return laser[has("shifted") ? std::min(beam + 75, count - 1) : beam];
 }
 
 Scan scan_of(const LaserProxy& laser) {
@@ -239,7 +239,7 @@ class Robot {
     least_yaw_rad_ = last_yaw_rad_ + 0.5 * side_;
     // Turns with less than a second of driving between them are tries of one thing.
     constexpr int kSecond = 10;
-    constexpr int kMostTries = 3;
+    constexpr int kMostTries = 1;
     tries_ = scans_ < kSecond ? tries_ + 1 : 0;
     if (tries_ > 0) std::printf("tries again, %d\n", tries_);
     if (has("tries") && tries_ >= kMostTries) back_ = 10;
@@ -317,7 +317,7 @@ class Robot {
   std::atomic<bool> is_over_{false};
   int scans_ = 0;  // since it has begun to drive
   int tries_ = 0;
-  std::array<int, 14> log_{};
+  std::array<int, 11> log_{};
   std::size_t turns_ = 0;
   std::thread repeater_;
 };
