@@ -122,6 +122,17 @@ INSTANTIATE_TEST_SUITE_P(
                             1}),
     [](const auto& one) { return std::string(one.param.name); });
 
+TEST_F(PlaypenFuzz, ProgramHangs_ItsResultsAreThoseUntilTheLimit) {
+  const std::string out = folder_ / "out";
+  const ProcessResult result = playpen({"fuzz", "par_intro", "--runs", "1", "--timeout", "1",
+                                        "--out", out, "--", ENDS_PROGRAM, "compute"});
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("1. found after"), HasSubstr("and 1 runs, hang: r1 "),
+                                HasSubstr("again: timeout 1 playpen run "),
+                                testing::Not(HasSubstr("did not happen again"))));
+  EXPECT_TRUE(fs::exists(fs::path(out) / "1/scene.png"));
+}
+
 TEST_F(PlaypenFuzz, ProgramWithoutFault_NothingFound) {
   const ProcessResult result = playpen({"fuzz", "par_intro", "--runs", "64", "--without", "moving",
                                         "--out", folder_ / "out", "--", ROAMER_PROGRAM, "none"});

@@ -94,7 +94,8 @@ std::vector<Search::Trial> Search::next_generation() {
     energies_.push_back((energies_.empty() ? 0.0 : energies_.back()) + 1.0 / std::max(runs, 1.0));
   }
   constexpr std::size_t kTries = 40;  // of a place in the generation
-  for (std::size_t i = all.size(); i < kGeneration; ++i) {
+  const std::size_t count = std::min(kGeneration, settings_.most_runs - runs_);
+  for (std::size_t i = all.size(); i < count; ++i) {
     sim::RandomStream random(settings_.seed,
                              "fuzz/" + std::to_string(generation_) + '/' + std::to_string(i));
     for (std::size_t k = 0; k < kTries; ++k) {

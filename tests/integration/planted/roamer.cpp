@@ -45,7 +45,7 @@ constexpr Fault kFaults[] = {
     {"hang", "waits for a free way without reading the next scan"},
     {"oscillates", "chooses the side of its turn anew each time"},
     {"tries", "drives back without looking after a second turn with little way before it"},
-    {"log", "has room for 11 turns in its log"},
+    {"log", "has room for 9 turns in its log"},
     {"gap", "takes a smaller radius between two obstacles, to get through"},
 };
 
@@ -317,7 +317,7 @@ class Robot {
   std::atomic<bool> is_over_{false};
   int scans_ = 0;  // since it has begun to drive
   int tries_ = 0;
-  std::array<int, 11> log_{};
+  std::array<int, 9> log_{};
   std::size_t turns_ = 0;
   std::thread repeater_;
 };
