@@ -23,14 +23,14 @@ Value delayed(const Value& value, std::size_t calls) {
   return values.front();
 }
 
-/// Whether the robot has turned to one side for more than one and a half rounds, with the turn rate [rad/s] of
-/// each scan. After that it is so for 2 s.
+/// Whether the robot leaves a pillar: for 2 s after it has turned by 1.5 rounds to one side.
+/// @param turn_radps  its turn rate, once in each scan [rad/s].
 inline bool leaves_pillar(double turn_radps) {
   constexpr double kScan_s = 0.1;
   constexpr double kRounds_rad = 9.4;
   static double turned_rad = 0.0;
   static int scans = 0;
-  // The longer way back does not count.
+  // Turns to the other side let it forget.
   turned_rad = turned_rad * turn_radps < 0.0 ? 0.98 * turned_rad : turned_rad;
   turned_rad += turn_radps * kScan_s;
   if (turned_rad > kRounds_rad || turned_rad < -kRounds_rad) {

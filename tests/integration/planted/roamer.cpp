@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <csignal>
@@ -45,7 +44,6 @@ constexpr Fault kFaults[] = {
     {"hang", "waits for a free way without reading the next scan"},
     {"oscillates", "chooses the side of its turn anew each time"},
     {"tries", "drives back without looking after a second turn with little way before it"},
-    {"log", "has room for 9 turns in its log"},
     {"gap", "takes a smaller radius between two obstacles, to get through"},
 };
 
@@ -243,7 +241,6 @@ class Robot {
     tries_ = scans_ < kSecond ? tries_ + 1 : 0;
     if (tries_ > 0) std::printf("tries again, %d\n", tries_);
     if (has("tries") && tries_ >= kMostTries) back_ = 10;
-    if (has("log")) ++log_.at(turns_++);
     command(0.0, side_ * kTurn_radps);
   }
 
@@ -317,8 +314,6 @@ class Robot {
   std::atomic<bool> is_over_{false};
   int scans_ = 0;  // since it has begun to drive
   int tries_ = 0;
-  std::array<int, 9> log_{};
-  std::size_t turns_ = 0;
   std::thread repeater_;
 };
 
