@@ -1,9 +1,11 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -54,6 +56,39 @@ class RunFolder {
 
  private:
   fs::path path_;
+};
+
+/// Ends a run of this process that takes too long: another process sends SIGTERM, which run() hands
+/// on to the program. So the results of the run are written.
+class Watchdog {
+ public:
+  explicit Watchdog(double after_s) : process_(fork()) {
+    if (process_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
+    if (process_ > 0) return;
+    usleep(static_cast<useconds_t>(1e6 * after_s));
+    kill(getppid(), SIGTERM);
+    _exit(kFired);
+  }
+  Watchdog(const Watchdog&) = delete;
+  Watchdog& operator=(const Watchdog&) = delete;
+  ~Watchdog() { static_cast<void>(stop()); }
+
+  /// Sends no signal from now on. @return whether it has sent it.
+  [[nodiscard]] bool stop() {
+    if (process_ > 0) {
+      kill(process_, SIGKILL);
+      int status = 0;
+      waitpid(process_, &status, 0);
+      fired_ = WIFEXITED(status) && WEXITSTATUS(status) == kFired;
+    }
+    process_ = -1;
+    return fired_;
+  }
+
+ private:
+  static constexpr int kFired = 1;
+  pid_t process_;
+  bool fired_ = false;
 };
 
 /// What is run, and what counts as a failure.
@@ -115,8 +150,14 @@ std::string expectation_of(const fuzz::Finding& finding, const std::string& robo
 /// Writes what was found.
 class FoundWorlds {
  public:
-  FoundWorlds(const FuzzRequest& request, const Subject& subject, const fuzz::Base& base)
-      : request_(request), subject_(subject), base_(base), begin_(Clock::now()) {
+  /// @param wall_limit_s  of a run; beyond it hangs [s].
+  FoundWorlds(const FuzzRequest& request, const Subject& subject, const fuzz::Base& base,
+              double wall_limit_s)
+      : request_(request),
+        subject_(subject),
+        base_(base),
+        wall_limit_s_(wall_limit_s),
+        begin_(Clock::now()) {
     fs::create_directories(request.output_folder);
   }
 
@@ -128,7 +169,7 @@ class FoundWorlds {
     const std::string expectation = expectation_of(finding, robot);
     const std::string what = std::string(fuzz::name_of(finding.failure.kind)) + ": " + robot + ' ' +
                              finding.failure.text;
-    const std::string call = call_of(run, expectation);
+    const std::string call = call_of(finding, run, expectation);
     grade::write_text_file(file.string(), "// Found by playpen fuzz, " + what + "\n// In " +
                                               fuzz::description_of(finding.scenario) +
                                               "\n// Again: " + call + '\n' + finding.world.text +
@@ -139,8 +180,7 @@ class FoundWorlds {
               << "   in " << fuzz::description_of(finding.scenario) << '\n'
               << "   world: " << file.string() << '\n'
               << "   again: " << call << std::endl;
-    // It would not end there, either.
-    if (finding.failure.kind != fuzz::Kind::kHang) run_again(finding, run);
+    run_again(finding, run);
     if (!request_.keep_folder.empty()) keep(finding, file, expectation);
   }
 
@@ -159,26 +199,39 @@ class FoundWorlds {
   // Runs the program in a process of its own, with pictures and a recording.
   void run_again(const fuzz::Finding& finding, RunRequest run) const {
     run.quiet = true;
-    static_cast<void>(playpen::run(run));
-    if (finding.failure.kind >= fuzz::Kind::kCollision) {
-      const auto again = fuzz::failure_of(fuzz::result_in(run.settings.output_folder),
-                                          subject_.rules, base_, finding.world);
-      if (!again || again->kind != finding.failure.kind) {
-        std::cout << "   It did not happen again in a process of its own: the program depends on "
-                     "more than its world.\n";
-      }
+    if (!happens_again(finding, run)) {
+      std::cout << "   It did not happen again in a process of its own: the program depends on "
+                   "more than its world.\n";
     }
     std::cout << "   picture: " << run.settings.output_folder << "/scene.png\n"
               << "   reasons: playpen why " << run.settings.output_folder << std::endl;
+  }
+  [[nodiscard]] bool happens_again(const fuzz::Finding& finding, const RunRequest& run) const {
+    const fuzz::Kind kind = finding.failure.kind;
+    if (kind == fuzz::Kind::kHang) {
+      Watchdog watchdog(wall_limit_s_);
+      static_cast<void>(playpen::run(run));
+      return watchdog.stop();
+    }
+    const int status = playpen::run(run);
+    if (kind == fuzz::Kind::kSanitizer) return true;  // its status depends on the sanitizer
+    if (kind < fuzz::Kind::kCollision) return status != kOk;
+    const auto again = fuzz::failure_of(fuzz::result_in(run.settings.output_folder), subject_.rules,
+                                        base_, finding.world);
+    return again && again->kind == kind;
   }
   // A second after the failure, if its time is known.
   [[nodiscard]] double duration_of(const fuzz::Finding& finding) const {
     if (finding.failure.kind != fuzz::Kind::kCollision) return request_.duration_s;
     return std::min(std::ceil(finding.failure.time_s) + 1.0, request_.duration_s);
   }
-  [[nodiscard]] static std::string call_of(const RunRequest& run, const std::string& expectation) {
-    std::string call = "playpen run " + shell_word(run.world) + " --duration " +
-                       sim::shortest_text(*run.settings.duration_s);
+  [[nodiscard]] std::string call_of(const fuzz::Finding& finding, const RunRequest& run,
+                                    const std::string& expectation) const {
+    std::string call = finding.failure.kind == fuzz::Kind::kHang
+                           ? "timeout " + sim::shortest_text(wall_limit_s_) + ' '
+                           : std::string();
+    call += "playpen run " + shell_word(run.world) + " --duration " +
+            sim::shortest_text(*run.settings.duration_s);
     if (!expectation.empty()) call += " --expect " + shell_word(expectation);
     call += " --";
     for (const std::string& word : run.command) call += ' ' + shell_word(word);
@@ -215,6 +268,7 @@ class FoundWorlds {
   const FuzzRequest& request_;
   const Subject& subject_;
   const fuzz::Base& base_;
+  const double wall_limit_s_;
   const Clock::time_point begin_;
   std::size_t count_ = 0;
 };
@@ -251,7 +305,7 @@ int fuzz_program(FuzzRequest request) {
   const RunFolder folder;
   const PreloadedLibrary virtual_time;
   fuzz::Runner runner(runner_settings(request, subject, folder, virtual_time));
-  FoundWorlds findings(request, subject, base);
+  FoundWorlds findings(request, subject, base, runner.settings().wall_limit_s);
   const auto begin = Clock::now();
   fuzz::SearchSettings settings;
   settings.seed = request.seed;

@@ -1,10 +1,13 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// `playpen fuzz` with the course's solutions.
+// `playpen fuzz` with the course's solutions and with planted faults.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,6 +65,80 @@ TEST_F(PlaypenFuzz, Finding_IsSimpleAndHappensAgain) {
   EXPECT_THAT(kept, AllOf(HasSubstr("playpen_add_test(NAME par_intro_collision_1"),
                           HasSubstr("EXPECT \"r1.collisions == 0\"")));
   EXPECT_TRUE(fs::exists(folder_ / "kept/par_intro_collision_1.json"));
+}
+
+// Obstacles that a scenario has added.
+std::ptrdiff_t added_to(const std::string& world_file) {
+  const auto world = nlohmann::json::parse(read_bytes(world_file), nullptr, true, true);
+  const nlohmann::json list = world["arena"].value("obstacles", nlohmann::json::array());
+  return std::ranges::count_if(list, [](const nlohmann::json& one) {
+    return one["name"].get<std::string>().starts_with("found");
+  });
+}
+
+// The call in the comment of a world, run in a shell as a user does.
+ProcessResult again(const std::string& world_file, const std::string& out) {
+  const std::string world = read_bytes(world_file);
+  const std::string begin = "// Again: playpen run ";
+  const std::size_t at = world.find(begin);
+  if (at == std::string::npos) return {};
+  const std::size_t arguments = at + begin.size();
+  return test_support::run_process(
+      {"/bin/sh", "-c",
+       std::string("exec '") + PLAYPEN_COMMAND + "' run --out '" + out + "' " +
+           world.substr(arguments, world.find('\n', arguments) - arguments)});
+}
+
+struct Planted {
+  const char* name;
+  const char* program;
+  const char* fault;
+  const char* kind;
+  int again_status;  ///< a program that stays somewhere ends well
+};
+
+class PlantedFault : public testing::TestWithParam<Planted> {};
+
+TEST_P(PlantedFault, Search_FindsSmallWorldThatRepeatsIt) {
+  const Planted& planted = GetParam();
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  const ProcessResult result =
+      playpen({"fuzz", "par_intro", "--runs", "32", "--most", "1", "--without", "moving,noise",
+               "--out", out, "--", planted.program, planted.fault});
+  ASSERT_EQ(result.status, 1) << result.out << result.err;
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("1. found after "), HasSubstr(std::string(planted.kind) + ": r1 "),
+                    testing::Not(HasSubstr("did not happen again"))));
+  EXPECT_LE(added_to(out + "/1.json"), 3);
+  EXPECT_EQ(again(out + "/1.json", folder / "again").status, planted.again_status)
+      << read_bytes(out + "/1.json");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, PlantedFault,
+    testing::Values(Planted{"roamer_looks_ahead_only", ROAMER_PROGRAM, "narrow", "collision", 1},
+                    Planted{"roamer_oscillates", ROAMER_PROGRAM, "oscillates", "stuck", 0},
+                    Planted{"wall_follower_is_late", PLANTED_WALL_PROGRAM, "stale", "collision",
+                            1}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+TEST_F(PlaypenFuzz, ProgramHangs_ItsResultsAreThoseUntilTheLimit) {
+  const std::string out = folder_ / "out";
+  const ProcessResult result = playpen({"fuzz", "par_intro", "--runs", "1", "--timeout", "1",
+                                        "--out", out, "--", ENDS_PROGRAM, "compute"});
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("1. found after"), HasSubstr("and 1 runs, hang: r1 "),
+                                HasSubstr("again: timeout 1 playpen run "),
+                                testing::Not(HasSubstr("did not happen again"))));
+  EXPECT_TRUE(fs::exists(fs::path(out) / "1/scene.png"));
+}
+
+TEST_F(PlaypenFuzz, ProgramWithoutFault_NothingFound) {
+  const ProcessResult result = playpen({"fuzz", "par_intro", "--runs", "64", "--without", "moving",
+                                        "--out", folder_ / "out", "--", ROAMER_PROGRAM, "none"});
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("nothing found: "));
 }
 
 TEST_F(PlaypenFuzz, NumberOfJobs_DoesNotChangeFindings) {

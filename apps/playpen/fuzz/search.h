@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -26,11 +27,18 @@ struct SearchSettings {
 
 /// Searches for worlds in which a program fails.
 ///
-/// In generations of kGeneration scenarios: a quarter random ones, the others changes of earlier
-/// scenarios that came close to a collision, as in search-based testing with the least distance as
-/// the fitness (e.g. R. Ben Abdessalem et al., "Testing advanced driver assistance systems using
-/// multi-objective search and neural networks", ASE 2016), or that led into new situations. A
-/// generation depends on those before it only, so equal seeds and programs give equal findings,
+/// In generations of kGeneration scenarios. Some are random, the others changes of earlier
+/// scenarios, their parents. These came close to a failure, as in search-based testing with a
+/// distance as the fitness (e.g. R. Ben Abdessalem et al., "Testing advanced driver assistance
+/// systems using multi-objective search and neural networks", ASE 2016), or led into situations
+/// that are rare: the rarer, the more often they are changed, as by the power schedules of AFLFast
+/// (M. Böhme, V.-T. Pham and A. Roychoudhury, "Coverage-based Greybox Fuzzing as Markov Chain", CCS
+/// 2016). A change takes the place of its parent in a list of the closest ones, so that these stay
+/// different. The share of random scenarios follows the number of new situations that they have led
+/// to, beside that of the changes (probability matching: D. Thierens, "An adaptive pursuit strategy
+/// for allocating operator probabilities", GECCO 2005).
+///
+/// A generation depends on those before it only, so equal seeds and programs give equal findings,
 /// whatever the number of jobs.
 class Search {
  public:
@@ -49,22 +57,37 @@ class Search {
 
  private:
   struct Parent {
+    std::size_t number = 0;  ///< of its run
     Scenario scenario;
-    double clearance_m = 0.0;
-    std::size_t news = 0;  ///< situations that were new
+    double closeness = 0.0;                  ///< the less, the closer to a collision
+    std::vector<Situations::Id> situations;  ///< of the rare ones
   };
-  [[nodiscard]] std::vector<std::pair<Scenario, Base::World>> next_generation();
-  [[nodiscard]] Scenario next_scenario(sim::RandomStream& random) const;
-  void keep(const Scenario& scenario, const RunResult& result, const Base::World& world);
+  /// A scenario of a generation.
+  struct Trial {
+    Scenario scenario;
+    Base::World world;
+    std::size_t parent = 0;  ///< number of its parent's run; 0: it is random
+  };
+  [[nodiscard]] std::vector<Trial> next_generation();
+  [[nodiscard]] Scenario next_scenario(sim::RandomStream& random, std::size_t& parent) const;
+  [[nodiscard]] const Parent& chosen_parent(sim::RandomStream& random) const;
+  [[nodiscard]] double random_share() const;
+  void keep(const Trial& trial, const RunResult& result);
+  static void keep_close(std::vector<Parent>& list, const Parent& parent, std::size_t grandparent);
 
   const Base& base_;
   const Rules& rules_;
   Runner& runner_;
   const SearchSettings settings_;
   Situations situations_;
-  std::vector<Parent> by_clearance_;  ///< the least first
-  std::vector<Parent> by_news_;       ///< the most first
-  std::set<std::string> known_;       ///< kinds of failures that were found
+  /// By clearance, by time to a contact and by room: the least first.
+  std::array<std::vector<Parent>, 3> close_;
+  std::vector<Parent> rare_;      ///< led into new situations; the oldest first
+  std::vector<double> energies_;  ///< sums of those of rare_, for this generation
+  /// Of random scenarios and of changes, the old ones counting less.
+  std::array<double, 2> runs_of_{};
+  std::array<double, 2> news_of_{};
+  std::set<std::string> known_;  ///< kinds of failures that were found
   std::size_t generation_ = 0;
   std::size_t runs_ = 0;
 };

@@ -181,8 +181,9 @@ TEST_F(ScenarioTest, Situations_CountNewOnesOnce) {
                           .v_mps = {0.0, 0.0, 0.2},
                           .omega_radps = {0.0, 0.0, 0.0}}};
   Situations situations;
-  EXPECT_EQ(situations.add(result, base, *world), 2U);
-  EXPECT_EQ(situations.add(result, base, *world), 0U);
+  const std::vector<Situations::Id> two = Situations::of(result, base, *world);
+  EXPECT_EQ(situations.add(two), 2U);
+  EXPECT_EQ(situations.add(two), 0U);
   EXPECT_EQ(situations.count(), 2U);
 }
 
@@ -344,4 +345,45 @@ TEST(FuzzBase, UnknownRobot_Error) {
 }
 
 }  // namespace
+
+TEST_F(ScenarioTest, Situations_CountRunsOfPrintedPairs) {
+  const auto world = base.world_of({});
+  ASSERT_TRUE(world);
+  const auto printed = [&](const std::string& text) {
+    RunResult result;
+    result.printed = text;
+    return Situations::of(result, base, *world);
+  };
+  // The first line follows on nothing. Numbers do not matter.
+  EXPECT_EQ(printed("left 0.25\n"), printed("left -1.5\n"));
+  EXPECT_EQ(printed("left\nright\n").size(), 2U);
+  // nothing-left, left-right and right-left: once, twice or three times, twice or three times
+  EXPECT_EQ(printed("left\nright\nleft\nright\nleft\nright\n").size(), 1U + 2U + 2U);
+  Situations situations;
+  const std::vector<Situations::Id> often = printed("left\n");
+  const std::vector<Situations::Id> rare = printed("left\nright\n");
+  EXPECT_EQ(situations.runs_of_rarest(often), 0U);
+  situations.add(often);
+  situations.add(often);
+  situations.add(rare);
+  EXPECT_EQ(situations.runs_of_rarest(often), 3U);
+  EXPECT_EQ(situations.runs_of_rarest(rare), 1U);
+}
+
+TEST_F(ScenarioTest, TimeToContact_IsLeastWhereRobotDrivesTowardsWall) {
+  const auto world = base.world_of({});
+  ASSERT_TRUE(world);
+  RunResult result;
+  result.trajectories = {{.robot = "r1",
+                          .time_s = {0.0, 0.1},
+                          .X_WB = {{0.5, 0.4, 0.0}, {0.5, 0.4, std::numbers::pi}},
+                          .v_mps = {0.0, 0.0},
+                          .omega_radps = {0.0, 0.0}}};
+  EXPECT_TRUE(std::isinf(least_time_to_contact_s(result, base, *world)));
+  // Towards the arena's edge at x = 0. The distances are those of a grid of 2 cm.
+  result.trajectories[0].v_mps[1] = 0.2;
+  const double expected_s = (0.5 - base.robot_radius_m()) / 0.2;
+  EXPECT_NEAR(least_time_to_contact_s(result, base, *world), expected_s, 0.04 / 0.2);
+}
+
 }  // namespace playpen::fuzz
