@@ -5,8 +5,8 @@
 usage: browser_test.py REPLAY_SAMPLE WORLD [--keep FOLDER]
 
 REPLAY_SAMPLE is the program of replay_sample.cpp. Needs chromium and chromedriver; speaks plain
-WebDriver (W3C). Checks: no error on the console; 20 moments, each drawn in less than LIMIT_MS of
-JavaScript; keys, panel, fragment and live region; two runs in one page; and that the picture of the
+WebDriver (W3C). Checks: no error on the console; 20 moments, each drawn in less than LIMIT_MS of the
+main thread's processor time on average; keys, panel, fragment and live region; two runs in one page; and that the picture of the
 end differs from the renderer's by at most MEAN_DIFFERENCE and MOST_DIFFERENT.
 """
 
@@ -22,7 +22,7 @@ import zlib
 
 from browser import Browser, missing_program
 
-LIMIT_MS = 100  # of the median moment; a loaded machine may delay a single one
+LIMIT_MS = 100  # of processor time, which a loaded machine does not make longer
 # The pictures have different fonts, anti-aliasing, and opacities where shapes overlap.
 # The page does not smooth the edges of cells; with 13 robots that draw, this alone makes up 1.
 MEAN_DIFFERENCE = 2  # mean of the absolute differences of channels, of 255
@@ -88,6 +88,7 @@ def check_no_messages(browser, page):
 
 
 def check_moments(browser, end):
+    work_s = browser.work_s()
     times = browser.run("""
         const times = [];
         for (let i = 0; i < 20; ++i) {
@@ -102,8 +103,10 @@ def check_moments(browser, end):
         }
         return times;""", end)
     times.sort()
-    print(f"20 moments: median {times[10]:.1f} ms, most {times[-1]:.1f} ms")
-    assert times[10] < LIMIT_MS, f"a moment takes {times[10]:.1f} ms of JavaScript"
+    work_ms = 1000 * (browser.work_s() - work_s) / len(times)
+    print(f"20 moments: median {times[10]:.1f} ms, most {times[-1]:.1f} ms, "
+          f"{work_ms:.1f} ms of the processor on average")
+    assert work_ms < LIMIT_MS, f"a moment takes {work_ms:.1f} ms of the processor"
 
 
 def check_controls(browser, end):
