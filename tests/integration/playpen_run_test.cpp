@@ -133,6 +133,8 @@ TEST_F(PlaypenRun, Port_SetsThatOfFirstRobot) {
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(report().at("run").at("sim_time"), 1.0);
   EXPECT_EQ(report().at("run").at("repeatable"), true);
+  EXPECT_EQ(report().at("run").at("repeatable_on"), "any machine");
+  EXPECT_FALSE(report().at("run").contains("box2d_from"));
   const ProcessResult unset = run({"--duration", "1"}, program);
   EXPECT_NE(unset.status, 0);
   EXPECT_THAT(unset.err, AllOf(HasSubstr("port 7000"), HasSubstr("--port 7000")));

@@ -453,6 +453,32 @@ TEST(SimulationDevices, DevicesWithoutWork_AskedOnce) {
   EXPECT_FALSE(device("laser").acts());
 }
 
+TEST(Box2dPart, NothingNear_None) {
+  Simulation simulation(room());
+  drive(simulation, 0.3, 0.5);
+  run(simulation, 1000);
+  EXPECT_EQ(simulation.box2d_since_ns(), std::nullopt);
+}
+
+TEST(Box2dPart, Wall_SinceTheRobotMightTouchIt) {
+  Simulation simulation(room());
+  drive(simulation, 0.5, 0.0);
+  const auto at = [&] { return reading<PoseReading>(simulation, "pose").pose.x_m; };
+  while (!simulation.box2d_since_ns() && simulation.steps() < 1000) simulation.step();
+  ASSERT_TRUE(simulation.box2d_since_ns());
+  EXPECT_EQ(*simulation.box2d_since_ns(), simulation.now_ns());
+  EXPECT_NEAR(at(), 4.0 - 0.1, 0.05) << "the front of the robot is near the border";
+  const SimTime since_ns = *simulation.box2d_since_ns();
+  drive(simulation, -0.5, 0.0);
+  run(simulation, 200);
+  Simulation other(room());
+  other.restore(simulation.save());
+  EXPECT_EQ(other.box2d_since_ns(), since_ns);
+  EXPECT_EQ(simulation.reset(), std::nullopt);
+  run(simulation, 10);
+  EXPECT_EQ(simulation.box2d_since_ns(), since_ns) << "it covers the whole run";
+}
+
 TEST(SimulationHash, Seed_MattersWithNoiseOnly) {
   WorldDescription world = room();
   const std::uint64_t quiet = hash_after_random_drive(world, 200);
