@@ -44,7 +44,7 @@ constexpr Case kCases[] = {
 /// Hash of the path, the final state and the figures of 20 s in a task's first world.
 std::string hash_of_run(const Case& task, const ProcessOptions& options) {
   const TemporaryFolder folder;
-  const std::string out = (folder / "out").string();
+  const std::string out = folder / "out";
   const ProcessResult run = playpen(
       {"run", task.task, "--duration", "20", "--quiet", "--out", out, "--", task.program}, options);
   EXPECT_EQ(run.status, 0) << run.out << run.err;
@@ -53,7 +53,7 @@ std::string hash_of_run(const Case& task, const ProcessOptions& options) {
   sim::StateHash hash;
   hash.add(report.at("run").at("state_hash").dump());
   hash.add(report.at("robots").dump());
-  hash.add(read_bytes(folder / "out" / "trajectory.csv"));
+  hash.add(read_bytes(out + "/trajectory.csv"));
   std::ostringstream text;
   text << std::hex << hash.value();
   return text.str();

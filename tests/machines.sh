@@ -1,0 +1,109 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#
+# Runs the tests of golden hashes on machines that are emulated: processors of the x86-64 family
+# without and with newer instructions, and AArch64 with another build of everything. Prints a table.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+Usage: tests/machines.sh [--x86-only]
+
+Builds the tests of the elementary functions and of the shipped worlds with the presets tests and
+clang, and runs them as they are, with the C library's functions for older processors, and in QEMU's
+models of processors. Then it compiles them for AArch64 against a root folder of Debian's packages
+(build/aarch64_root), and runs them in QEMU.
+
+Installs what is missing: QEMU, and for AArch64 a cross compiler and mmdebstrap.
+TEXT
+}
+
+x86_only=false
+case ${1:-} in
+  "") ;;
+  --x86-only) x86_only=true ;;
+  --help | -h)
+    usage
+    exit 0
+    ;;
+  *)
+    usage >&2
+    exit 2
+    ;;
+esac
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+apps/install_dependencies.sh build test machines
+# shellcheck source=SCRIPTDIR/../apps/build_tools.sh
+source apps/build_tools.sh
+
+tests=(sim_math_test sim_golden_worlds_test)
+log=build/machines.log
+: >"$log"
+failed=0
+
+# try NAME COMMAND... -- FILTER: runs the golden tests by a command that gets the test program as its
+# last argument.
+row() {
+  local name=$1 result=equal
+  shift
+  local test
+  for test in "${tests[@]}"; do
+    if ! "$@" "$folder/bin/$test" --gtest_brief=1 \
+      --gtest_filter='MathTest.Bits_*:MathTest.Calls*:GoldenWorlds.*' >>"$log" 2>&1; then
+      result=DIFFERENT
+      failed=1
+    fi
+  done
+  printf '%-58s %s\n' "$name" "$result"
+}
+
+build() {
+  local target targets=()
+  for target in "${tests[@]}"; do targets+=(--target "$target"); done
+  cmake --build "$folder" --parallel "$jobs" "${targets[@]}" >>"$log" 2>&1
+}
+
+folder=build/machines/gcc
+cmake --preset release -B "$folder" -DPLAYPEN_BUILD_TESTS=ON "${launcher[@]}" >>"$log" 2>&1
+build
+row "gcc, -O3, this processor" env
+row "gcc, -O3, without AVX2, FMA and AVX-512 in the C library" \
+  env GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F
+for model in qemu64 Nehalem max; do
+  row "gcc, -O3, QEMU's processor $model" qemu-x86_64-static -cpu "$model"
+done
+folder=build/machines/clang
+cmake --preset clang -B "$folder" -DPLAYPEN_BUILD_BENCH=OFF -DPLAYPEN_UNITY=ON \
+  "${launcher[@]}" >>"$log" 2>&1
+build
+row "clang, -O0, this processor" env
+row "clang, -O0, QEMU's processor qemu64" qemu-x86_64-static -cpu qemu64
+
+if ! $x86_only; then
+  sysroot=$root/build/aarch64_root
+  if [[ ! -d $sysroot/usr ]]; then
+    packages=$(apps/install_dependencies.sh --list build | grep -E -- '-dev$' | paste -sd,)
+    mmdebstrap --variant=extract --architectures=arm64 \
+      --include="$packages,libgtest-dev,libgmock-dev,libc6-dev,libstdc++-12-dev" \
+      bookworm "$sysroot" http://deb.debian.org/debian >>"$log" 2>&1
+  fi
+  folder=build/machines/aarch64
+  libraries=$sysroot/usr/lib/aarch64-linux-gnu
+  cmake --preset release -B "$folder" -DPLAYPEN_BUILD_TESTS=ON "${launcher[@]}" \
+    -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 "-DCMAKE_SYSROOT=$sysroot" \
+    -DCMAKE_C_COMPILER=aarch64-linux-gnu-gcc -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++ \
+    -DCMAKE_LIBRARY_ARCHITECTURE=aarch64-linux-gnu "-DCMAKE_FIND_ROOT_PATH=$sysroot" \
+    -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY \
+    -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY \
+    "-DCMAKE_EXE_LINKER_FLAGS=-Wl,-rpath-link,$libraries:$libraries/blas:$libraries/lapack" \
+    >>"$log" 2>&1
+  build
+  row "gcc, -O3, AArch64 in QEMU" qemu-aarch64-static -L "$sysroot"
+fi
+
+if ((failed)); then
+  echo "what differs is in $log"
+  exit 1
+fi
