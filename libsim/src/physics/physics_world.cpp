@@ -174,6 +174,13 @@ void PhysicsWorld::scan(const scan::ScanGeometry& geometry, const Pose& X_WL,
   impl_->sensor_view.scan(geometry, X_WL, sensor_height_m, own_robot, test_inside, ranges_m);
 }
 
+void PhysicsWorld::scan(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry,
+                        const Pose& X_WL, double sensor_height_m, int own_robot, bool test_inside,
+                        std::span<float> ranges_m) const {
+  impl_->sensor_view.scan(workspace, geometry, X_WL, sensor_height_m, own_robot, test_inside,
+                          ranges_m);
+}
+
 void PhysicsWorld::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
                                  std::vector<Face>& faces) const {
   impl_->sensor_view.collect_faces(low, high, own_robot, faces);

@@ -141,6 +141,11 @@ class PhysicsWorld {
   /// @param ranges_m  as for ScanKernel::scan(). The other parameters are those of collect_edges().
   void scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
             int own_robot, bool test_inside, std::span<double> ranges_m) const;
+  /// The same with ranges that are rounded to single precision.
+  /// @param workspace  of the calling thread.
+  void scan(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry, const Pose& X_WL,
+            double sensor_height_m, int own_robot, bool test_inside,
+            std::span<float> ranges_m) const;
 
   /// A vertical face of a solid, from the floor up: an edge of its outline, or the whole face of a
   /// round one.

@@ -309,12 +309,6 @@ double SensorView::cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC,
   return least_m / length_m;
 }
 
-scan::ScanKernel& SensorView::kernel_of(const scan::ScanGeometry& geometry) {
-  const auto it = std::find_if(kernels_.begin(), kernels_.end(),
-                               [&](const scan::ScanKernel& k) { return k.geometry() == geometry; });
-  return it != kernels_.end() ? *it : kernels_.emplace_back(geometry);
-}
-
 // Appends the edges of a robot's outline.
 void SensorView::append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out) {
   static_assert(sizeof(Vec2) == 2 * sizeof(double));
@@ -370,11 +364,13 @@ void SensorView::collect_edges(const Vec2& p_WL, double radius_m, double sensor_
   if (test_inside) edges.inside = is_inside_solid(p_WL, sensor_height_m, own_robot);
 }
 
-void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
-                      int own_robot, bool test_inside, std::span<double> ranges_m) {
+template <typename Range>
+void SensorView::scan_with(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry,
+                           const Pose& X_WL, double sensor_height_m, int own_robot,
+                           bool test_inside, std::span<Range> ranges_m) {
   if (!outlines_fresh_) rebuild_outlines();
-  scan::ScanKernel& kernel = kernel_of(geometry);
-  scan::EdgeBuffer& edges = scan_edges_;
+  scan::ScanKernel& kernel = workspace.kernel_of(geometry);
+  scan::EdgeBuffer& edges = workspace.edges();
   const Vec2 p_WL = X_WL.position();
   const auto append = [&](std::span<const std::int32_t> discs) {
     for (const std::int32_t disc : discs) {
@@ -400,6 +396,17 @@ void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, doub
   append(kernel.visible());
   if (edges.size() > 0 || !edges.circles().empty()) kernel.add(edges);
   kernel.finish(ranges_m);
+}
+
+void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
+                      int own_robot, bool test_inside, std::span<double> ranges_m) {
+  scan_with(workspace_, geometry, X_WL, sensor_height_m, own_robot, test_inside, ranges_m);
+}
+
+void SensorView::scan(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry,
+                      const Pose& X_WL, double sensor_height_m, int own_robot, bool test_inside,
+                      std::span<float> ranges_m) {
+  scan_with(workspace, geometry, X_WL, sensor_height_m, own_robot, test_inside, ranges_m);
 }
 
 void SensorView::collect_faces(const Vec2& low, const Vec2& high, int own_robot,

@@ -37,6 +37,8 @@ class SensorView {
                      bool test_inside, scan::EdgeBuffer& edges);
   void scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
             int own_robot, bool test_inside, std::span<double> ranges_m);
+  void scan(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry, const Pose& X_WL,
+            double sensor_height_m, int own_robot, bool test_inside, std::span<float> ranges_m);
   void collect_faces(const Vec2& low, const Vec2& high, int own_robot, std::vector<Face>& faces);
   [[nodiscard]] bool is_inside_solid(const Vec2& p_W, double height_m, int own_robot);
   [[nodiscard]] bool is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m,
@@ -87,7 +89,10 @@ class SensorView {
                                                        std::optional<double> height_m);
   template <typename Filter, typename Visitor>
   void cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit);
-  [[nodiscard]] scan::ScanKernel& kernel_of(const scan::ScanGeometry& geometry);
+  template <typename Range>
+  void scan_with(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry,
+                 const Pose& X_WL, double sensor_height_m, int own_robot, bool test_inside,
+                 std::span<Range> ranges_m);
   void collect_static_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
                             scan::EdgeBuffer& edges);
 
@@ -100,8 +105,7 @@ class SensorView {
   std::vector<Outline> outlines_;
   scan::DiscBuffer robot_discs_;                // bounding discs of `outlines_`
   std::vector<HilbertEntry> by_hilbert_index_;  // order of `outlines_` and `robot_discs_`
-  std::vector<scan::ScanKernel> kernels_;       // for scan(), one per geometry
-  scan::EdgeBuffer scan_edges_;                 // scratch memory of scan()
+  scan::ScanWorkspace workspace_;               // for scan()
   bool outlines_fresh_ = false;
 };
 

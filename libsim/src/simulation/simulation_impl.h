@@ -98,7 +98,8 @@ struct Simulation::Impl {
   // The least clearance so far can decrease only after the robot and its surroundings have moved by
   // the difference to the last measurement. Until then no measurement is needed.
   void update_clearance(std::size_t i, double dt_s);
-  void measure_clearance(std::size_t i, double limit_m);
+  // @param is_first  the statistics begin here.
+  void measure_clearance(std::size_t i, double limit_m, bool is_first = false);
   // Invalidates all clearances after something was placed.
   void invalidate_clearances();
   void record_collisions();

@@ -70,6 +70,10 @@ enum class RestoreScope {
   kWorld,  ///< the world only, not what clients have observed: see Simulation::restore()
 };
 
+/// The seed of the simulation that saved a snapshot.
+/// @throws SnapshotError if these are no bytes of a snapshot. Other damage is found by restore().
+[[nodiscard]] std::uint64_t seed_of(std::span<const std::uint8_t> snapshot);
+
 class Simulation;
 
 /// The state of a simulation at a moment, without its layers. Together with a copy of the layers of
@@ -136,6 +140,9 @@ class Simulation {
   /// Whether no solid as high as the first robot's centre of height is between two robots' centres.
   [[nodiscard]] bool sees(int robot, int other) const;
   [[nodiscard]] const RobotStatistics& statistics(int robot) const;
+  /// Lets all statistics() begin anew, as if the run started here: for programs that place robots
+  /// before it. collisions() stay.
+  void restart_statistics();
   /// The newest collisions, oldest first. At most 1024 are kept; RobotStatistics counts all.
   [[nodiscard]] const std::vector<Collision>& collisions() const noexcept;
   /// The newest texts that robots said, oldest first; at most 1024 are kept.
@@ -249,6 +256,16 @@ class Simulation {
   /// simulation does not change.
   /// @return nullopt if the device is no laser.
   [[nodiscard]] std::optional<LaserReading> ideal_scan(DeviceId laser) const;
+  /// Writes such a scan into the caller's memory, in single precision: for programs that need many
+  /// scans and no readings. A range is that of the other function, rounded, if the beams are the
+  /// laser's own.
+  /// @param geometry   the beams, see ScanGeometry; Laser::geometry() are the laser's own.
+  /// @param workspace  of the calling thread; it may serve several simulations.
+  /// @param ranges_m   receives geometry.beam_count ranges, the rightmost beam first [m].
+  /// @return false if the device is no laser; nothing is written then.
+  /// @note O(edges + beams); allocates only when the workspace or the world is new.
+  [[nodiscard]] bool ideal_scan(DeviceId laser, const scan::ScanGeometry& geometry,
+                                scan::ScanWorkspace& workspace, std::span<float> ranges_m) const;
 
   /// The grid-maps: the canvas that all pens share, and the layers of clients above or below it.
   [[nodiscard]] LayerStack& layers() noexcept;
