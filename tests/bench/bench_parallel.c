@@ -18,7 +18,10 @@
 
 #include "playpen_batch.h"
 
-enum { kSimulations = 256, kRounds = 9 };
+#ifndef SIMULATIONS
+#define SIMULATIONS 64
+#endif
+enum { kSimulations = SIMULATIONS, kRounds = 9 };
 
 typedef struct {
   playpen_batch* batch;
@@ -46,6 +49,15 @@ static Work make(int threads, int beams) {
   options.beams = beams;
   Work work;
   check(playpen_batch_create(PLAYPEN_SOURCE_DIR "/worlds/syrotek.json", &options, &work.batch));
+  /* Each robot begins with another heading. */
+  double poses[kSimulations * 3];
+  for (int i = 0; i < kSimulations; ++i) {
+    poses[3 * i] = 0.5;
+    poses[3 * i + 1] = 0.4;
+    poses[3 * i + 2] = 6.28 * i / kSimulations;
+  }
+  const playpen_batch_array starts = {poses, (size_t)kSimulations * 3, 0, 0};
+  check(playpen_batch_reset(work.batch, NULL, 0, NULL, 0, &starts));
   work.beams = playpen_batch_beams(work.batch);
   work.actions = calloc((size_t)kSimulations * 2, sizeof(double));
   work.scans = calloc((size_t)kSimulations * (size_t)work.beams, sizeof(float));
@@ -58,18 +70,24 @@ static void destroy(Work* work) {
   free(work->scans);
 }
 
-/* Turns to the freer side if something is near ahead. */
+/* Drives on, and turns away from what is near ahead. */
 static void decide(const Work* work) {
+  enum { kRays = 12 };
   for (int i = 0; i < kSimulations; ++i) {
     const float* scan = work->scans + (size_t)i * (size_t)work->beams;
     const int middle = work->beams / 2;
-    const int aside = work->beams / 6;
-    const float ahead = scan[middle];
-    const float right = scan[middle - aside];
-    const float left = scan[middle + aside];
-    const int blocked = ahead < 0.4F || left < 0.2F || right < 0.2F;
-    work->actions[2 * i] = blocked ? 0.05 : 0.4;
-    work->actions[2 * i + 1] = !blocked ? 0.0 : left > right ? 1.5 : -1.5;
+    const int step = work->beams / 40;
+    float left = 5.0F;
+    float right = 5.0F;
+    for (int k = 0; k < kRays; ++k) {
+      const float on_left = scan[middle + k * step];
+      const float on_right = scan[middle - k * step];
+      left = on_left < left ? on_left : left;
+      right = on_right < right ? on_right : right;
+    }
+    const float nearest = left < right ? left : right;
+    work->actions[2 * i] = nearest > 0.3F ? 0.3 : 0.0;
+    work->actions[2 * i + 1] = nearest > 0.3F ? 0.0 : i % 2 == 0 ? 1.5 : -1.5;
   }
 }
 

@@ -159,7 +159,8 @@ struct Batch::Impl {
 
   // A simulation at its start.
   [[nodiscard]] Simulation made(std::uint64_t seed) const;
-  void switch_off_quiet_devices(Simulation& simulation) const;
+  // Makes a simulation that was made or restored one of this batch.
+  void take_in(Simulation& simulation) const;
   void place(std::size_t i, const Rows<const double>& poses);
   void command(std::size_t i, const Rows<const double>& actions);
   void observe(std::size_t i, const ObservationRows& out, scan::ScanWorkspace& workspace) const;
@@ -173,6 +174,7 @@ struct Batch::Impl {
   parallel::WorkerPool pool;
   std::vector<scan::ScanWorkspace> workspaces;  // of the workers
   std::vector<std::uint64_t> seeds;
+  std::optional<const Simulation> prototype;  // never stepped
   std::vector<BatchRobot> robots;
   int beams = 0;
   std::vector<std::optional<Simulation>> simulations;
@@ -210,8 +212,8 @@ Batch::Impl::Impl(const WorldDescription& its_world, const BatchOptions& options
   for (std::size_t i = seeds.size(); i < static_cast<std::size_t>(count); ++i) {
     seeds.push_back(world.simulation.seed + i);
   }
-  const Simulation first(world);
-  robots = chosen_robots(first, options);
+  prototype.emplace(world);
+  robots = chosen_robots(*prototype, options);
   for (const BatchRobot& robot : robots) {
     if (robot.laser) beams = std::max(beams, robot.geometry.beam_count);
   }
@@ -223,11 +225,12 @@ Simulation Batch::Impl::made(std::uint64_t seed) const {
   WorldDescription own = world;
   own.simulation.seed = seed;
   Simulation simulation(std::move(own));
-  switch_off_quiet_devices(simulation);
+  take_in(simulation);
   return simulation;
 }
 
-void Batch::Impl::switch_off_quiet_devices(Simulation& simulation) const {
+void Batch::Impl::take_in(Simulation& simulation) const {
+  simulation.share_memory_with(*prototype);
   for (const BatchRobot& robot : robots) {
     for (const int device : robot.quiet_devices) {
       simulation.set_active({robot.index, device}, false);
@@ -400,7 +403,7 @@ void Batch::restore(std::span<const std::uint8_t> mask, std::span<const std::uin
   static_cast<void>(reader.read(snapshot));
   impl_->run_all(mask, [&](std::size_t i, scan::ScanWorkspace&) {
     Simulation restored = reader.read(snapshot);
-    impl_->switch_off_quiet_devices(restored);
+    impl_->take_in(restored);
     impl_->simulations[i] = std::move(restored);
     impl_->seeds[i] = seed;
   });

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "playpen_batch.h"
-#include "sim/parallel/batch.h"
 #include "sim/core/error.h"
 #include "sim/core/state_archive.h"
+#include "sim/parallel/batch.h"
 
 struct playpen_batch {
   sim::Batch batch;

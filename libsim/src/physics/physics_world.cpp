@@ -200,6 +200,10 @@ double PhysicsWorld::ray_cast_m(const Vec2& p_WL, double angle_rad, double range
   return impl_->sensor_view.ray_cast_m(p_WL, angle_rad, range_max_m, own_robot);
 }
 
+void PhysicsWorld::share_memory_with(const PhysicsWorld& other) {
+  impl_->sensor_view.share_memory_with(other.impl_->sensor_view);
+}
+
 void PhysicsWorld::archive(StateArchive& archive) {
   impl_->bodies.archive(archive);
   impl_->contacts.archive(archive);

@@ -176,6 +176,10 @@ class PhysicsWorld {
                                   int own_robot, const Contact& target,
                                   bool solid_only = false) const;
 
+  /// Uses the memory of another world for what is equal in both and does not change. Takes a
+  /// comparison of all static solids. The worlds stay independent, also for threads.
+  void share_memory_with(const PhysicsWorld& other);
+
   /// Writes the state, or reads the state of a world with the same arena and robots. It does not
   /// include what robots carry; the caller restores that with set_load().
   void archive(StateArchive& archive);

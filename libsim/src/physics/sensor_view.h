@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,6 +32,9 @@ class SensorView {
   /// Must be called after a robot was added or placed.
   void add_robot(int robot) { by_hilbert_index_.push_back({0, robot, 0.0}); }
   void robot_was_placed();
+
+  /// Uses the memory of another world's view for what is equal in both and does not change.
+  void share_memory_with(const SensorView& other);
 
   void set_load(Body& r, const std::vector<PhysicsWorld::Load>& loads);
   void collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
@@ -76,6 +80,10 @@ class SensorView {
     }
   };
 
+  // Whether a robot is the only body that moves, so that it sees nothing but static solids.
+  [[nodiscard]] bool is_alone(int robot) const {
+    return by_hilbert_index_.size() == 1 && by_hilbert_index_.front().robot == robot;
+  }
   void sort_by_hilbert_index();
   void rebuild_outlines();
   template <typename Visitor>
@@ -97,7 +105,9 @@ class SensorView {
                             scan::EdgeBuffer& edges);
 
   Bodies& bodies_;
-  EdgeList fixed_edges_;                   // static solids that exist now, if the world is small
+  // Static solids that exist now, if the world is small. The views of other worlds may have the
+  // same list.
+  std::shared_ptr<const EdgeList> fixed_edges_ = std::make_shared<EdgeList>();
   std::vector<Cylinder> fixed_cylinders_;  // round obstacles that exist now, if the world is small
   bool sweep_ = true;                      // the world is small
   EdgeList further_edges_;                 // of several parts, superstructures and loads

@@ -531,8 +531,9 @@ void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double>
 }
 
 void ScanKernel::begin(double yaw_rad) {
-  scratch_->job.cos_yaw = math::cos(yaw_rad);
-  scratch_->job.sin_yaw = math::sin(yaw_rad);
+  const auto [sine, cosine] = math::sin_cos(yaw_rad);
+  scratch_->job.cos_yaw = cosine;
+  scratch_->job.sin_yaw = sine;
   scratch_->inside = false;
   scratch_->circles.clear();
   steps_->clear(scratch_->job);

@@ -321,6 +321,10 @@ Simulation Simulation::replace_by(Simulation restored, RestoreScope scope) {
   return restored;
 }
 
+void Simulation::share_memory_with(const Simulation& other) {
+  impl_->physics->share_memory_with(*other.impl_->physics);
+}
+
 Simulation Simulation::fork() const {
   return SnapshotReader(impl_->start_world(), impl_->start_hash(), {}).read(save());
 }
