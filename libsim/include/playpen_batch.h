@@ -5,8 +5,8 @@
 /**
  * @file
  * Many simulations at once, for programs in C (C99) and for languages that call C: Python, Julia,
- * Rust. docs/many_simulations.md explains it with examples; sim::Batch of sim/parallel/batch.h is the
- * same in C++.
+ * Rust. docs/many_simulations.md explains it with examples; sim::Batch of sim/parallel/batch.h is
+ * the same in C++.
  *
  * N is the number of simulations, R that of the robots of the arrays, B that of the beams of a
  * scan. Angles are in radians, counter-clockwise from the x axis; lengths in metres.
@@ -172,8 +172,8 @@ playpen_batch_observe(playpen_batch* batch, const playpen_batch_observations* ob
  * @param poses      double [N][R][3]: start poses x [m], y [m], yaw [rad], of which those of the
  * mask are used. Null, or no data: those of the world.
  * @return PLAYPEN_BATCH_ARGUMENT for a wrong size or a number that is not finite; nothing has
- * changed then. Also if a solid is where a robot should be: the robot stays at the world's start
- * then, and everything else is done. */
+ * changed then. Also if a robot would stand where something is: the robots of that simulation stay
+ * at the world's start then, and everything else is done. */
 PLAYPEN_BATCH_EXPORT playpen_batch_status playpen_batch_reset(playpen_batch* batch,
                                                               const uint8_t* mask, size_t mask_size,
                                                               const uint64_t* seeds,

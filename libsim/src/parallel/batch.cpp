@@ -238,27 +238,17 @@ void Batch::Impl::take_in(Simulation& simulation) const {
   }
 }
 
-// A robot may stand where another one leaves, so those that cannot be placed are tried again after
-// the others.
 void Batch::Impl::place(std::size_t i, const Rows<const double>& poses) {
   Simulation& simulation = *simulations[i];
-  std::vector<std::size_t> waiting(robots.size());
-  for (std::size_t r = 0; r < waiting.size(); ++r) waiting[r] = r;
-  std::string reason;
-  for (std::size_t before = waiting.size() + 1; !waiting.empty() && waiting.size() < before;) {
-    before = waiting.size();
-    reason.clear();
-    std::erase_if(waiting, [&](std::size_t r) {
-      const auto pose = poses.row(i, r);
-      const auto refusal = simulation.place_object(
-          simulation.world().robots[static_cast<std::size_t>(robots[r].index)].name,
-          {pose[0], pose[1], normalize_angle(pose[2])});
-      if (refusal && reason.empty()) reason = *refusal;
-      return !refusal;
-    });
+  std::vector<Simulation::RobotPlace> places;
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    const auto pose = poses.row(i, r);
+    places.push_back({robots[r].index, {pose[0], pose[1], normalize_angle(pose[2])}});
+  }
+  if (const auto refusal = simulation.place_robots(places)) {
+    fail("poses: simulation " + std::to_string(i) + ": " + *refusal);
   }
   simulation.restart_statistics();
-  if (!waiting.empty()) fail("poses: simulation " + std::to_string(i) + ": " + reason);
 }
 
 void Batch::Impl::command(std::size_t i, const Rows<const double>& actions) {

@@ -119,6 +119,7 @@ struct Simulation::Impl {
   // The same with "robot " or "obstacle " in front.
   [[nodiscard]] std::string title_of_body(int body) const;
   std::optional<std::string> place(std::size_t i, const Pose& X_WB);
+  std::optional<std::string> place(std::span<const RobotPlace> places);
   /// Why a robot cannot be placed or suspended; nullopt unless it mirrors a real one.
   [[nodiscard]] std::optional<std::string> refusal_of_mirrored(std::size_t robot) const;
   std::optional<std::string> place_block(const std::string& name, const Pose& pose);

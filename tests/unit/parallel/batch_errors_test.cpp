@@ -101,7 +101,7 @@ TEST(BatchErrors, Sizes) {
 
 TEST(BatchErrors, ScansWithoutLaser) {
   const WorldDescription world = load_world_text(R"({"arena": {"size": [2, 2]}, "robots": [
-    {"name": "a", "pose": {"x": 1, "y": 1}, "devices": {"motion": {}}}]})");
+    {"name": "a", "pose": {"x": 1, "y": 1}, "devices": {"laser": null}}]})");
   Batch batch(world, {});
   EXPECT_EQ(batch.beams(), 0);
   std::vector<float> scans(682);

@@ -133,7 +133,7 @@ TEST(Batch, Reset_WithSeedsAndPoses) {
   const std::vector<double> ahead(12, 0.3);
   batch.step({ahead}, 20, arrays.out());
   EXPECT_EQ(arrays.poses[0], arrays.poses[6]);  // equal seeds slip equally
-  // The robots change places, which takes two rounds.
+  // The robots of the first simulation change places.
   const std::vector<double> poses = {3.2, 0.6, 0.1, 0.6, 1.5, 0.2, 1,   1,   1,
                                      NAN, 1,   1,   1,   1,   0,   1.1, 1.9, 7};
   const std::vector<std::uint64_t> seeds = {6, 1, 6};
@@ -205,7 +205,9 @@ TEST(Batch, Strides_OtherOrderAndGaps) {
     for (std::size_t r = 0; r < 2; ++r) {
       EXPECT_EQ(poses[9 * r + 3 * i + 1], arrays.poses[3 * (2 * i + r) + 1]);
       EXPECT_EQ(scans[100 * i + 50 * r + 39], arrays.scans[40 * (2 * i + r) + 39]);
-      if (i + r < 3) EXPECT_EQ(scans[100 * i + 50 * r + 40], -1.0F);
+      if (100 * i + 50 * r + 40 < scans.size()) {
+        EXPECT_EQ(scans[100 * i + 50 * r + 40], -1.0F);
+      }
     }
   }
 }
@@ -227,9 +229,9 @@ TEST(Batch, Beams_SpanTheLasersField) {
 
 TEST(Batch, RobotsOfDifferentLasers_RestIsNan) {
   const WorldDescription world = load_world_text(R"({"arena": {"size": [4, 3]}, "robots": [
-    {"name": "a", "pose": {"x": 1, "y": 1}, "devices": {"motion": {}, "laser": {"beams": 5}}},
-    {"name": "b", "pose": {"x": 2, "y": 1}, "devices": {"motion": {}, "laser": {"beams": 2}}},
-    {"name": "c", "pose": {"x": 3, "y": 1}, "devices": {"motion": {}}}]})");
+    {"name": "a", "pose": {"x": 1, "y": 1}, "devices": {"laser": {"beams": 5}}},
+    {"name": "b", "pose": {"x": 2, "y": 1}, "devices": {"laser": {"beams": 2}}},
+    {"name": "c", "pose": {"x": 3, "y": 1}, "devices": {"laser": null}}]})");
   Batch batch(world, {.threads = 1});
   Arrays arrays(batch);
   batch.observe(arrays.out());

@@ -15,7 +15,7 @@ namespace sim::test {
 /// duration is 1 s.
 inline constexpr const char* kRoom = R"({
   "arena": {"size": [4, 3], "obstacles": [
-    {"name": "pillar", "shape": "circle", "center": [2, 1.5], "size": [0.4, 0.4]},
+    {"name": "pillar", "shape": "circle", "center": [2, 1.5], "radius": 0.2},
     {"name": "box", "center": [3.2, 2.3], "size": [0.3, 0.5]}]},
   "simulation": {"seed": 7, "duration": 1},
   "robots": [
@@ -24,7 +24,7 @@ inline constexpr const char* kRoom = R"({
       "pose": {}, "pen": {}}},
     {"name": "b", "pose": {"x": 3.2, "y": 0.6, "yaw_deg": 120}, "devices": {
       "motion": {"slip": 0.1}, "laser": {"beams": 40, "resolution_deg": 6}}},
-    {"name": "post", "pose": {"x": 0.5, "y": 2.6}, "devices": {}}]})";
+    {"name": "post", "pose": {"x": 0.5, "y": 2.6}, "devices": {"motion": null}}]})";
 
 /// The caller's arrays for a batch, without gaps.
 struct Arrays {

@@ -16,7 +16,7 @@
 
 namespace sim {
 
-/// A call to a Batch that cannot be carried out: a wrong size, a value out of range, an unknown
+/// A wrong call of a Batch: a wrong size, a value out of range, an unknown
 /// robot. what() says which argument, what was expected and what was found.
 class BatchError : public std::runtime_error {
  public:
@@ -129,7 +129,7 @@ class Batch {
   /// statistics begin at 0.
   /// @throws BatchError if an array has a wrong size or a pose is not finite; nothing has changed
   ///     then. Or if a robot cannot be placed because something stands there: the text names the
-  ///     first such simulation; its robots and the following ones stay at the world's start, and
+  ///     first such simulation. The robots of such a simulation stay at the world's start, and
   ///     everything else is done.
   void reset(const BatchReset& how = {});
 

@@ -229,6 +229,17 @@ class Simulation {
   /// @return nothing on success, otherwise the reason: no such object, an immovable object, or the
   ///     obstacle in the way. A block that is not retracted cannot be placed where a robot stands.
   std::optional<std::string> place_object(const std::string& name, const Pose& pose);
+  /// A robot, by its index, and the pose X_WB that it gets.
+  struct RobotPlace {
+    int robot;
+    Pose X_WB;
+  };
+  /// Places several robots at once, at rest, as by RobotControl::place(). They may take one
+  /// another's places.
+  /// @param places  each robot at most once; the robots must exist.
+  /// @return nothing on success, otherwise the reason, which names the first robot that cannot be
+  ///     placed; no robot is moved then.
+  std::optional<std::string> place_robots(std::span<const RobotPlace> places);
   /// Changes the size of a block at once. A carried block is put down where it is.
   /// @param size_m  along its own axes [m], each > 0.
   /// @return as for place_object().
