@@ -18,15 +18,13 @@
 
 #include "playpen_batch.h"
 
-#ifndef SIMULATIONS
-#define SIMULATIONS 64
-#endif
-enum { kSimulations = SIMULATIONS, kRounds = 9 };
+enum { kMostSimulations = 1024, kRounds = 9 };
 
 typedef struct {
   playpen_batch* batch;
   double* actions;
   float* scans;
+  int simulations;
   int beams;
 } Work;
 
@@ -41,26 +39,27 @@ static void check(playpen_batch_status status) {
   exit(1);
 }
 
-static Work make(int threads, int beams) {
+static Work make(int simulations, int threads, int beams) {
   playpen_batch_options options;
   playpen_batch_options_init(&options);
-  options.simulations = kSimulations;
+  options.simulations = simulations;
   options.threads = threads;
   options.beams = beams;
   Work work;
+  work.simulations = simulations;
   check(playpen_batch_create(PLAYPEN_SOURCE_DIR "/worlds/syrotek.json", &options, &work.batch));
   /* Each robot begins with another heading. */
-  double poses[kSimulations * 3];
-  for (int i = 0; i < kSimulations; ++i) {
+  double poses[kMostSimulations * 3];
+  for (int i = 0; i < simulations; ++i) {
     poses[3 * i] = 0.5;
     poses[3 * i + 1] = 0.4;
-    poses[3 * i + 2] = 6.28 * i / kSimulations;
+    poses[3 * i + 2] = 6.28 * i / simulations;
   }
-  const playpen_batch_array starts = {poses, (size_t)kSimulations * 3, 0, 0};
+  const playpen_batch_array starts = {poses, (size_t)simulations * 3, 0, 0};
   check(playpen_batch_reset(work.batch, NULL, 0, NULL, 0, &starts));
   work.beams = playpen_batch_beams(work.batch);
-  work.actions = calloc((size_t)kSimulations * 2, sizeof(double));
-  work.scans = calloc((size_t)kSimulations * (size_t)work.beams, sizeof(float));
+  work.actions = calloc((size_t)simulations * 2, sizeof(double));
+  work.scans = calloc((size_t)simulations * (size_t)work.beams, sizeof(float));
   return work;
 }
 
@@ -73,7 +72,7 @@ static void destroy(Work* work) {
 /* Drives on, and turns away from what is near ahead. */
 static void decide(const Work* work) {
   enum { kRays = 12 };
-  for (int i = 0; i < kSimulations; ++i) {
+  for (int i = 0; i < work->simulations; ++i) {
     const float* scan = work->scans + (size_t)i * (size_t)work->beams;
     const int middle = work->beams / 2;
     const int step = work->beams / 40;
@@ -107,20 +106,20 @@ static Times now(void) {
 
 /* Times of a decision. */
 static Times run(const Work* work, int decisions, int steps) {
-  playpen_batch_array actions = {work->actions, (size_t)kSimulations * 2, 0, 0};
+  playpen_batch_array actions = {work->actions, (size_t)work->simulations * 2, 0, 0};
   playpen_batch_observations out;
   memset(&out, 0, sizeof out);
   out.struct_size = sizeof out;
   out.scans.data = work->scans;
-  out.scans.size = (size_t)kSimulations * (size_t)work->beams;
-  const int calls = decisions / kSimulations;
+  out.scans.size = (size_t)work->simulations * (size_t)work->beams;
+  const int calls = decisions / work->simulations;
   const Times before = now();
   for (int k = 0; k < calls; ++k) {
     decide(work);
     check(playpen_batch_step(work->batch, &actions, steps, &out));
   }
   const Times after = now();
-  const double done = (double)calls * kSimulations;
+  const double done = (double)calls * work->simulations;
   Times each = {(after.cpu_s - before.cpu_s) / done, (after.wall_s - before.wall_s) / done};
   return each;
 }
@@ -138,8 +137,8 @@ static double median(double* values) {
 
 /* One and two threads take turns, so that a slow moment of the machine affects both. Of processor time, the
  * least counts, because other processes can only add to it. */
-static void measure(int beams, int steps, int decisions) {
-  Work works[2] = {make(1, beams), make(2, beams)};
+static void measure(int simulations, int beams, int steps, int decisions) {
+  Work works[2] = {make(simulations, 1, beams), make(simulations, 2, beams)};
   Times best[2] = {{1e30, 1e30}, {1e30, 1e30}};
   double speedups[kRounds];
   for (int t = 0; t < 2; ++t) run(&works[t], decisions / 4, steps);
@@ -154,21 +153,25 @@ static void measure(int beams, int steps, int decisions) {
   }
   for (int t = 0; t < 2; ++t) {
     char name[64];
-    snprintf(name, sizeof name, "beams_%d_steps_%d_threads_%d", works[t].beams, steps, t + 1);
+    snprintf(name, sizeof name, "many_%d_beams_%d_steps_%d_threads_%d", simulations, works[t].beams,
+             steps, t + 1);
     printf("figure %s_per_cpu_second %.4g\n", name, 1.0 / best[t].cpu_s);
     printf("figure %s_per_second %.4g\n", name, 1.0 / best[t].wall_s);
   }
-  printf("figure beams_%d_steps_%d_work_of_2_threads %.4g\n", works[0].beams, steps,
-         best[1].cpu_s / best[0].cpu_s);
-  printf("figure beams_%d_steps_%d_speedup_of_2_threads %.4g\n", works[0].beams, steps,
-         median(speedups));
+  printf("figure many_%d_beams_%d_steps_%d_work_of_2_threads %.4g\n", simulations, works[0].beams,
+         steps, best[1].cpu_s / best[0].cpu_s);
+  printf("figure many_%d_beams_%d_steps_%d_speedup_of_2_threads %.4g\n", simulations, works[0].beams,
+         steps, median(speedups));
   for (int t = 0; t < 2; ++t) destroy(&works[t]);
 }
 
 int main(void) {
-  measure(0, 1, 100000);
-  measure(180, 1, 200000);
-  measure(0, 10, 50000);
-  measure(180, 10, 50000);
+  static const int kCounts[] = {64, 256, 1024};
+  for (size_t k = 0; k < sizeof kCounts / sizeof *kCounts; ++k) {
+    measure(kCounts[k], 0, 1, 100000);
+    measure(kCounts[k], 180, 1, 100000);
+    measure(kCounts[k], 0, 10, 30000);
+    measure(kCounts[k], 180, 10, 30000);
+  }
   return 0;
 }

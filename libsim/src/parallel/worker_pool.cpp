@@ -4,6 +4,18 @@
 #include <cstddef>
 
 namespace sim::parallel {
+namespace {
+
+// How often the caller looks whether the others have finished, before it sleeps: some microseconds.
+constexpr int kSpins = 50;
+
+void relax() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
+
+}  // namespace
 
 WorkerPool::WorkerPool(int threads) : parts_(static_cast<std::size_t>(threads)) {
   try {
@@ -36,8 +48,9 @@ void WorkerPool::serve(int worker) {
     done = round_;
     lock.unlock();
     work_as(worker);
+    const bool is_last = working_.fetch_sub(1, std::memory_order_acq_rel) == 1;
     lock.lock();
-    if (--working_ == 0) ended_.notify_one();
+    if (is_last) ended_.notify_one();
   }
 }
 
@@ -65,13 +78,19 @@ void WorkerPool::run(int count, const std::function<void(int, int)>& work) {
     {
       const std::lock_guard lock(mutex_);
       ++round_;
-      working_ = static_cast<int>(started_.size());
+      working_.store(static_cast<int>(started_.size()), std::memory_order_relaxed);
     }
     begun_.notify_all();
   }
   work_as(0);
+  // All parts are empty, so the others finish at most an item: to sleep would take longer.
+  const auto is_over = [this] { return working_.load(std::memory_order_acquire) == 0; };
+  for (int i = 0; i < kSpins; ++i) {
+    if (is_over()) return;
+    relax();
+  }
   std::unique_lock lock(mutex_);
-  ended_.wait(lock, [this] { return working_ == 0; });
+  ended_.wait(lock, is_over);
 }
 
 }  // namespace sim::parallel

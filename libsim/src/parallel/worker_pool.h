@@ -47,9 +47,9 @@ class WorkerPool {
   std::mutex mutex_;
   std::condition_variable begun_;
   std::condition_variable ended_;
-  std::uint64_t round_ = 0;  // guarded by mutex_, like the next two
-  int working_ = 0;          // started threads that have not finished the round
-  bool stopping_ = false;
+  std::uint64_t round_ = 0;       // guarded by mutex_
+  bool stopping_ = false;         // guarded by mutex_
+  std::atomic<int> working_ = 0;  // started threads that have not finished the round
   std::vector<std::thread> started_;
 };
 
