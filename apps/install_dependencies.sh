@@ -16,7 +16,7 @@ Groups (default: build):
   build   compiler, CMake, make and pkg-config, and the libraries that Playpen links
   test    GoogleTest, Google Benchmark, ffprobe, which looks at films, gdb, valgrind, a display
           without a screen for the live window, Python, locales with a decimal comma, and, where
-          they can be had, MORSE's client library and Boost.Program_options
+          they can be had, MORSE's client library, Boost.Program_options and NumPy
   lint    clang, its formatter and linter, shellcheck
   page    Node.js and ESLint, for the scripts of the replay page
   browser Chromium and its driver, where they can be had, for the nightly test of that page
@@ -45,7 +45,7 @@ test_packages=(
   libarchive-tools=bsdtar)
 # If the system has no such package (Ubuntu 24.04 lacks the first), the tests that need it are
 # skipped.
-optional_test_packages=(python3-morse-simulator libboost-program-options-dev)
+optional_test_packages=(python3-morse-simulator libboost-program-options-dev python3-numpy)
 cluster_packages=(slurm-wlm=slurmd munge=munged parallel=parallel openssh-server=sshd)
 lint_packages=(
   clang=clang clang-format=clang-format clang-tidy=clang-tidy shellcheck=shellcheck git=git)

@@ -16,9 +16,12 @@ write_basic_package_version_file(
 if(TARGET playpen)
   set_target_properties(playpen PROPERTIES INSTALL_RPATH "\$ORIGIN/${playpen_libraries_from_command}")
   # Whoever builds the command can install the package.
-  if(TARGET playpen_player)
-    add_dependencies(playpen playpen_player)
-  endif()
+  add_dependencies(playpen playpen_batch)
+  foreach(_library IN ITEMS playpen_player playpen_batch_c)
+    if(TARGET ${_library})
+      add_dependencies(playpen ${_library})
+    endif()
+  endforeach()
 endif()
 
 # playpen_install_libraries(LIBDIR COMPONENT [EXCLUDE_FROM_ALL]): the libraries in a folder, and what
@@ -26,11 +29,13 @@ endif()
 function(playpen_install_libraries libdir component)
   set(runtime COMPONENT ${component} ${ARGN})
   set(development COMPONENT ${component}_dev ${ARGN})
-  set(libraries playpen_sim playpen_playerlike)
-  # The shared library beside static ones. With sanitizers there is none.
-  if(TARGET playpen_player)
-    list(APPEND libraries playpen_player)
-  endif()
+  set(libraries playpen_sim playpen_batch playpen_playerlike)
+  # The shared libraries beside static ones. With sanitizers there are none.
+  foreach(library IN ITEMS playpen_player playpen_batch_c)
+    if(TARGET ${library})
+      list(APPEND libraries ${library})
+    endif()
+  endforeach()
   install(TARGETS ${libraries}
     EXPORT playpen_${component}
     ARCHIVE DESTINATION ${libdir} ${development}
@@ -56,6 +61,13 @@ function(playpen_install_libraries libdir component)
     "${PROJECT_SOURCE_DIR}/libsim/cmake/FindPlaypenBox2D.cmake"
     "${PROJECT_SOURCE_DIR}/libsim/cmake/playpenTesting.cmake"
     DESTINATION "${package_dir}" ${development})
+  file(RELATIVE_PATH PC_PREFIX "/prefix/${libdir}/pkgconfig" "/prefix")
+  string(REGEX REPLACE "/$" "" PC_PREFIX "${PC_PREFIX}")
+  set(PC_LIBDIR "${libdir}")
+  configure_file("${PROJECT_SOURCE_DIR}/libsim/cmake/playpen_batch.pc.in"
+    "${PROJECT_BINARY_DIR}/package/${component}/playpen_batch.pc" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/package/${component}/playpen_batch.pc"
+    DESTINATION "${libdir}/pkgconfig" ${development})
   if(BUILD_SHARED_LIBS OR TARGET playpen_player)
     playpen_install_player_names("${libdir}" ${component}_dev ${ARGN})
   endif()
@@ -84,6 +96,8 @@ install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG
   COMPONENT programs DESTINATION "${_playpen_pages}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" COMPONENT programs DESTINATION "${_playpen_pages}"
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/examples" COMPONENT programs
+  DESTINATION "${_playpen_pages}/docs" FILES_MATCHING PATTERN "*.c" PATTERN "*.py")
 file(RELATIVE_PATH _playpen_pages "/${CMAKE_INSTALL_DOCDIR}" "/${_playpen_pages}")
 set(_playpen_links)
 foreach(_page IN ITEMS README.md CHANGELOG.md docs)

@@ -65,7 +65,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(_playpen_control "${PROJECT_BINARY_DIR}/package")
 file(WRITE "${_playpen_control}/triggers" "activate-noawait ldconfig\n")
 file(WRITE "${_playpen_control}/shlibs" "")
-set(_playpen_libraries playpen_playerlike)
+set(_playpen_libraries playpen_playerlike playpen_batch)
 if(BUILD_SHARED_LIBS)
   list(APPEND _playpen_libraries playpen_sim)
 endif()
@@ -83,7 +83,8 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME playpen-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_DESCRIPTION "${_playpen_description}
 This package contains what such programs are built with: headers, static
-libraries, and files for CMake (playpen) and pkg-config (playerc++).")
+libraries, and files for CMake (playpen) and pkg-config (playerc++,
+playpen_batch).")
 # Those that playpenConfig.cmake finds.
 set(_playpen_dev_packages "playpen (= ${PROJECT_VERSION})" libeigen3-dev)
 if(NOT BUILD_SHARED_LIBS)

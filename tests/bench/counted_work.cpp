@@ -15,6 +15,7 @@
 #include "realtime.h"
 #include "sim/canvas/layers.h"
 #include "sim/devices/rangers.h"
+#include "sim/parallel/batch.h"
 
 namespace {
 
@@ -84,6 +85,19 @@ void pixels(int times) {
   for (int i = 0; i < times; ++i) stack.draw(drawings);
 }
 
+// Decisions of 16 simulations at once, with a scan each. The robots drive on circles.
+void many(int times, int beams) {
+  constexpr int kCount = 16;
+  sim::Batch batch(sim::bench::endless(sim::bench::kOne),
+                   {.simulations = kCount, .threads = 1, .beams = beams});
+  std::vector<double> actions;
+  for (int i = 0; i < kCount; ++i) actions.insert(actions.end(), {0.2, 0.5});
+  std::vector<float> scans(static_cast<std::size_t>(kCount * batch.beams()));
+  for (int i = 0; i < times; i += kCount) {
+    batch.step({actions}, 1, {.scans = {scans}});
+  }
+}
+
 // Saves 13 robots with all devices of an S1R.
 void save(int times) {
   Simulation simulation(sim::bench::endless(sim::bench::kThirteen));
@@ -111,10 +125,16 @@ void beams(int times) {
 
 int main(int argc, char** argv) {
   const std::map<std::string, std::function<void(int)>> works = {
-      {"beams", beams},     {"pixels", pixels},
-      {"read", read_scans}, {"save", save},
-      {"scan", scan},       {"sonar_rings", sonar_rings},
-      {"step", step},       {"wandering_step", wandering_step}};
+      {"beams", beams},
+      {"pixels", pixels},
+      {"many", [](int times) { many(times, 0); }},
+      {"many_180", [](int times) { many(times, 180); }},
+      {"read", read_scans},
+      {"save", save},
+      {"scan", scan},
+      {"sonar_rings", sonar_rings},
+      {"step", step},
+      {"wandering_step", wandering_step}};
   const auto work = works.find(argc == 3 ? argv[1] : "");
   if (work == works.end()) {
     std::fprintf(stderr, "Usage: counted_work NAME TIMES; names:");

@@ -18,7 +18,7 @@ FILE = Path(__file__).with_name("instructions.json")
 TOLERANCE = 0.03
 # How often each work is done, in the two runs.
 TIMES = {"beams": (100, 300), "pixels": (100, 300), "read": (200, 600), "save": (10, 30),
-         "scan": (200, 600), "sonar_rings": (100, 300), "step": (2000, 6000),
+         "many": (200, 600), "many_180": (200, 600), "scan": (200, 600), "sonar_rings": (100, 300), "step": (2000, 6000),
          "wandering_step": (200, 600)}
 
 

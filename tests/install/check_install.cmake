@@ -37,7 +37,7 @@ endforeach()
 
 run("configuring the consumer" ${CMAKE_COMMAND}
   -S ${CONSUMER_DIR} -B ${STAGE_DIR}/consumer -G ${GENERATOR}
-  -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+  -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_C_COMPILER=${C_COMPILER}
   "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}"
   "-DCMAKE_PREFIX_PATH=${prefix}")
 run("building the consumer" ${CMAKE_COMMAND} --build ${STAGE_DIR}/consumer --config "${CONFIG}")
@@ -50,6 +50,12 @@ run("running the simulator's user" ${STAGE_DIR}/consumer/simulator_user)
 if(NOT run_output MATCHES "after 1 s: 100 steps")
   message(FATAL_ERROR "the simulator's user printed:\n${run_output}")
 endif()
+foreach(program IN ITEMS batch_user batch_user_in_c)
+  run("running ${program}" ${STAGE_DIR}/consumer/${program})
+  if(NOT run_output MATCHES "3 simulations after 0.2 s")
+    message(FATAL_ERROR "${program} printed:\n${run_output}")
+  endif()
+endforeach()
 if(EXISTS "${prefix}/bin/playpen")
   run("the installed command" "${prefix}/bin/playpen" --version)
   if(NOT EXISTS "${prefix}/bin/playpen-view")

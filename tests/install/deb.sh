@@ -56,13 +56,15 @@ holds() {
   done
 }
 holds playpen ./usr/bin/playpen ./usr/bin/playpen-page ./usr/bin/playpen-view "$libraries/libplaypen_playerlike.so.0.1" \
+  "$libraries/libplaypen_batch.so.0.1" ./usr/share/playpen/docs/examples/playpen_gym.py \
   "$libraries/playpen/libplaypen_virtual_time.so" ./usr/share/playpen/worlds/cave.json \
   ./usr/share/playpen/templates/intro/robot.cc ./usr/share/man/man1/playpen.1.gz \
   ./usr/share/bash-completion/completions/playpen ./usr/share/playpen/docs/start_here.md \
   ./usr/share/doc/playpen/docs ./usr/share/doc/playpen/copyright
 holds playpen-dev ./usr/include/playpen/libplayerc++/playerc++.h "$libraries/libplayerc++.so" \
   "$libraries/libplaypen_playerlike.so" "$libraries/cmake/playpen/playpenConfig.cmake" \
-  "$libraries/pkgconfig/playerc++.pc"
+  "$libraries/pkgconfig/playerc++.pc" ./usr/include/playpen/playpen_batch.h \
+  "$libraries/libplaypen_batch.so" "$libraries/pkgconfig/playpen_batch.pc"
 strays=$(grep -vE "^\./usr/(bin|include|share)/|^$libraries/" "$folder"/playpen{,-dev}.list || true)
 [[ -z $strays ]] || fail "files in places that the packages should not use:" "$strays"
 dependencies=$(dpkg-deb --field "${debs[0]}" Depends)
@@ -108,6 +110,10 @@ mkdir flags && cp "$folder/root/usr/share/playpen/templates/client/main.cc" flag
 # shellcheck disable=SC2046  # pkg-config's words are flags
 g++ flags/main.cc $(pkg-config --cflags --libs playerc++) -o flags/wander
 "$playpen" run cave --duration 5 --out flags/out -- flags/wander | grep '5.0 s simulated'
+# shellcheck disable=SC2046  # pkg-config's words are flags
+gcc "$folder/root/usr/share/playpen/docs/examples/many_robots.c" \
+  $(pkg-config --cflags --libs playpen_batch) -o flags/many_robots
+flags/many_robots "$folder/root/usr/share/playpen/worlds/syrotek.json" | grep '^64 robots'
 
 "$playpen" new test tested
 cmake -S tested -B tested/build

@@ -79,6 +79,12 @@ LaserReading Laser::ideal_scan(const StepContext& context) const {
   return scan;
 }
 
+void Laser::ideal_scan(const StepContext& context, const scan::ScanGeometry& geometry,
+                       scan::ScanWorkspace& workspace, std::span<float> ranges_m) const {
+  context.physics.scan(workspace, geometry, context.body.X_WB * params_.X_BL, params_.height_m,
+                       context.robot, may_be_inside_, ranges_m);
+}
+
 void Laser::mix_pixels(std::vector<double>& ranges_m) {
   // The edge is that of the true ranges, also if the beam before it was mixed.
   double before_m = ranges_m.front();

@@ -43,6 +43,7 @@ struct Cylinder {
 
 struct Edge {
   double x0, y0, x1, y1;
+  friend bool operator==(const Edge&, const Edge&) = default;
 };
 
 /// Edges of solids with their heights, in one array, so that the edges of a small world are
@@ -61,6 +62,11 @@ struct EdgeList {
     greatest_bottom_m = 0.0;
     least_height_m = std::numeric_limits<double>::infinity();
   }
+  void reserve(std::size_t count) {
+    edges.reserve(count);
+    heights_m.reserve(count);
+    bottoms_m.reserve(count);
+  }
   void add(const Edge& edge, double height_m, double bottom_m = 0.0) {
     edges.push_back(edge);
     heights_m.push_back(height_m);
@@ -68,6 +74,7 @@ struct EdgeList {
     least_height_m = std::min(least_height_m, height_m);
     greatest_bottom_m = std::max(greatest_bottom_m, bottom_m);
   }
+  friend bool operator==(const EdgeList&, const EdgeList&) = default;
 };
 
 inline const FixtureInfo& info_of(const b2Fixture* fixture) {

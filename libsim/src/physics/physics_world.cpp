@@ -178,6 +178,13 @@ void PhysicsWorld::scan(const scan::ScanGeometry& geometry, const Pose& X_WL,
   impl_->sensor_view.scan(geometry, X_WL, sensor_height_m, own_robot, test_inside, ranges_m);
 }
 
+void PhysicsWorld::scan(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry,
+                        const Pose& X_WL, double sensor_height_m, int own_robot, bool test_inside,
+                        std::span<float> ranges_m) const {
+  impl_->sensor_view.scan(workspace, geometry, X_WL, sensor_height_m, own_robot, test_inside,
+                          ranges_m);
+}
+
 void PhysicsWorld::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
                                  std::vector<Face>& faces) const {
   impl_->sensor_view.collect_faces(low, high, own_robot, faces);
@@ -195,6 +202,10 @@ bool PhysicsWorld::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double heigh
 double PhysicsWorld::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m,
                                 int own_robot) const {
   return impl_->sensor_view.ray_cast_m(p_WL, angle_rad, range_max_m, own_robot);
+}
+
+void PhysicsWorld::share_memory_with(const PhysicsWorld& other) {
+  impl_->sensor_view.share_memory_with(other.impl_->sensor_view);
 }
 
 void PhysicsWorld::archive(StateArchive& archive) {

@@ -145,6 +145,11 @@ class PhysicsWorld {
   /// @param ranges_m  as for ScanKernel::scan(). The other parameters are those of collect_edges().
   void scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
             int own_robot, bool test_inside, std::span<double> ranges_m) const;
+  /// The same with ranges that are rounded to single precision.
+  /// @param workspace  of the calling thread.
+  void scan(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry, const Pose& X_WL,
+            double sensor_height_m, int own_robot, bool test_inside,
+            std::span<float> ranges_m) const;
 
   /// A vertical face of a solid, from the floor up: an edge of its outline, or the whole face of a
   /// round one.
@@ -174,6 +179,10 @@ class PhysicsWorld {
   [[nodiscard]] bool is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m,
                                   int own_robot, const Contact& target,
                                   bool solid_only = false) const;
+
+  /// Uses the memory of another world for what is equal in both and does not change. Takes a
+  /// comparison of all static solids. The worlds stay independent, also for threads.
+  void share_memory_with(const PhysicsWorld& other);
 
   /// Writes the state, or reads the state of a world with the same arena and robots. It does not
   /// include what robots carry; the caller restores that with set_load().

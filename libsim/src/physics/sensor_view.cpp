@@ -81,21 +81,27 @@ double entry_of(const Cylinder& cylinder, const Vec2& p_WA, const Vec2& p_WC) {
 
 void SensorView::solids_changed() {
   sweep_ = bodies_.edges().edges.size() + bodies_.cylinders().size() <= kSweepLimit;
-  fixed_edges_.clear();
+  const auto fixed_edges = std::make_shared<EdgeList>();
+  fixed_edges_ = fixed_edges;
   fixed_cylinders_.clear();
   if (!sweep_) return;
+  fixed_edges->reserve(bodies_.edges().edges.size());
   for (const auto& info : bodies_.infos()) {
     if (info->body >= 0) continue;
     if (info->kind == Contact::Kind::kObstacle && !bodies_.obstacle(info->index).IsEnabled()) {
       continue;
     }
     for (std::size_t i = 0; i < info->edge_count; ++i) {
-      fixed_edges_.add(bodies_.edges().edges[info->first_edge + i], info->height_m, info->bottom_m);
+      fixed_edges->add(bodies_.edges().edges[info->first_edge + i], info->height_m, info->bottom_m);
     }
     if (info->cylinder >= 0) {
       fixed_cylinders_.push_back(bodies_.cylinders()[static_cast<std::size_t>(info->cylinder)]);
     }
   }
+}
+
+void SensorView::share_memory_with(const SensorView& other) {
+  if (*fixed_edges_ == *other.fixed_edges_) fixed_edges_ = other.fixed_edges_;
 }
 
 void SensorView::robot_was_placed() {
@@ -309,12 +315,6 @@ double SensorView::cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC,
   return least_m / length_m;
 }
 
-scan::ScanKernel& SensorView::kernel_of(const scan::ScanGeometry& geometry) {
-  const auto it = std::find_if(kernels_.begin(), kernels_.end(),
-                               [&](const scan::ScanKernel& k) { return k.geometry() == geometry; });
-  return it != kernels_.end() ? *it : kernels_.emplace_back(geometry);
-}
-
 // Appends the edges of a robot's outline.
 void SensorView::append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out) {
   static_assert(sizeof(Vec2) == 2 * sizeof(double));
@@ -329,7 +329,7 @@ void SensorView::collect_static_edges(const Vec2& p_WL, double radius_m, double 
                                       scan::EdgeBuffer& edges) {
   edges.clear();
   if (sweep_) {
-    append_edges(fixed_edges_, 0, fixed_edges_.edges.size(), p_WL, sensor_height_m, edges);
+    append_edges(*fixed_edges_, 0, fixed_edges_->edges.size(), p_WL, sensor_height_m, edges);
     for (const Cylinder& cylinder : fixed_cylinders_) {
       append_cylinder(cylinder, p_WL, sensor_height_m, edges);
     }
@@ -370,12 +370,23 @@ void SensorView::collect_edges(const Vec2& p_WL, double radius_m, double sensor_
   if (test_inside) edges.inside = is_inside_solid(p_WL, sensor_height_m, own_robot);
 }
 
-void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
-                      int own_robot, bool test_inside, std::span<double> ranges_m) {
-  if (!outlines_fresh_) rebuild_outlines();
-  scan::ScanKernel& kernel = kernel_of(geometry);
-  scan::EdgeBuffer& edges = scan_edges_;
+template <typename Range>
+void SensorView::scan_with(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry,
+                           const Pose& X_WL, double sensor_height_m, int own_robot,
+                           bool test_inside, std::span<Range> ranges_m) {
+  scan::ScanKernel& kernel = workspace.kernel_of(geometry);
+  scan::EdgeBuffer& edges = workspace.edges();
   const Vec2 p_WL = X_WL.position();
+  collect_static_edges(p_WL, geometry.range_max_m, sensor_height_m, edges);
+  if (test_inside) edges.inside = is_inside_solid(p_WL, sensor_height_m, own_robot);
+  kernel.begin(X_WL.yaw_rad);
+  if (is_alone(own_robot)) {
+    if (!outlines_fresh_) sort_by_hilbert_index();  // part of the state
+    kernel.add(edges);
+    kernel.finish(ranges_m);
+    return;
+  }
+  if (!outlines_fresh_) rebuild_outlines();
   const auto append = [&](std::span<const std::int32_t> discs) {
     for (const std::int32_t disc : discs) {
       const Outline& outline = outlines_[static_cast<std::size_t>(disc)];
@@ -390,9 +401,6 @@ void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, doub
     }
   };
 
-  collect_static_edges(p_WL, geometry.range_max_m, sensor_height_m, edges);
-  if (test_inside) edges.inside = is_inside_solid(p_WL, sensor_height_m, own_robot);
-  kernel.begin(X_WL.yaw_rad);
   kernel.locate(robot_discs_, static_cast<float>(p_WL.x()), static_cast<float>(p_WL.y()));
   append(kernel.near());
   kernel.add(edges);
@@ -400,6 +408,17 @@ void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, doub
   append(kernel.visible());
   if (edges.size() > 0 || !edges.circles().empty()) kernel.add(edges);
   kernel.finish(ranges_m);
+}
+
+void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
+                      int own_robot, bool test_inside, std::span<double> ranges_m) {
+  scan_with(workspace_, geometry, X_WL, sensor_height_m, own_robot, test_inside, ranges_m);
+}
+
+void SensorView::scan(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry,
+                      const Pose& X_WL, double sensor_height_m, int own_robot, bool test_inside,
+                      std::span<float> ranges_m) {
+  scan_with(workspace, geometry, X_WL, sensor_height_m, own_robot, test_inside, ranges_m);
 }
 
 void SensorView::collect_faces(const Vec2& low, const Vec2& high, int own_robot,

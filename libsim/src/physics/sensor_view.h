@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,11 +33,16 @@ class SensorView {
   void add_robot(int robot) { by_hilbert_index_.push_back({0, robot, 0.0}); }
   void robot_was_placed();
 
+  /// Uses the memory of another world's view for what is equal in both and does not change.
+  void share_memory_with(const SensorView& other);
+
   void set_load(Body& r, const std::vector<PhysicsWorld::Load>& loads);
   void collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
                      bool test_inside, scan::EdgeBuffer& edges);
   void scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
             int own_robot, bool test_inside, std::span<double> ranges_m);
+  void scan(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry, const Pose& X_WL,
+            double sensor_height_m, int own_robot, bool test_inside, std::span<float> ranges_m);
   void collect_faces(const Vec2& low, const Vec2& high, int own_robot, std::vector<Face>& faces);
   [[nodiscard]] bool is_inside_solid(const Vec2& p_W, double height_m, int own_robot);
   [[nodiscard]] bool is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m,
@@ -74,6 +80,10 @@ class SensorView {
     }
   };
 
+  // Whether a robot is the only body that moves, so that it sees nothing but static solids.
+  [[nodiscard]] bool is_alone(int robot) const {
+    return by_hilbert_index_.size() == 1 && by_hilbert_index_.front().robot == robot;
+  }
   void sort_by_hilbert_index();
   void rebuild_outlines();
   template <typename Visitor>
@@ -87,12 +97,17 @@ class SensorView {
                                                        std::optional<double> height_m);
   template <typename Filter, typename Visitor>
   void cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit);
-  [[nodiscard]] scan::ScanKernel& kernel_of(const scan::ScanGeometry& geometry);
+  template <typename Range>
+  void scan_with(scan::ScanWorkspace& workspace, const scan::ScanGeometry& geometry,
+                 const Pose& X_WL, double sensor_height_m, int own_robot, bool test_inside,
+                 std::span<Range> ranges_m);
   void collect_static_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
                             scan::EdgeBuffer& edges);
 
   Bodies& bodies_;
-  EdgeList fixed_edges_;                   // static solids that exist now, if the world is small
+  // Static solids that exist now, if the world is small. The views of other worlds may have the
+  // same list.
+  std::shared_ptr<const EdgeList> fixed_edges_ = std::make_shared<EdgeList>();
   std::vector<Cylinder> fixed_cylinders_;  // round obstacles that exist now, if the world is small
   bool sweep_ = true;                      // the world is small
   EdgeList further_edges_;                 // of several parts, superstructures and loads
@@ -100,8 +115,7 @@ class SensorView {
   std::vector<Outline> outlines_;
   scan::DiscBuffer robot_discs_;                // bounding discs of `outlines_`
   std::vector<HilbertEntry> by_hilbert_index_;  // order of `outlines_` and `robot_discs_`
-  std::vector<scan::ScanKernel> kernels_;       // for scan(), one per geometry
-  scan::EdgeBuffer scan_edges_;                 // scratch memory of scan()
+  scan::ScanWorkspace workspace_;               // for scan()
   bool outlines_fresh_ = false;
 };
 

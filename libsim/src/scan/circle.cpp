@@ -54,8 +54,11 @@ double least_range_in_cone_m(std::span<const Circle> circles, const Cone& cone,
 }
 
 namespace detail {
+namespace {
 
-void scan_circle(const ScanJob& job, const Circle& circle) {
+// See scan_circle().
+template <typename Range>
+void lower_to_circle(const ScanJob& job, const Circle& circle, Range* ranges_m) {
   const Circle turned{job.cos_yaw * circle.x_m + job.sin_yaw * circle.y_m,
                       job.cos_yaw * circle.y_m - job.sin_yaw * circle.x_m, circle.radius_m};
   const double distance_m = std::sqrt(turned.x_m * turned.x_m + turned.y_m * turned.y_m);
@@ -75,9 +78,19 @@ void scan_circle(const ScanJob& job, const Circle& circle) {
       const std::optional<Chord> chord =
           chord_of(turned, job.beams[2 * beam], job.beams[2 * beam + 1]);
       if (!chord || chord->enter_m < 0.0) continue;
-      job.ranges_m[beam] = std::min(job.ranges_m[beam], chord->enter_m);
+      ranges_m[beam] = std::min(ranges_m[beam], static_cast<Range>(chord->enter_m));
     }
   }
+}
+
+}  // namespace
+
+void scan_circle(const ScanJob& job, const Circle& circle, double* ranges_m) {
+  lower_to_circle(job, circle, ranges_m);
+}
+
+void scan_circle(const ScanJob& job, const Circle& circle, float* ranges_m) {
+  lower_to_circle(job, circle, ranges_m);
 }
 
 }  // namespace detail

@@ -62,7 +62,8 @@ struct ScanJob {
   float* inverse_ranges;  ///< largest 1/r of each beam so far, aligned to 32 bytes [1/m]
   float* minima;          ///< minimum of inverse_ranges in each block of kBlockBeams beams
 
-  double* ranges_m;  ///< output, beam_count values
+  double* ranges_m;        ///< output of finish(), beam_count values
+  float* single_ranges_m;  ///< output of finish_single(), beam_count values
 
   // Discs to test for visibility.
   const float* disc_x;       ///< in W, like the sensor's position
@@ -101,10 +102,14 @@ struct ScanSteps {
   Located (*locate)(const ScanJob&);
   std::int32_t (*find_visible)(const ScanJob&, std::int32_t groups);  ///< returns their number
   void (*finish)(const ScanJob&);
+  void (*finish_single)(const ScanJob&);
 };
 
-/// Lowers the ranges of the beams that meet a circle, in job.ranges_m. In double precision, and the
-/// same for all instruction sets. A circle that contains the sensor is not seen.
-void scan_circle(const ScanJob& job, const Circle& circle);
+/// Lowers the ranges of the beams that meet a circle. Computed in double precision, and the same
+/// for all instruction sets. A circle that contains the sensor is not seen.
+/// @param ranges_m  of all beams.
+void scan_circle(const ScanJob& job, const Circle& circle, double* ranges_m);
+/// The same with ranges that are rounded to single precision.
+void scan_circle(const ScanJob& job, const Circle& circle, float* ranges_m);
 
 }  // namespace sim::scan::detail

@@ -45,6 +45,9 @@ struct Scalar {
   static void store_ranges(double* to, float value, double greatest) {
     *to = std::min(static_cast<double>(value), greatest);
   }
+  static void store_ranges(float* to, float value, float greatest) {
+    *to = std::min(value, greatest);
+  }
 
   static float abs(float value) { return std::fabs(value); }
   static float copy_sign(float magnitude, float sign) { return std::copysign(magnitude, sign); }
@@ -126,6 +129,9 @@ struct Sse2 {
     const Double limit = broadcast(greatest);
     _mm_storeu_pd(to, _mm_min_pd(widen(value, 0), limit));
     _mm_storeu_pd(to + 2, _mm_min_pd(widen(value, 1), limit));
+  }
+  static void store_ranges(float* to, Float value, float greatest) {
+    _mm_storeu_ps(to, _mm_min_ps(value, broadcast(greatest)));
   }
 
   static Float abs(Float value) { return _mm_andnot_ps(broadcast(-0.0F), value); }
@@ -525,8 +531,9 @@ void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double>
 }
 
 void ScanKernel::begin(double yaw_rad) {
-  scratch_->job.cos_yaw = math::cos(yaw_rad);
-  scratch_->job.sin_yaw = math::sin(yaw_rad);
+  const auto [sine, cosine] = math::sin_cos(yaw_rad);
+  scratch_->job.cos_yaw = cosine;
+  scratch_->job.sin_yaw = sine;
   scratch_->inside = false;
   scratch_->circles.clear();
   steps_->clear(scratch_->job);
@@ -577,7 +584,28 @@ void ScanKernel::finish(std::span<double> ranges_m) {
   }
   scratch_->job.ranges_m = ranges_m.data();
   steps_->finish(scratch_->job);
-  for (const Circle& circle : scratch_->circles) detail::scan_circle(scratch_->job, circle);
+  for (const Circle& circle : scratch_->circles) {
+    detail::scan_circle(scratch_->job, circle, ranges_m.data());
+  }
+}
+
+void ScanKernel::finish(std::span<float> ranges_m) {
+  SIM_ASSERT(ranges_m.size() == static_cast<std::size_t>(geometry_.beam_count));
+  if (scratch_->inside) {
+    std::fill(ranges_m.begin(), ranges_m.end(), 0.0F);
+    return;
+  }
+  scratch_->job.single_ranges_m = ranges_m.data();
+  steps_->finish_single(scratch_->job);
+  for (const Circle& circle : scratch_->circles) {
+    detail::scan_circle(scratch_->job, circle, ranges_m.data());
+  }
+}
+
+ScanKernel& ScanWorkspace::kernel_of(const ScanGeometry& geometry) {
+  const auto it = std::find_if(kernels_.begin(), kernels_.end(),
+                               [&](const ScanKernel& k) { return k.geometry() == geometry; });
+  return it != kernels_.end() ? *it : kernels_.emplace_back(geometry);
 }
 
 }  // namespace sim::scan

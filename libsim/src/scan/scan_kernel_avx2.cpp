@@ -40,6 +40,9 @@ struct Avx2 {
     _mm256_storeu_pd(to, _mm256_min_pd(widen(value, 0), limit));
     _mm256_storeu_pd(to + 4, _mm256_min_pd(widen(value, 1), limit));
   }
+  static void store_ranges(float* to, Float value, float greatest) {
+    _mm256_storeu_ps(to, _mm256_min_ps(value, broadcast(greatest)));
+  }
 
   static Float abs(Float value) { return _mm256_andnot_ps(broadcast(-0.0F), value); }
   static Float copy_sign(Float magnitude, Float sign) {

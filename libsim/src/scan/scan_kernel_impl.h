@@ -614,23 +614,35 @@ std::int32_t find_visible(const ScanJob& job, std::int32_t groups) {
   return seen;
 }
 
-/// Converts the inverse ranges to ranges.
-template <class V>
-void finish(const ScanJob& job) {
+/// Converts the inverse ranges to ranges, in the precision of `Range`.
+template <class V, typename Range>
+void finish_to(const ScanJob& job, Range* ranges_m) {
+  const auto range_max_m = static_cast<Range>(job.range_max_m);
   const std::int32_t whole = job.beam_count & ~(V::kLanes - 1);
   const auto one = V::broadcast(1.0F);
   for (std::int32_t beam = 0; beam < whole; beam += V::kLanes) {
-    V::store_ranges(job.ranges_m + beam, one / V::load_aligned(job.inverse_ranges + beam),
-                    job.range_max_m);
+    V::store_ranges(ranges_m + beam, one / V::load_aligned(job.inverse_ranges + beam), range_max_m);
   }
   for (std::int32_t beam = whole; beam < job.beam_count; ++beam) {
-    const auto range_m = static_cast<double>(1.0F / job.inverse_ranges[beam]);
-    job.ranges_m[beam] = range_m < job.range_max_m ? range_m : job.range_max_m;
+    const auto range_m = static_cast<Range>(1.0F / job.inverse_ranges[beam]);
+    ranges_m[beam] = range_m < range_max_m ? range_m : range_max_m;
   }
+}
+
+template <class V>
+void finish(const ScanJob& job) {
+  finish_to<V>(job, job.ranges_m);
+}
+
+/// Rounding does not change the order of two numbers, so each range is that of finish(), rounded.
+template <class V>
+void finish_single(const ScanJob& job) {
+  finish_to<V>(job, job.single_ranges_m);
 }
 
 /// The steps implemented with the instructions of V.
 template <class V>
-inline constexpr ScanSteps kSteps{clear<V>, sweep<V>, locate<V>, find_visible<V>, finish<V>};
+inline constexpr ScanSteps kSteps{clear<V>,        sweep<V>,  locate<V>,
+                                  find_visible<V>, finish<V>, finish_single<V>};
 
 }  // namespace sim::scan::detail

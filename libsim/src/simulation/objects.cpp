@@ -59,21 +59,40 @@ std::string Simulation::Impl::title_of_body(int body) const {
 }
 
 std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_WB) {
-  if (auto refusal = refusal_of_mirrored(i)) return refusal;
+  const RobotPlace place{static_cast<int>(i), X_WB};
+  return this->place({&place, 1});
+}
+
+std::optional<std::string> Simulation::Impl::place(std::span<const RobotPlace> places) {
   std::vector<Pose> poses;
   for (int k = 0; k < physics->robot_count(); ++k) poses.push_back(physics->body(k).X_WB);
-  if (const auto what = io::blocked_by(world, poses, i, X_WB)) {
-    return "robot " + world.robots[i].name + " cannot be put there: " + *what;
+  for (const RobotPlace& place : places) {
+    poses.at(static_cast<std::size_t>(place.robot)) = place.X_WB;
   }
-  if (!io::is_valid_pose(X_WB)) {
-    return "robot " + world.robots[i].name + " cannot be put there: a pose takes finite numbers";
+  for (const auto& [robot, X_WB] : places) {
+    const auto i = static_cast<std::size_t>(robot);
+    if (auto refusal = refusal_of_mirrored(i)) return refusal;
+    if (const auto what = io::blocked_by(world, poses, i, X_WB)) {
+      return "robot " + world.robots[i].name + " cannot be put there: " + *what;
+    }
+    if (!io::is_valid_pose(X_WB)) {
+      return "robot " + world.robots[i].name + " cannot be put there: a pose takes finite numbers";
+    }
   }
-  physics->set_pose(static_cast<int>(i), X_WB);
-  robots[i].last_position = X_WB.position();  // the jump adds no path length
-  loads->follow_robots();
-  for (const auto& device : robots[i].devices) device->placed(X_WB);
+  for (const auto& [robot, X_WB] : places) {
+    RobotParts& parts = robots[static_cast<std::size_t>(robot)];
+    physics->set_pose(robot, X_WB);
+    parts.last_position = X_WB.position();  // the jump adds no path length
+    loads->follow_robots();
+    for (const auto& device : parts.devices) device->placed(X_WB);
+  }
   invalidate_clearances();
   return std::nullopt;
+}
+
+std::optional<std::string> Simulation::place_robots(std::span<const RobotPlace> places) {
+  ++interventions_;
+  return impl_->place(places);
 }
 
 std::optional<std::string> Simulation::Impl::refusal_of_mirrored(std::size_t i) const {

@@ -146,7 +146,7 @@ Simulation::Impl::Impl(WorldDescription description, LogHook hook, bool to_be_re
     chronicle.begin_events();
   }
   if (to_be_read) return;
-  for (std::size_t i = 0; i < robots.size(); ++i) measure_clearance(i, kClearanceLimit_m);
+  for (std::size_t i = 0; i < robots.size(); ++i) measure_clearance(i, kClearanceLimit_m, true);
 }
 
 Simulation::Impl::~Impl() = default;
@@ -280,12 +280,12 @@ inline double Simulation::Impl::move_m(std::size_t i, double dt_s) const {
          std::abs(body.turn_rad) * robots[i].radius_m;
 }
 
-void Simulation::Impl::measure_clearance(std::size_t i, double limit_m) {
+void Simulation::Impl::measure_clearance(std::size_t i, double limit_m, bool is_first) {
   RobotParts& robot = robots[i];
   double& least_m = robot.statistics.least_clearance_m;
-  const double exact_below_m = steps == 0 ? limit_m : least_m + kClearanceExact_m;
+  const double exact_below_m = is_first ? limit_m : least_m + kClearanceExact_m;
   const double clearance_m = physics->clearance_m(static_cast<int>(i), limit_m, exact_below_m);
-  const bool is_least = steps == 0 || clearance_m < least_m;
+  const bool is_least = is_first || clearance_m < least_m;
   if (is_least) least_m = clearance_m;
   robot.clearance_slack_m = clearance_m - least_m;
   robot.clearance_settled = !is_least && physics->clearance_settled(static_cast<int>(i));
@@ -419,6 +419,14 @@ const RobotStatistics& Simulation::statistics(int robot) const {
   return impl_->robots.at(static_cast<std::size_t>(robot)).statistics;
 }
 
+void Simulation::restart_statistics() {
+  ++interventions_;
+  for (std::size_t i = 0; i < impl_->robots.size(); ++i) {
+    impl_->robots[i].statistics = {};
+    impl_->measure_clearance(i, kClearanceLimit_m, /*is_first=*/true);
+  }
+}
+
 const std::vector<Collision>& Simulation::collisions() const noexcept {
   impl_->chronicle.forget_old_collisions();
   return impl_->chronicle.collisions();
@@ -462,6 +470,16 @@ std::optional<LaserReading> Simulation::ideal_scan(DeviceId laser) const {
   if (device == nullptr) return std::nullopt;
   return device->ideal_scan({impl_->now_ns, impl_->physics->body(laser.robot), *impl_->physics,
                              laser.robot, impl_->world});
+}
+
+bool Simulation::ideal_scan(DeviceId laser, const scan::ScanGeometry& geometry,
+                            scan::ScanWorkspace& workspace, std::span<float> ranges_m) const {
+  const auto* const device = dynamic_cast<const Laser*>(&impl_->device(laser));
+  if (device == nullptr) return false;
+  device->ideal_scan({impl_->now_ns, impl_->physics->body(laser.robot), *impl_->physics,
+                      laser.robot, impl_->world},
+                     geometry, workspace, ranges_m);
+  return true;
 }
 
 std::optional<std::string> Simulation::apply(DeviceId id, const Command& command) {

@@ -98,7 +98,8 @@ struct Simulation::Impl {
   // The least clearance so far can decrease only after the robot and its surroundings have moved by
   // the difference to the last measurement. Until then no measurement is needed.
   void update_clearance(std::size_t i, double dt_s);
-  void measure_clearance(std::size_t i, double limit_m);
+  // @param is_first  the statistics begin here.
+  void measure_clearance(std::size_t i, double limit_m, bool is_first = false);
   // Invalidates all clearances after something was placed.
   void invalidate_clearances();
   void record_collisions();
@@ -118,6 +119,7 @@ struct Simulation::Impl {
   // The same with "robot " or "obstacle " in front.
   [[nodiscard]] std::string title_of_body(int body) const;
   std::optional<std::string> place(std::size_t i, const Pose& X_WB);
+  std::optional<std::string> place(std::span<const RobotPlace> places);
   /// Why a robot cannot be placed or suspended; nullopt unless it mirrors a real one.
   [[nodiscard]] std::optional<std::string> refusal_of_mirrored(std::size_t robot) const;
   std::optional<std::string> place_block(const std::string& name, const Pose& pose);

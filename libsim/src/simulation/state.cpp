@@ -108,6 +108,17 @@ Snapshot written_snapshot(std::uint64_t world, std::uint64_t seed, std::size_t r
 
 }  // namespace
 
+std::uint64_t seed_of(std::span<const std::uint8_t> snapshot) {
+  SnapshotHeader header{};
+  if (snapshot.size() < sizeof header) {
+    throw SnapshotError("at least " + std::to_string(sizeof header) + " bytes",
+                        std::to_string(snapshot.size()) + " bytes");
+  }
+  std::memcpy(&header, snapshot.data(), sizeof header);
+  if (header.magic != kMagic) throw SnapshotError("a snapshot of Playpen", "other bytes");
+  return header.seed;
+}
+
 WorldDescription Simulation::Impl::start_world() const {
   WorldDescription start = world;
   start.arena.obstacles = start_obstacles;
@@ -309,6 +320,10 @@ Simulation Simulation::replace_by(Simulation restored, RestoreScope scope) {
   }
   std::swap(impl_, restored.impl_);
   return restored;
+}
+
+void Simulation::share_memory_with(const Simulation& other) {
+  impl_->physics->share_memory_with(*other.impl_->physics);
 }
 
 Simulation Simulation::fork() const {

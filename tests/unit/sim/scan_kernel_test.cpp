@@ -53,11 +53,17 @@ std::vector<InstructionSet> instruction_sets() {
   return sets;
 }
 
+/// Also expects that a scan in single precision has the same ranges, rounded.
 std::vector<double> scan(const ScanGeometry& geometry, const EdgeBuffer& edges, double yaw_rad,
                          InstructionSet set) {
   ScanKernel kernel(geometry, set);
   std::vector<double> ranges_m(static_cast<std::size_t>(geometry.beam_count), -1.0);
   kernel.scan(edges, yaw_rad, ranges_m);
+  std::vector<float> single_m(ranges_m.size(), -1.0F);
+  kernel.begin(yaw_rad);
+  kernel.add(edges);
+  kernel.finish(single_m);
+  EXPECT_EQ(single_m, std::vector<float>(ranges_m.begin(), ranges_m.end()));
   return ranges_m;
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "sim/devices/device.h"
@@ -78,6 +79,11 @@ class Laser final : public SensorOf<LaserReading> {
   [[nodiscard]] const LaserParams& params() const noexcept { return params_; }
   /// The scan without noise from the robot's present pose.
   [[nodiscard]] LaserReading ideal_scan(const StepContext& context) const;
+  /// The same with other beams, see Simulation::ideal_scan().
+  void ideal_scan(const StepContext& context, const scan::ScanGeometry& geometry,
+                  scan::ScanWorkspace& workspace, std::span<float> ranges_m) const;
+  /// Its own beams.
+  [[nodiscard]] const scan::ScanGeometry& geometry() const noexcept { return geometry_; }
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;
 

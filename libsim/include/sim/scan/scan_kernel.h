@@ -210,6 +210,8 @@ class ScanKernel {
   /// Ends the current scan.
   /// @param ranges_m  as for scan().
   void finish(std::span<double> ranges_m);
+  /// The same with ranges that are rounded to single precision.
+  void finish(std::span<float> ranges_m);
 
   [[nodiscard]] const ScanGeometry& geometry() const noexcept { return geometry_; }
   [[nodiscard]] InstructionSet instructions() const noexcept { return instructions_; }
@@ -221,6 +223,21 @@ class ScanKernel {
   InstructionSet instructions_;
   const detail::ScanSteps* steps_;  ///< implementation for `instructions_`
   std::unique_ptr<Scratch> scratch_;
+};
+
+/// Kernels and memory that scans reuse. Sensors of several simulations may share one, scan after
+/// scan: its tables then stay in the cache. Not thread-safe; each thread needs its own.
+class ScanWorkspace {
+ public:
+  /// The kernel of this geometry. It is made at the first call, with its tables.
+  /// @param geometry  within the limits of ScanGeometry.
+  [[nodiscard]] ScanKernel& kernel_of(const ScanGeometry& geometry);
+  /// A buffer with any contents.
+  [[nodiscard]] EdgeBuffer& edges() noexcept { return edges_; }
+
+ private:
+  std::vector<ScanKernel> kernels_;
+  EdgeBuffer edges_;
 };
 
 }  // namespace sim::scan

@@ -70,6 +70,10 @@ enum class RestoreScope {
   kWorld,  ///< the world only, not what clients have observed: see Simulation::restore()
 };
 
+/// The seed of the simulation that saved a snapshot.
+/// @throws SnapshotError if these are no bytes of a snapshot. Other damage is found by restore().
+[[nodiscard]] std::uint64_t seed_of(std::span<const std::uint8_t> snapshot);
+
 class Simulation;
 
 /// The state of a simulation at a moment, without its layers. Together with a copy of the layers of
@@ -140,6 +144,9 @@ class Simulation {
   /// Whether no solid as high as the first robot's centre of height is between two robots' centres.
   [[nodiscard]] bool sees(int robot, int other) const;
   [[nodiscard]] const RobotStatistics& statistics(int robot) const;
+  /// Lets all statistics() begin anew, as if the run started here: for programs that place robots
+  /// before it. collisions() stay.
+  void restart_statistics();
   /// The newest collisions, oldest first. At most 1024 are kept; RobotStatistics counts all.
   [[nodiscard]] const std::vector<Collision>& collisions() const noexcept;
   /// The newest texts that robots said, oldest first; at most 1024 are kept.
@@ -226,6 +233,17 @@ class Simulation {
   /// @return nothing on success, otherwise the reason: no such object, an immovable object, or the
   ///     obstacle in the way. A block that is not retracted cannot be placed where a robot stands.
   std::optional<std::string> place_object(const std::string& name, const Pose& pose);
+  /// A robot, by its index, and the pose X_WB that it gets.
+  struct RobotPlace {
+    int robot;
+    Pose X_WB;
+  };
+  /// Places several robots at once, at rest, as by RobotControl::place(). They may take one
+  /// another's places.
+  /// @param places  each robot at most once; the robots must exist.
+  /// @return nothing on success, otherwise the reason, which names the first robot that cannot be
+  ///     placed; no robot is moved then.
+  std::optional<std::string> place_robots(std::span<const RobotPlace> places);
   /// Changes the size of a block at once. A carried block is put down where it is.
   /// @param size_m  along its own axes [m], each > 0.
   /// @return as for place_object().
@@ -253,6 +271,16 @@ class Simulation {
   /// simulation does not change.
   /// @return nullopt if the device is no laser.
   [[nodiscard]] std::optional<LaserReading> ideal_scan(DeviceId laser) const;
+  /// Writes such a scan into the caller's memory, in single precision: for programs that need many
+  /// scans and no readings. A range is that of the other function, rounded, if the beams are the
+  /// laser's own.
+  /// @param geometry   the beams, see ScanGeometry; Laser::geometry() are the laser's own.
+  /// @param workspace  of the calling thread; it may serve several simulations.
+  /// @param ranges_m   receives geometry.beam_count ranges, the rightmost beam first [m].
+  /// @return false if the device is no laser; nothing is written then.
+  /// @note O(edges + beams); allocates only when the workspace or the world is new.
+  [[nodiscard]] bool ideal_scan(DeviceId laser, const scan::ScanGeometry& geometry,
+                                scan::ScanWorkspace& workspace, std::span<float> ranges_m) const;
 
   /// The grid-maps: the canvas that all pens share, and the layers of clients above or below it.
   [[nodiscard]] LayerStack& layers() noexcept;
@@ -343,6 +371,10 @@ class Simulation {
   /// Creates an independent copy of this simulation in the same state, for programs that search
   /// ahead. The copy has no log.
   [[nodiscard]] Simulation fork() const;
+  /// Uses the memory of another simulation for what is equal in both and does not change, so that
+  /// more of many simulations stays in the cache. Nothing else changes: they stay independent, also
+  /// for threads, and in any order of destruction.
+  void share_memory_with(const Simulation& other);
 
   /// The current scene. The caller records trails, since Simulation keeps no history.
   /// @param with_canvas  false: the picture of the canvas and the list of layers are left out, for
