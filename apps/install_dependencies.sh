@@ -22,6 +22,7 @@ Groups (default: build):
   browser Chromium and its driver, where they can be had, for the nightly test of that page
   doc     Doxygen
   cluster Slurm, GNU parallel and an ssh server, for the nightly test of playpen batch
+  machines QEMU, a cross compiler and mmdebstrap, to run tests as on other machines
   package what the target `package` needs to make and check Debian packages
 
   --list  print the names of the groups' packages, one a line, and install nothing
@@ -53,6 +54,8 @@ page_packages=(nodejs=node eslint=eslint)
 # Ubuntu has them as snaps only; then the test is skipped.
 optional_browser_packages=(chromium chromium-driver)
 doc_packages=(doxygen=doxygen)
+machines_packages=(qemu-user-static=qemu-aarch64-static "g++-aarch64-linux-gnu=aarch64-linux-gnu-g++"
+  mmdebstrap=mmdebstrap)
 package_packages=(dpkg-dev=dpkg-shlibdeps file=file lintian=lintian)
 
 fail() {
@@ -112,7 +115,7 @@ for argument in "$@"; do
       usage
       exit 0
       ;;
-    build | test | cluster | lint | page | browser | doc | package) groups+=("$argument") ;;
+    build | test | cluster | lint | page | browser | doc | machines | package) groups+=("$argument") ;;
     *)
       usage >&2
       fail "unknown argument '$argument'"
@@ -139,6 +142,7 @@ for group in "${groups[@]}"; do
     page) wanted+=("${page_packages[@]}") ;;
     browser) optional+=("${optional_browser_packages[@]}") ;;
     doc) wanted+=("${doc_packages[@]}") ;;
+    machines) wanted+=("${machines_packages[@]}") ;;
     package) wanted+=("${package_packages[@]}") ;;
   esac
 done

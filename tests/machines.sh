@@ -43,7 +43,7 @@ log=build/machines.log
 : >"$log"
 failed=0
 
-# try NAME COMMAND... -- FILTER: runs the golden tests by a command that gets the test program as its
+# row NAME COMMAND...: runs the golden tests by a command that gets the test program as its
 # last argument.
 row() {
   local name=$1 result=equal
