@@ -17,6 +17,9 @@
  * once. After fork(), the child process must not use batches of its parent.
  */
 
+/* This is C, with the names of C. */
+/* NOLINTBEGIN(readability-identifier-naming,modernize-*) */
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -212,5 +215,7 @@ PLAYPEN_BATCH_EXPORT playpen_batch_status playpen_batch_state_hash(const playpen
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(readability-identifier-naming,modernize-*) */
 
 #endif /* PLAYPEN_BATCH_H */

@@ -11,7 +11,7 @@
 #include "sim/core/state_archive.h"
 #include "sim/parallel/batch.h"
 
-struct playpen_batch {
+struct playpen_batch {  // NOLINT(readability-identifier-naming): a name of C
   sim::Batch batch;
 };
 
@@ -136,7 +136,7 @@ playpen_batch_status create(const char* name, const char* world,
     expect_pointer("batch", batch);
     expect_pointer(name, world);
     const sim::BatchOptions own = options_of(options);
-    *batch = new playpen_batch{Batch(load(world), own)};
+    *batch = std::make_unique<playpen_batch>(playpen_batch{Batch(load(world), own)}).release();
   });
 }
 
