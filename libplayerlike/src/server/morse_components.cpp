@@ -214,15 +214,17 @@ json morse_record(const sim::Reading& reading, const StreamFormat& format) {
       put_pose(object, pose->pose, pose->elevation, format.coordinates);
     }
   } else if (const auto* laser = dynamic_cast<const sim::LaserReading*>(&reading)) {
-    put_ranges(object, laser->ranges_m, laser->range_max_m, [&](std::size_t beam, double range_m) {
+    const auto place = [&](std::size_t beam, double range_m) -> sim::Vec2 {
       const double angle_rad =
           laser->angle_min_rad + static_cast<double>(beam) * laser->resolution_rad;
       return range_m * sim::unit_vector(angle_rad);
-    });
+    };
+    put_ranges(object, laser->ranges_m, laser->range_max_m, place);
   } else if (const auto* ranger = dynamic_cast<const sim::RangerReading*>(&reading)) {
-    put_ranges(object, ranger->ranges_m, ranger->range_max_m, [&](std::size_t i, double range_m) {
-      return ranger->X_BS[i] * sim::Vec2(range_m, 0.0);
-    });
+    put_ranges(object, ranger->ranges_m, ranger->range_max_m,
+               [&](std::size_t i, double range_m) -> sim::Vec2 {
+                 return ranger->X_BS[i] * sim::Vec2(range_m, 0.0);
+               });
   } else if (const auto* collision = dynamic_cast<const sim::CollisionReading*>(&reading)) {
     object["collision"] = collision->collision;
     object["objects"] = joined(collision->objects);

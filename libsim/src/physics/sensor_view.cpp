@@ -165,7 +165,9 @@ void SensorView::rebuild_outlines() {
     const Body& r = bodies_.at(by_hilbert_index_[k].robot);
     robot_discs_.add(static_cast<float>(r.X_WB.x_m), static_cast<float>(r.X_WB.y_m),
                      static_cast<float>(r.details->seen_radius_m));
-    const auto [s, c] = math::sin_cos(r.X_WB.yaw_rad);
+    const math::SinCos turn = math::sin_cos(r.X_WB.yaw_rad);
+    const double s = turn.sin;
+    const double c = turn.cos;
     Outline& outline = outlines_[k];
     const bool one_polygon = !r.details->round && r.details->further.empty();
     outline.count = one_polygon ? static_cast<std::size_t>(r.details->shape.m_count) : 0;

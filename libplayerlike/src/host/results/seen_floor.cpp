@@ -157,7 +157,9 @@ void SeenFloor::see_scan(const sim::Pose& X_WL, const sim::LaserReading& scan) {
       directions_.emplace_back(sim::math::cos(angle), sim::math::sin(angle));
     }
   }
-  const auto [s, c] = sim::math::sin_cos(X_WL.yaw_rad);
+  const sim::math::SinCos turn = sim::math::sin_cos(X_WL.yaw_rad);
+  const double s = turn.sin;
+  const double c = turn.cos;
   const sim::Vec2 p_WL = X_WL.position();
   const auto end_of = [&](std::size_t beam, double range_m) {
     const sim::Vec2& d = directions_[beam];
