@@ -50,9 +50,9 @@ int main(int argc, char** argv) {
       for (int beam = 12; beam < 24; ++beam) {
         if (scans[i][beam] < ahead) ahead = scans[i][beam];
       }
-      /* Each robot has its own speed, and so its own way. */
-      actions[i][0] = ahead < 0.3F ? 0.0 : 0.2 + 0.004 * i;
-      actions[i][1] = ahead < 0.3F ? 1.5 : 0.0;
+      /* Each robot has its own speed, and so its own way. The fastest ones do not always stop in time. */
+      actions[i][0] = ahead < 0.14F ? 0.0 : 0.2 + 0.004 * i;
+      actions[i][1] = ahead < 0.14F ? 1.5 : 0.0;
     }
     check(playpen_batch_step(batch, &action_array, 10, &out)); /* 0.1 s */
 
