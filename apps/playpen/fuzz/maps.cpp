@@ -86,7 +86,8 @@ class Maze {
     return static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]);
   }
   [[nodiscard]] std::size_t index_of(const Cell& cell) const {
-    return static_cast<std::size_t>(cell.at[1] * count_[0] + cell.at[0]);
+    return static_cast<std::size_t>(cell.at[1]) * static_cast<std::size_t>(count_[0]) +
+           static_cast<std::size_t>(cell.at[0]);
   }
   [[nodiscard]] int below(int count) {
     return static_cast<int>(index_below(random_, static_cast<std::size_t>(count)));

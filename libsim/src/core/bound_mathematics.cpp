@@ -17,13 +17,13 @@ namespace sim {
 namespace {
 
 // A double has more than twice the bits of a float: the second rounding changes next to no value.
-template <double (*function)(double) noexcept>
+template <double (*kFunction)(double) noexcept>
 float in_float(float x) noexcept {
-  return static_cast<float>(function(static_cast<double>(x)));
+  return static_cast<float>(kFunction(static_cast<double>(x)));
 }
-template <double (*function)(double, double) noexcept>
+template <double (*kFunction)(double, double) noexcept>
 float in_float(float x, float y) noexcept {
-  return static_cast<float>(function(static_cast<double>(x), static_cast<double>(y)));
+  return static_cast<float>(kFunction(static_cast<double>(x), static_cast<double>(y)));
 }
 
 void sine_and_cosine(double angle_rad, double* sine, double* cosine) noexcept {
@@ -42,17 +42,17 @@ using Two = double (*)(double, double) noexcept;
 using OneFloat = float (*)(float) noexcept;
 using TwoFloats = float (*)(float, float) noexcept;
 
-template <One function>
+template <One kFunction>
 void add(std::map<std::string_view, Address>& functions, std::string_view name,
          std::string_view float_name) {
-  functions[name] = reinterpret_cast<Address>(function);
-  functions[float_name] = reinterpret_cast<Address>(OneFloat{in_float<function>});
+  functions[name] = reinterpret_cast<Address>(kFunction);
+  functions[float_name] = reinterpret_cast<Address>(OneFloat{in_float<kFunction>});
 }
-template <Two function>
+template <Two kFunction>
 void add(std::map<std::string_view, Address>& functions, std::string_view name,
          std::string_view float_name) {
-  functions[name] = reinterpret_cast<Address>(function);
-  functions[float_name] = reinterpret_cast<Address>(TwoFloats{in_float<function>});
+  functions[name] = reinterpret_cast<Address>(kFunction);
+  functions[float_name] = reinterpret_cast<Address>(TwoFloats{in_float<kFunction>});
 }
 
 /// Addresses of our functions by the C library's names.
