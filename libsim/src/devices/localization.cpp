@@ -149,11 +149,10 @@ void Odometry::integrate(const StepContext& context) {
   if (has_errors_) add_errors(to_seconds(context.world.simulation.step_ns), path);
   const auto& [ds_m, side_m, dyaw_rad] = path;
   if (ds_m == 0.0 && dyaw_rad == 0.0 && side_m == 0.0) return;
-  const double heading = X_SB_.yaw_rad + 0.5 * dyaw_rad;
+  const auto [s, c] = math::sin_cos(X_SB_.yaw_rad + 0.5 * dyaw_rad);
   const double chord_m = ds_m * sinc(0.5 * dyaw_rad);
   const double side_chord_m = side_m * sinc(0.5 * dyaw_rad);
-  X_SB_ = {X_SB_.x_m + chord_m * math::cos(heading) - side_chord_m * math::sin(heading),
-           X_SB_.y_m + chord_m * math::sin(heading) + side_chord_m * math::cos(heading),
+  X_SB_ = {X_SB_.x_m + chord_m * c - side_chord_m * s, X_SB_.y_m + chord_m * s + side_chord_m * c,
            normalize_angle(X_SB_.yaw_rad + dyaw_rad)};
   path_length_m_ += side_m == 0.0 ? std::abs(ds_m) : math::hypot(ds_m, side_m);
 }

@@ -12,6 +12,7 @@
 #include "physics/fixtures.h"
 #include "physics/shapes.h"
 #include "sim/core/body_state.h"
+#include "sim/core/math.h"
 #include "sim/core/pose.h"
 #include "sim/world/robot_model.h"
 
@@ -135,7 +136,13 @@ struct alignas(64) Body {
 /// Pose of a robot's shape.
 [[nodiscard]] inline b2Transform transform_of(const Body& r) {
   if (r.body != nullptr) return r.body->GetTransform();
-  return {to_box2d(r.X_WB.position()), b2Rot(static_cast<float>(r.X_WB.yaw_rad))};
+  // b2Rot's own functions are the C library's.
+  const math::SinCos turn = math::sin_cos(static_cast<double>(static_cast<float>(r.X_WB.yaw_rad)));
+  b2Transform xf;
+  xf.p = to_box2d(r.X_WB.position());
+  xf.q.s = static_cast<float>(turn.sin);
+  xf.q.c = static_cast<float>(turn.cos);
+  return xf;
 }
 
 /// Calls visit(corner) for each corner of a body's polygons, in B.

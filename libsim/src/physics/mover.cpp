@@ -77,9 +77,8 @@ inline Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
   const double half_turn = 0.5 * twist.omega_radps * dt_s;
   const double chord = twist.v_mps * dt_s * sinc(half_turn);
   const double side = twist.lateral_mps * dt_s * sinc(half_turn);
-  const double heading = X_WB.yaw_rad + half_turn;
-  return {X_WB.x_m + chord * math::cos(heading) - side * math::sin(heading),
-          X_WB.y_m + chord * math::sin(heading) + side * math::cos(heading),
+  const auto [s, c] = math::sin_cos(X_WB.yaw_rad + half_turn);
+  return {X_WB.x_m + chord * c - side * s, X_WB.y_m + chord * s + side * c,
           X_WB.yaw_rad + twist.omega_radps * dt_s};
 }
 
