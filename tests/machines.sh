@@ -9,10 +9,10 @@ usage() {
   cat <<'TEXT'
 Usage: tests/machines.sh [--x86-only]
 
-Builds the tests of the elementary functions and of the shipped worlds with the presets tests and
-clang, and runs them as they are, with the C library's functions for older processors, and in QEMU's
-models of processors. Then it compiles them for AArch64 against a root folder of Debian's packages
-(build/aarch64_root), and runs them in QEMU.
+Builds the tests of the elementary functions and of the shipped worlds (preset tests), and runs them
+as they are, with the C library's functions for older processors, and in QEMU's models of processors.
+Then it compiles them for AArch64 against a root folder of Debian's packages (build/aarch64_root),
+and runs them in QEMU. Stage asan of .ci/run runs them compiled by clang.
 
 Installs what is missing: QEMU, and for AArch64 a cross compiler and mmdebstrap.
 TEXT
@@ -39,18 +39,18 @@ apps/install_dependencies.sh build test machines
 source apps/build_tools.sh
 
 tests=(sim_math_test sim_golden_worlds_test)
+mkdir -p build
 log=build/machines.log
 : >"$log"
 failed=0
 
-# row NAME COMMAND...: runs the golden tests by a command that gets the test program as its
-# last argument.
+# row NAME COMMAND...: runs the programs by a command that gets the call of a test as its last arguments.
 row() {
-  local name=$1 result=equal
+  local name=$1 result=equal call
   shift
-  local test
-  for test in "${tests[@]}"; do
-    if ! "$@" "$folder/bin/$test" --gtest_brief=1 \
+  for call in "${calls[@]}"; do
+    # shellcheck disable=SC2086  # a call is several words
+    if ! "$@" $call --gtest_brief=1 \
       --gtest_filter='MathTest.Bits_*:MathTest.Calls*:GoldenWorlds.*' >>"$log" 2>&1; then
       result=DIFFERENT
       failed=1
@@ -59,27 +59,24 @@ row() {
   printf '%-58s %s\n' "$name" "$result"
 }
 
-build() {
-  local target targets=()
-  for target in "${tests[@]}"; do targets+=(--target "$target"); done
-  cmake --build "$folder" --parallel "$jobs" "${targets[@]}" >>"$log" 2>&1
-}
+targets=()
+for test in "${tests[@]}"; do targets+=(--target "$test"); done
 
-folder=build/machines/gcc
-cmake --preset release -B "$folder" -DPLAYPEN_BUILD_TESTS=ON "${launcher[@]}" >>"$log" 2>&1
-build
+folder=build/release
+pattern="^($(
+  IFS='|'
+  echo "${tests[*]}"
+))\$"
+tests/run.sh "${targets[@]}" -R "$pattern" >>"$log" 2>&1
+mapfile -t calls < <(ctest --test-dir "$folder" -R "$pattern" --show-only=json-v1 |
+  python3 -c 'import json, sys
+for test in json.load(sys.stdin)["tests"]: print(*test["command"])')
 row "gcc, -O3, this processor" env
 row "gcc, -O3, without AVX2, FMA and AVX-512 in the C library" \
   env GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F
 for model in qemu64 Nehalem max; do
   row "gcc, -O3, QEMU's processor $model" qemu-x86_64-static -cpu "$model"
 done
-folder=build/machines/clang
-cmake --preset clang -B "$folder" -DPLAYPEN_BUILD_BENCH=OFF -DPLAYPEN_UNITY=ON \
-  "${launcher[@]}" >>"$log" 2>&1
-build
-row "clang, -O0, this processor" env
-row "clang, -O0, QEMU's processor qemu64" qemu-x86_64-static -cpu qemu64
 
 if ! $x86_only; then
   sysroot=$root/build/aarch64_root
@@ -97,9 +94,10 @@ if ! $x86_only; then
     -DCMAKE_LIBRARY_ARCHITECTURE=aarch64-linux-gnu "-DCMAKE_FIND_ROOT_PATH=$sysroot" \
     -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY \
     -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY \
-    "-DCMAKE_EXE_LINKER_FLAGS=-Wl,-rpath-link,$libraries:$libraries/blas:$libraries/lapack" \
+    "-DCMAKE_EXE_LINKER_FLAGS=-Wl,-rpath-link,$libraries:$libraries/blas:$libraries/lapack -Wl,--unresolved-symbols=ignore-in-shared-libs" \
     >>"$log" 2>&1
-  build
+  cmake --build "$folder" --parallel "$jobs" "${targets[@]}" >>"$log" 2>&1
+  calls=("${tests[@]/#/$folder/bin/}")
   row "gcc, -O3, AArch64 in QEMU" qemu-aarch64-static -L "$sysroot"
 fi
 
