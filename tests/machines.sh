@@ -85,6 +85,10 @@ if ! $x86_only; then
     mmdebstrap --variant=extract --architectures=arm64 \
       --include="$packages,libgtest-dev,libgmock-dev,libc6-dev,libstdc++-12-dev" \
       bookworm "$sysroot" http://deb.debian.org/debian >>"$log" 2>&1
+    # Some links of the packages begin at the root of their system.
+    find "$sysroot" -type l -lname '/*' -print0 | while IFS= read -r -d '' link; do
+      ln -sfnr "$sysroot$(readlink "$link")" "$link"
+    done
   fi
   folder=build/machines/aarch64
   libraries=$sysroot/usr/lib/aarch64-linux-gnu
