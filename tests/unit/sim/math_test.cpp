@@ -42,12 +42,14 @@ double any_positive(RandomStream& random) { return std::abs(any(random)); }
 /// Close to multiples of a quarter turn, where the reduction cancels.
 double near_quarter_turns(RandomStream& random) {
   const double quarters = std::floor(40.0 * random.uniform()) - 20.0;
-  const double off = std::ldexp(random.uniform() - 0.5, -static_cast<int>(54.0 * random.uniform()));
+  const int exponent = -static_cast<int>(54.0 * random.uniform());
+  const double off = std::ldexp(random.uniform() - 0.5, exponent);
   return quarters * 0.5 * std::numbers::pi * (1.0 + off);
 }
 
 double small(RandomStream& random) {
-  return std::ldexp(random.uniform() - 0.5, -static_cast<int>(40.0 * random.uniform()));
+  const int exponent = -static_cast<int>(40.0 * random.uniform());
+  return std::ldexp(random.uniform() - 0.5, exponent);
 }
 
 /// Error of a value against one in a longer format, in units in the last place of a double.
