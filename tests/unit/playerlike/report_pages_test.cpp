@@ -63,7 +63,8 @@ TEST(ReportPages, Tables_MatchFields) {
 // A report with each member.
 Report whole_report() {
   Report report;
-  report.run = {"w", 7, "real", 3, 0.03, 1.5, 0.02, "00ff", "/w.json", false, {{"why"}}};
+  report.run = {"w",    7,         "real", 3,         0.03,          1.5, 0.02,
+                "00ff", "/w.json", false,  {{"why"}}, "any machine", 1.5};
   Report::Robot robot;
   robot.name = "r10";
   robot.path_length_m = 0.1;
