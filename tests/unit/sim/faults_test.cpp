@@ -90,7 +90,7 @@ TEST(DeviceFaults, Jump_MovesTheEstimateOnce) {
   const Pose after = device_of(simulation, "odometry").pose_estimate().value();
   EXPECT_NEAR(after.x_m, before.x_m + 0.2, 1e-12);
   EXPECT_NEAR(after.yaw_rad, before.yaw_rad + M_PI / 2, 1e-12);
-  EXPECT_EQ(simulation.body(0).X_WB, Pose(1.0, 2.0, 0.0));
+  EXPECT_EQ(simulation.body(0).X_WB, (Pose{1.0, 2.0, 0.0}));
 }
 
 TEST(DeviceFaults, State_IsSavedAndReset) {
