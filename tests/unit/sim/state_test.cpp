@@ -515,7 +515,7 @@ TEST(Snapshots, RefusedWithReason) {
   EXPECT_THAT(refusal(simulation, other), HasSubstr("a snapshot of Playpen, found other bytes"));
   other = good;
   other[8] = 200;
-  EXPECT_THAT(refusal(simulation, other), HasSubstr("expected version 3, found version 200"));
+  EXPECT_THAT(refusal(simulation, other), HasSubstr("expected version 4, found version 200"));
   other = good;
   other[good.size() / 2] ^= 1;
   EXPECT_THAT(refusal(simulation, other), HasSubstr("they were altered"));
