@@ -67,16 +67,21 @@ struct Nearest {
   double square = std::numeric_limits<double>::infinity();
 };
 
-// Takes the corners of one core and the sides of the other into account.
+// Takes the corners of one core and the sides of the other into account. The point of a polygon
+// that is nearest to a point outside is on a side that faces it.
 void compare(const Core& corners, const Core& with_sides, Nearest& nearest) {
-  const std::size_t sides = with_sides.count > 2 ? with_sides.count : with_sides.count - 1;
+  const bool is_polygon = with_sides.count > 2;
+  const std::size_t sides = is_polygon ? with_sides.count : with_sides.count - 1;
   for (std::size_t i = 0; i < sides; ++i) {
     const Vec2& a = with_sides.points[i];
     const Vec2 side = with_sides.points[i + 1 < with_sides.count ? i + 1 : 0] - a;
     const double per_square = 1.0 / side.squaredNorm();
     for (std::size_t k = 0; k < corners.count; ++k) {
       const Vec2& p = corners.points[k];
-      const double share = std::clamp(side.dot(p - a) * per_square, 0.0, 1.0);
+      const Vec2 from_a = p - a;
+      if (is_polygon && side.x() * from_a.y() > side.y() * from_a.x())
+        continue;  // counter-clockwise
+      const double share = std::clamp(side.dot(from_a) * per_square, 0.0, 1.0);
       const Vec2 on_side = a + share * side;
       const double square = (p - on_side).squaredNorm();
       if (square < nearest.square) nearest = {on_side, p, square};
