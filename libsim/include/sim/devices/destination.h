@@ -44,7 +44,7 @@ class Destination final : public Actuator {
   bool can_move_sideways_;
   bool has_goal_ = false;   // there is a goal that it drives to, or stays at
   bool is_on_way_ = false;  // it commands the motors
-  GotoCommand goal_;
+  GotoCommand goal_{.goal_m = Vec2::Zero()};
 };
 
 }  // namespace sim

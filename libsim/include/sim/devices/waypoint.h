@@ -106,7 +106,7 @@ class Waypoint final : public SensorOf<WaypointReading> {
 
  private:
   WaypointParams params_;
-  GotoCommand goal_;
+  GotoCommand goal_{.goal_m = Vec2::Zero()};
   std::uint64_t goal_number_ = 0;
   bool has_goal_ = false;  ///< since the start or the last reset
   WaypointStatus status_ = WaypointStatus::kArrived;
