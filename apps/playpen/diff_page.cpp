@@ -233,7 +233,7 @@ class Labels {
     for (const double distance : {26.0, 40.0, 58.0, 80.0}) {
       for (int i = 0; i < kDirections; ++i) {
         const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kDirections;
-        const Vec2 away(sim::math::cos(angle), sim::math::sin(angle));
+        const Vec2 away = sim::unit_vector(angle);
         const Vec2 center = place + away.cwiseProduct(Vec2::Constant(distance) + 0.4 * size);
         const Label label{place, center - 0.5 * size, size, text, colour};
         const double cost = cost_of(label) + 0.4 * distance;

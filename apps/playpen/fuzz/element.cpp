@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "sim/core/degrees.h"
-#include "sim/core/math.h"
 #include "sim/core/number_text.h"
 
 namespace playpen::fuzz {
@@ -27,7 +26,7 @@ ordered_json box_json(const std::string& name, const sim::Vec2& center, const si
 // A door is two boxes one behind the other, a corridor two boxes side by side.
 void add_two(ordered_json& list, const Element& element, const std::string& name) {
   const double yaw_rad = element.yaw_deg * sim::kDegrees;
-  sim::Vec2 towards(sim::math::cos(yaw_rad), sim::math::sin(yaw_rad));
+  sim::Vec2 towards = sim::unit_vector(yaw_rad);
   sim::Vec2 size = element.size;
   double apart_m = element.opening_m;
   if (element.shape == Element::Shape::kDoor) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "fuzz/element.h"
 #include "sim/core/number_text.h"
 
 namespace playpen::fuzz {
@@ -39,7 +40,7 @@ void add_timers(ordered_json& timers, const DeviceFault& fault, const std::strin
   };
   ordered_json& action = add(name, fault.at_s, word_of(fault.kind));
   if (fault.kind == DeviceFault::Kind::kJump) {
-    action["by"] = {{"x", std::round(fault.x_m * 100.0) / 100.0}, {"yaw_deg", fault.yaw_deg}};
+    action["by"] = {{"x", centimetres(fault.x_m)}, {"yaw_deg", fault.yaw_deg}};
   }
   if (fault.kind == DeviceFault::Kind::kGap) add(name + "_end", fault.at_s + fault.for_s, "none");
 }
@@ -55,8 +56,7 @@ std::string text_of(const DeviceFault& fault) {
     case DeviceFault::Kind::kBlind:
       return device + " blind from " + at + " on";
     case DeviceFault::Kind::kJump:
-      return device + " that jumps by " +
-             sim::shortest_text(std::round(fault.x_m * 100.0) / 100.0) + " m and " +
+      return device + " that jumps by " + sim::shortest_text(centimetres(fault.x_m)) + " m and " +
              std::to_string(fault.yaw_deg) + " degrees at " + at;
     case DeviceFault::Kind::kDrift:
       break;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "fuzz/choice.h"
+
 namespace playpen::fuzz {
 namespace {
 
@@ -17,11 +19,6 @@ constexpr double kForgotten = 0.9;     // of counts, with each generation
 constexpr double kRareShare = 0.5;     // of choices of a parent
 constexpr double kMixedShare = 0.2;    // of changes
 constexpr std::size_t kMostMixed = 8;  // elements
-
-std::size_t chosen_below(sim::RandomStream& random, std::size_t count) {
-  return std::min(static_cast<std::size_t>(random.uniform() * static_cast<double>(count)),
-                  count - 1);
-}
 
 // What a failure is like: failures that are alike are found once.
 std::string signature_of(const Failure& failure, const Scenario& scenario) {
@@ -45,14 +42,14 @@ Search::Search(const Base& base, const Rules& rules, Runner& runner, SearchSetti
     : base_(base), rules_(rules), runner_(runner), settings_(std::move(settings)) {}
 
 const Search::Parent& Search::chosen_parent(sim::RandomStream& random) const {
-  const std::vector<Parent>& close = close_[chosen_below(random, close_.size())];
+  const std::vector<Parent>& close = close_[index_below(random, close_.size())];
   if (close.empty() || (!rare_.empty() && random.uniform() < kRareShare)) {
     const double at = random.uniform() * energies_.back();
     const auto found = std::ranges::upper_bound(energies_, at);
     const auto index = static_cast<std::size_t>(found - energies_.begin());
     return rare_[std::min(index, rare_.size() - 1)];
   }
-  return close[chosen_below(random, close.size())];
+  return close[index_below(random, close.size())];
 }
 
 double Search::random_share() const {
@@ -73,7 +70,7 @@ Scenario Search::next_scenario(sim::RandomStream& random, std::size_t& parent) c
   if (random.uniform() < kMixedShare) {
     const std::vector<Element>& others = chosen_parent(random).scenario.elements;
     if (!others.empty() && scenario.elements.size() < kMostMixed) {
-      scenario.elements.push_back(others[chosen_below(random, others.size())]);
+      scenario.elements.push_back(others[index_below(random, others.size())]);
       return scenario;
     }
   }

@@ -11,7 +11,7 @@
 #include <set>
 #include <string_view>
 
-#include "sim/core/math.h"
+#include "sim/core/pose.h"
 
 namespace playpen::fuzz {
 namespace {
@@ -27,7 +27,7 @@ constexpr double kDriving_mps = 0.03;
 // The distance from a place to something solid in a direction, at most kFar_m, by steps of the
 // distance to the nearest solid.
 double free_m(const sim::DistanceField& field, const sim::Vec2& from, double angle_rad) {
-  const sim::Vec2 way(sim::math::cos(angle_rad), sim::math::sin(angle_rad));
+  const sim::Vec2 way = sim::unit_vector(angle_rad);
   double driven_m = 0.0;
   while (driven_m < kFar_m) {
     const double room_m = room_at(field, from + driven_m * way);

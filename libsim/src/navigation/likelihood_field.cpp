@@ -84,8 +84,9 @@ LikelihoodField::LikelihoodField(const OccupancyMap& map, const LikelihoodSettin
 double LikelihoodField::mean_log_likelihood(const Pose& X_WB, const ScanPoints& scan) const {
   if (scan.p_BQ.empty()) return 0.0;
   const double per_m = 1.0 / cell_size_m_;
-  const double c = math::cos(X_WB.yaw_rad) * per_m;
-  const double s = math::sin(X_WB.yaw_rad) * per_m;
+  const Vec2 along = per_m * unit_vector(X_WB.yaw_rad);
+  const double c = along.x();
+  const double s = along.y();
   const double x0 = (X_WB.x_m - origin_.x()) * per_m;
   const double y0 = (X_WB.y_m - origin_.y()) * per_m;
   const double columns = width_;

@@ -37,7 +37,8 @@ Pose OdometryMotion::sample(RandomStream& random) const {
   const double turn1 = turn1_rad_ + random.gaussian(turn1_deviation_rad_);
   const double drive = drive_m_ + random.gaussian(drive_deviation_m_);
   const double turn2 = turn2_rad_ + random.gaussian(turn2_deviation_rad_);
-  return {drive * math::cos(turn1), drive * math::sin(turn1), normalize_angle(turn1 + turn2)};
+  const auto [s, c] = math::sin_cos(turn1);
+  return {drive * c, drive * s, normalize_angle(turn1 + turn2)};
 }
 
 }  // namespace sim

@@ -612,16 +612,15 @@ void Mover::follow_body(std::size_t index, double dt_s) {
   const Pose before = r.X_WB;
   r.X_WB = {metres(p.x), metres(p.y), static_cast<double>(angle)};
   const double turn = r.X_WB.yaw_rad - before.yaw_rad;
-  const double heading = before.yaw_rad + 0.5 * turn;
+  const auto [s, c] = math::sin_cos(before.yaw_rad + 0.5 * turn);
   const double dx = r.X_WB.x_m - before.x_m;
   const double dy = r.X_WB.y_m - before.y_m;
   // The wheels' path is the arc with this chord.
-  r.state->travel_m += (dx * math::cos(heading) + dy * math::sin(heading)) / sinc(0.5 * turn);
-  r.state->side_m += dy * math::cos(heading) - dx * math::sin(heading);
+  r.state->travel_m += (dx * c + dy * s) / sinc(0.5 * turn);
+  r.state->side_m += dy * c - dx * s;
   record_travel(r, math::hypot(dx, dy), turn);
   if (!bodies_.has_pushable()) return;
-  r.details->achieved = {(dx * math::cos(heading) + dy * math::sin(heading)) / dt_s, turn / dt_s,
-                         (dy * math::cos(heading) - dx * math::sin(heading)) / dt_s};
+  r.details->achieved = {(dx * c + dy * s) / dt_s, turn / dt_s, (dy * c - dx * s) / dt_s};
   if (r.pushable) note_velocity(r);
 }
 

@@ -367,14 +367,14 @@ struct Tables {
     const int count = geometry.beam_count;
     beams.reserve(2 * static_cast<std::size_t>(count + 2));
     for (int beam = -1; beam <= count; ++beam) {
-      const double angle_rad = geometry.angle_rad(beam);
-      beams.push_back(math::cos(angle_rad));
-      beams.push_back(math::sin(angle_rad));
+      const auto [s, c] = math::sin_cos(geometry.angle_rad(beam));
+      beams.push_back(c);
+      beams.push_back(s);
     }
     for (int k = -reach; k <= reach; ++k) {
-      const double angle_rad = resolution_rad * static_cast<double>(k);
-      cosines.push_back(static_cast<float>(math::cos(angle_rad)));
-      sines.push_back(static_cast<float>(math::sin(angle_rad)));
+      const auto [s, c] = math::sin_cos(resolution_rad * static_cast<double>(k));
+      cosines.push_back(static_cast<float>(c));
+      sines.push_back(static_cast<float>(s));
     }
     const double half_fan_rad =
         std::min(0.5 * (count + 1) * resolution_rad + 1e-3, std::numbers::pi);
