@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <optional>
 
 #include "sim/core/assert.h"
 
@@ -29,14 +29,14 @@ struct Core {
   std::size_t count = 0;
 
   Core(const b2Shape& shape, const b2Transform& xf) {
+    const double s = static_cast<double>(xf.q.s);
+    const double c = static_cast<double>(xf.q.c);
+    const double x = static_cast<double>(xf.p.x);
+    const double y = static_cast<double>(xf.p.y);
     const auto add = [&](const b2Vec2& v) {
       const Vec2 p(static_cast<double>(v.x), static_cast<double>(v.y));
-      points[count++] = {c_ * p.x() - s_ * p.y() + x_, s_ * p.x() + c_ * p.y() + y_};
+      points[count++] = {c * p.x() - s * p.y() + x, s * p.x() + c * p.y() + y};
     };
-    s_ = static_cast<double>(xf.q.s);
-    c_ = static_cast<double>(xf.q.c);
-    x_ = static_cast<double>(xf.p.x);
-    y_ = static_cast<double>(xf.p.y);
     if (shape.GetType() == b2Shape::e_polygon) {
       const auto& polygon = static_cast<const b2PolygonShape&>(shape);
       for (int32 i = 0; i < polygon.m_count; ++i) add(polygon.m_vertices[i]);
@@ -49,44 +49,87 @@ struct Core {
     }
   }
 
-  // The least way . v of its corners.
-  [[nodiscard]] double least_along(const Vec2& way) const {
-    double least = way.dot(points[0]);
-    for (std::size_t i = 1; i < count; ++i) least = std::min(least, way.dot(points[i]));
-    return least;
-  }
-
- private:
-  double s_, c_, x_, y_;
-};
-
-// The nearest points of two cores so far.
-struct Nearest {
-  Vec2 on_sides = Vec2::Zero();
-  Vec2 corner = Vec2::Zero();
-  double square = std::numeric_limits<double>::infinity();
-};
-
-// Takes the corners of one core and the sides of the other into account. The point of a polygon
-// that is nearest to a point outside is on a side that faces it.
-void compare(const Core& corners, const Core& with_sides, Nearest& nearest) {
-  const bool is_polygon = with_sides.count > 2;
-  const std::size_t sides = is_polygon ? with_sides.count : with_sides.count - 1;
-  for (std::size_t i = 0; i < sides; ++i) {
-    const Vec2& a = with_sides.points[i];
-    const Vec2 side = with_sides.points[i + 1 < with_sides.count ? i + 1 : 0] - a;
-    const double per_square = 1.0 / side.squaredNorm();
-    for (std::size_t k = 0; k < corners.count; ++k) {
-      const Vec2& p = corners.points[k];
-      const Vec2 from_a = p - a;
-      if (is_polygon && side.x() * from_a.y() > side.y() * from_a.x())
-        continue;  // counter-clockwise
-      const double share = std::clamp(side.dot(from_a) * per_square, 0.0, 1.0);
-      const Vec2 on_side = a + share * side;
-      const double square = (p - on_side).squaredNorm();
-      if (square < nearest.square) nearest = {on_side, p, square};
+  // The corner that is farthest in a direction: that of a convex shape is found uphill from any
+  // other.
+  [[nodiscard]] std::size_t farthest(const Vec2& way, std::size_t from) const {
+    double most = way.dot(points[from]);
+    const auto climb = [&](auto neighbour) {
+      const std::size_t start = from;
+      for (std::size_t i = neighbour(from);; i = neighbour(i)) {
+        const double along = way.dot(points[i]);
+        if (!(along > most)) return from != start;
+        most = along;
+        from = i;
+      }
+    };
+    if (!climb([&](std::size_t i) { return i + 1 < count ? i + 1 : 0; })) {
+      climb([&](std::size_t i) { return i > 0 ? i - 1 : count - 1; });
     }
+    return from;
   }
+};
+
+// A corner of the Minkowski difference of two cores, which are all vectors from a point of the
+// first to a point of the second.
+struct Difference {
+  std::size_t a;  // corner of the first core
+  std::size_t b;  // of the second
+  Vec2 way;       // from the one to the other
+};
+
+// A corner or a side of the difference, and its vector that is nearest to zero.
+struct Feature {
+  Difference first;
+  Difference second;
+  double share;  // of the second end in the nearest vector; 0: this is a corner
+  Vec2 nearest;
+};
+
+Feature side(const Difference& first, const Difference& second) {
+  const Vec2 along = second.way - first.way;
+  const double share = -first.way.dot(along);
+  const double square = along.squaredNorm();
+  if (share <= 0.0) return {first, first, 0.0, first.way};
+  if (share >= square) return {second, second, 0.0, second.way};
+  return {first, second, share / square, first.way + (share / square) * along};
+}
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// Whether zero is within the triangle of three vectors.
+bool encloses_zero(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const double ab = cross(a, b);
+  const double bc = cross(b, c);
+  const double ca = cross(c, a);
+  return (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
+}
+
+// Finds the vector of the difference of two cores that is nearest to zero, by the method of
+// Gilbert, Johnson and Keerthi (IEEE J. Robotics and Automation 4(2), 1988); none if the cores
+// overlap.
+std::optional<Feature> nearest_feature(const Core& a, const Core& b) {
+  constexpr double kRounding = 1e-12;
+  constexpr int kMostSteps = 4 * b2_maxPolygonVertices;  // rounding lets no loop go on for ever
+  const Difference start{0, 0, b.points[0] - a.points[0]};
+  Feature found{start, start, 0.0, start.way};
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Vec2 v = found.nearest;
+    const double square = v.squaredNorm();
+    if (square < kRounding * kRounding) return std::nullopt;
+    const std::size_t on_a = a.farthest(v, found.second.a);
+    const std::size_t on_b = b.farthest(-v, found.second.b);
+    const Difference next{on_a, on_b, b.points[on_b] - a.points[on_a]};
+    if (v.dot(v - next.way) <= kRounding * square) return found;
+    if (found.share == 0.0) {
+      found = side(found.first, next);
+      continue;
+    }
+    if (encloses_zero(found.first.way, found.second.way, next.way)) return std::nullopt;
+    const Feature one = side(found.first, next);
+    const Feature other = side(found.second, next);
+    found = one.nearest.squaredNorm() < other.nearest.squaredNorm() ? one : other;
+  }
+  return found;
 }
 
 b2Vec2 in_float(const Vec2& p) { return {static_cast<float>(p.x()), static_cast<float>(p.y())}; }
@@ -119,31 +162,18 @@ b2EdgeShape edge_shape(const std::vector<Vec2>& vertices, std::size_t index) {
   return shape;
 }
 
-// Each pair of a corner and a side is compared. b2Distance() takes fewer steps, but the last bits
-// of its results depend on how Box2D was compiled.
+// b2Distance() takes such steps, too, but the last bits of its results depend on how Box2D was
+// compiled.
 ShapeDistance core_distance(const b2Shape& a, const b2Transform& xf_a, const b2Shape& b,
                             const b2Transform& xf_b) {
   const Core first(a, xf_a);
   const Core second(b, xf_b);
-  Nearest of_second;
-  compare(first, second, of_second);
-  Nearest of_first;
-  compare(second, first, of_first);
-  Vec2 on_a = of_second.corner;
-  Vec2 on_b = of_second.on_sides;
-  if (of_first.square < of_second.square) {
-    on_a = of_first.on_sides;
-    on_b = of_first.corner;
-  }
-  if (first.count == 1 && second.count == 1) {
-    on_a = first.points[0];
-    on_b = second.points[0];
-  }
-  const Vec2 way = on_b - on_a;
-  // The line between the nearest points of two convex shapes separates them, if they are apart.
-  const bool apart = second.least_along(way) + first.least_along(-way) > 0.5 * way.squaredNorm();
-  const float distance = apart ? static_cast<float>(way.norm()) : 0.0F;
-  return {in_float(on_a), in_float(on_b), distance};
+  const std::optional<Feature> found = nearest_feature(first, second);
+  if (!found) return {{0.0F, 0.0F}, {0.0F, 0.0F}, 0.0F};
+  const Vec2& corner = first.points[found->first.a];
+  const Vec2 on_a = corner + found->share * (first.points[found->second.a] - corner);
+  return {in_float(on_a), in_float(on_a + found->nearest),
+          static_cast<float>(found->nearest.norm())};
 }
 
 ShapeDistance distance_between(const b2Shape& a, const b2Transform& xf_a, const b2Shape& b,

@@ -429,6 +429,20 @@ struct ScanKernel::Scratch {
     reserve_discs(1);
   }
 
+  // Writes the ranges by the last step of a scan, whose output belongs to the job.
+  template <typename Range>
+  void finish(std::span<Range> ranges_m, Range*& output,
+              void (*last_step)(const detail::ScanJob&)) {
+    SIM_ASSERT(ranges_m.size() == static_cast<std::size_t>(job.beam_count));
+    if (inside) {
+      std::fill(ranges_m.begin(), ranges_m.end(), Range(0));
+      return;
+    }
+    output = ranges_m.data();
+    last_step(job);
+    for (const Circle& circle : circles) detail::scan_circle(job, circle, output);
+  }
+
   void reserve_edges(std::size_t count) {
     if (count <= edge_capacity) return;
     edge_capacity = std::max(count, 2 * edge_capacity);
@@ -577,29 +591,11 @@ std::span<const std::int32_t> ScanKernel::visible() {
 }
 
 void ScanKernel::finish(std::span<double> ranges_m) {
-  SIM_ASSERT(ranges_m.size() == static_cast<std::size_t>(geometry_.beam_count));
-  if (scratch_->inside) {
-    std::fill(ranges_m.begin(), ranges_m.end(), 0.0);
-    return;
-  }
-  scratch_->job.ranges_m = ranges_m.data();
-  steps_->finish(scratch_->job);
-  for (const Circle& circle : scratch_->circles) {
-    detail::scan_circle(scratch_->job, circle, ranges_m.data());
-  }
+  scratch_->finish(ranges_m, scratch_->job.ranges_m, steps_->finish);
 }
 
 void ScanKernel::finish(std::span<float> ranges_m) {
-  SIM_ASSERT(ranges_m.size() == static_cast<std::size_t>(geometry_.beam_count));
-  if (scratch_->inside) {
-    std::fill(ranges_m.begin(), ranges_m.end(), 0.0F);
-    return;
-  }
-  scratch_->job.single_ranges_m = ranges_m.data();
-  steps_->finish_single(scratch_->job);
-  for (const Circle& circle : scratch_->circles) {
-    detail::scan_circle(scratch_->job, circle, ranges_m.data());
-  }
+  scratch_->finish(ranges_m, scratch_->job.single_ranges_m, steps_->finish_single);
 }
 
 ScanKernel& ScanWorkspace::kernel_of(const ScanGeometry& geometry) {

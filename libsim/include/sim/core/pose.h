@@ -67,8 +67,7 @@ struct Pose {
 /// A pose with the cosine and the sine of its yaw, for several products with it. They have the same
 /// bits as those of the pose.
 struct Frame {
-  explicit Frame(const Pose& pose)
-      : X_AB(pose), cos_yaw(math::cos(pose.yaw_rad)), sin_yaw(math::sin(pose.yaw_rad)) {}
+  explicit Frame(const Pose& pose) : Frame(pose, math::sin_cos(pose.yaw_rad)) {}
 
   /// X_AC = X_AB * X_BC.
   [[nodiscard]] Pose operator*(const Pose& X_BC) const {
@@ -79,6 +78,10 @@ struct Frame {
 
   Pose X_AB;
   double cos_yaw, sin_yaw;
+
+ private:
+  Frame(const Pose& pose, const math::SinCos& yaw)
+      : X_AB(pose), cos_yaw(yaw.cos), sin_yaw(yaw.sin) {}
 };
 
 /// X_AC = X_AB * X_BC.
