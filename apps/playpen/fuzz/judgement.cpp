@@ -75,14 +75,23 @@ double speed_before_mps(const grade::Trajectory& trajectory, double time_s) {
       trajectory.v_mps[static_cast<std::size_t>(after - trajectory.time_s.begin()) - 1]);
 }
 
-std::optional<Failure> collision_of(const RunResult& result, const Base& base) {
+// Whether a thing moves by itself: a robot, or an obstacle with a drive.
+bool moves(const std::string& name, const sim::WorldDescription& world) {
+  const auto& obstacles = world.arena.obstacles;
+  const auto found = std::ranges::find(obstacles, name, &sim::ObstacleDescription::name);
+  if (found != obstacles.end()) return found->motion.has_value();
+  return std::ranges::find(world.robots, name, &sim::RobotDescription::name) != world.robots.end();
+}
+
+std::optional<Failure> collision_of(const RunResult& result, const Base& base,
+                                    const Base::World& world) {
   const grade::Trajectory* const trajectory = trajectory_of(result, base);
   for (const Report::Collision& one : result.report->collisions) {
     if (one.robot != base.robot_description().name) continue;
     const bool stood =
         trajectory != nullptr && speed_before_mps(*trajectory, one.time_s) < kStanding_mps;
     // A thing that moves has driven against a robot that stands.
-    if (stood && one.with.starts_with("found")) continue;
+    if (stood && moves(one.with, world.description)) continue;
     return Failure{Kind::kCollision, "hits " + one.with + at_text(one.time_s, one.place), one.with,
                    one.time_s};
   }
@@ -158,7 +167,7 @@ std::optional<Failure> failure_of_kind(Kind kind, const RunResult& result, const
   const Report& report = *result.report;
   switch (kind) {
     case Kind::kCollision:
-      return collision_of(result, base);
+      return collision_of(result, base, world);
     case Kind::kVerdict:
       if (!report.verdict || report.verdict->passed) return std::nullopt;
       return Failure{kind, "fails: " + report.verdict->reason, "", report.verdict->time_s};

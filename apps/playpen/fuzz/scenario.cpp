@@ -80,6 +80,10 @@ Base::Base(const std::string& file, const std::string& robot, const Freedom& fre
   }
   robot_ = static_cast<std::size_t>(found - robots.begin());
   robot_radius_m_ = radius_of(*sim::find_robot_model(world(), found->model));
+  own_room_m_ =
+      std::min(room_at(sim::distance_field(grade::make_truth(world().arena), kFarthestRoom_m),
+                       found->pose.position()),
+               robot_radius_m_ + kStartRoom_m);
   read_bounds();
   const ordered_json root = ordered_json::parse(json_.text, nullptr, true, true);
   obstacles_ = list_at(root, "/arena/obstacles");
@@ -194,8 +198,8 @@ std::optional<Base::World> Base::world_of(const Scenario& scenario) const {
     return std::nullopt;
   }
   made.room = sim::distance_field(grade::make_truth(made.description.arena), kFarthestRoom_m);
-  const bool has_room = !scenario.start || room_at(made.room, scenario.start->position()) >=
-                                               robot_radius_m_ + kStartRoom_m;
+  const double needed_m = scenario.start ? robot_radius_m_ + kStartRoom_m : own_room_m_;
+  const bool has_room = room_at(made.room, start_of(scenario)) >= needed_m;
   return has_room ? std::optional(std::move(made)) : std::nullopt;
 }
 

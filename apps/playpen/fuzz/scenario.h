@@ -77,8 +77,8 @@ class Base {
     sim::WorldDescription description;
     sim::DistanceField room;  ///< from the solids that stand; limited to kFarthestRoom_m
   };
-  /// @return nullopt if there is no such world, or if the scenario puts its robot closer to a solid
-  ///     than kStartRoom_m.
+  /// @return nullopt if there is no such world, or if its robot begins closer to a solid than
+  ///     kStartRoom_m. The world's own start may be closer to the world's own solids.
   [[nodiscard]] std::optional<World> world_of(const Scenario& scenario) const;
 
   /// Whether a simpler scenario still is within the bounds of the section "fuzz".
@@ -126,6 +126,7 @@ class Base {
   std::vector<Element::Shape> shapes_;  ///< of things that stand, by their frequency
   std::size_t robot_ = 0;
   double robot_radius_m_ = 0.0;
+  double own_room_m_ = 0.0;  ///< that the world's own start must keep
 };
 
 /// The distance of a place to the nearest solid [m]; 0 outside of the field.

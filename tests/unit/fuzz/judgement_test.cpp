@@ -42,7 +42,7 @@ class JudgementTest : public testing::Test {
   }
 
   const Base base{kIntroWorld, ""};
-  const std::optional<Base::World> world = base.world_of({});
+  std::optional<Base::World> world = base.world_of({});
   RunResult result;
   Rules rules;
 };
@@ -57,6 +57,10 @@ TEST_F(JudgementTest, Collision_UnlessAMovingThingHitsAStandingRobot) {
       {.time_s = 5.5, .robot = "r1", .with = "found1", .place = {1.0, 2.0}}};
   expect(Kind::kCollision, "hits found1 at 5.50 s, (1.00, 2.00)");
   for (double& speed : result.trajectories[0].v_mps) speed = 0.0;
+  expect(Kind::kCollision, "hits found1");
+  Scenario scenario;
+  scenario.elements = {{.center = {1.7, 0.4}, .moves = true, .speed_mps = 0.1}};
+  world = base.world_of(scenario);
   EXPECT_FALSE(failure());
   result.report->collisions[0].with = "s3";
   expect(Kind::kCollision, "hits s3");

@@ -110,6 +110,17 @@ TEST_F(ScenarioTest, StartInOrAtAnObstacle_NoWorld) {
   EXPECT_FALSE(base.world_of(scenario));
 }
 
+TEST_F(ScenarioTest, ThingBesideTheWorldsOwnStart_NoWorld) {
+  const sim::Vec2 start = base.robot_description().pose.position();
+  Scenario scenario;
+  scenario.elements = {{.size = {0.1, 0.1}}};
+  const double touching_m = base.robot_radius_m() + 0.05;
+  scenario.elements[0].center = {start.x() + touching_m + 0.05, start.y()};
+  EXPECT_FALSE(base.world_of(scenario));
+  scenario.elements[0].center.x() += 0.1;
+  EXPECT_TRUE(base.world_of(scenario));
+}
+
 TEST_F(ScenarioTest, Random_DependsOnTheStreamOnlyAndMostAreWorlds) {
   int worlds = 0;
   for (int i = 0; i < 50; ++i) {
