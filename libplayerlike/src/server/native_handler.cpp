@@ -434,6 +434,12 @@ void NativeHandler::answer_waiting() {
   }
 }
 
+void NativeHandler::go_on_with_step() {
+  if (!waiting_ || !waiting_->rests) return;
+  const Waiting step = *waiting_;
+  guarded(step.id, "step", [&] { wait_for_step(step.id, step.thread); });
+}
+
 void NativeHandler::on_peek_timeout() {
   if (!waiting_) return;
   waiting_->timer = 0;

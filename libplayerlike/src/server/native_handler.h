@@ -119,6 +119,8 @@ class NativeHandler final : public Handler {
   void step(const json& request, const json& id);
   /// Begins or continues the wait of a `step`, and answers when it is over.
   void wait_for_step(const json& id, ThreadId thread);
+  /// Continues the wait of a step that rests, see Waiting.
+  void go_on_with_step();
   /// Whether the wait of a step is over after one that ended with this outcome.
   [[nodiscard]] bool step_is_over(Outcome outcome);
   json round_of_step();

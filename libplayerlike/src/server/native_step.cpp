@@ -151,11 +151,8 @@ void NativeHandler::wait_for_step(const json& id, ThreadId thread) {
   }
   waiting_->rests = true;
   peer_.set_in_flight(1);
-  hub_.post([id, thread, weak = std::weak_ptr<NativeHandler*>(self_)] {
-    const auto self = weak.lock();
-    if (!self || !(*self)->waiting_) return;
-    std::string name = "step";
-    (*self)->guarded(id, name, [&] { (*self)->wait_for_step(id, thread); });
+  hub_.post([weak = std::weak_ptr<NativeHandler*>(self_)] {
+    if (const auto self = weak.lock()) (*self)->go_on_with_step();
   });
 }
 
