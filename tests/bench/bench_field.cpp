@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Simulated seconds a processor second in a hall of 16 x 16 m with 24 boxes. Each robot has a laser
 // with 682 beams at 10 Hz and wanders by the same rule, as in comparisons with other simulators.
-// `bench_field --hall N` prints the hall with N robots instead, for the programs of other
-// simulators.
+// `bench_field --hall N` prints the hall with N robots instead, and `bench_field --arena N` the
+// SyRoTek arena with N places for a robot, for the programs of other simulators.
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -69,13 +69,10 @@ void print_figures(int robots) {
   }
 }
 
-// One thing a line, its name first, in metres and radians: the side of the square floor, which
-// begins at the origin; the laser's beams, the angle of the first one, the angle between two, range
-// and place before the robot's centre; the outline of a robot; each box; each robot's pose.
-void print_hall(int robots) {
-  const WorldDescription world = hall(robots, "0.1");
+// The laser's beams, the angle of the first one, the angle between two, range and place before the
+// robot's centre; the outline of a robot.
+void print_robot() {
   const LaserParams laser;
-  std::printf("side %.17g\n", kSide_m);
   std::printf("laser %d %.17g %.17g %.17g %.17g\n", laser.beam_count,
               -0.5 * (laser.beam_count - 1) * laser.resolution_rad, laser.resolution_rad,
               laser.range_max_m, laser.X_BL.x_m);
@@ -83,6 +80,14 @@ void print_hall(int robots) {
   for (const Vec2& p_BV : default_robot_model().footprint)
     std::printf(" %.17g %.17g", p_BV.x(), p_BV.y());
   std::printf("\n");
+}
+
+// One thing a line, its name first, in metres and radians: the side of the square floor, which
+// begins at the origin; the robot; each box; each robot's pose.
+void print_hall(int robots) {
+  const WorldDescription world = hall(robots, "0.1");
+  std::printf("side %.17g\n", kSide_m);
+  print_robot();
   for (const ObstacleDescription& box : world.arena.obstacles) {
     std::printf("box %.17g %.17g %.17g %.17g\n", box.center.x(), box.center.y(), box.size.x(),
                 box.size.y());
@@ -90,6 +95,25 @@ void print_hall(int robots) {
   for (const RobotDescription& robot : world.robots) {
     std::printf("robot %.17g %.17g %.17g\n", robot.pose.x_m, robot.pose.y_m, robot.pose.yaw_rad);
   }
+}
+
+void print_outline(const std::vector<Vec2>& corners) {
+  std::printf("outline");
+  for (const Vec2& corner : corners) std::printf(" %.17g %.17g", corner.x(), corner.y());
+  std::printf("\n");
+}
+
+// The robot; the corners of the room and of each block; and poses with other headings at one place,
+// as in bench_parallel.
+void print_arena(int poses) {
+  const ArenaDescription arena = syrotek_arena();
+  print_robot();
+  print_outline(box_corners({0.5 * arena.size.x(), 0.5 * arena.size.y(), 0.0}, arena.size));
+  for (const ObstacleDescription& block : arena.obstacles) {
+    if (block.type == ObstacleType::kStatic) print_outline(box_corners(block));
+  }
+  for (const ObstacleDescription& block : arena.dock_separators) print_outline(box_corners(block));
+  for (int i = 0; i < poses; ++i) std::printf("robot 0.5 0.4 %.17g\n", 6.28 * i / poses);
 }
 
 }  // namespace
@@ -101,13 +125,16 @@ int main(int argc, char** argv) {
     return 0;
   }
   int robots = 0;
-  if (argc == 3 && std::strcmp(argv[1], "--hall") == 0) {
+  if (argc == 3) {
     const char* const end = argv[2] + std::strlen(argv[2]);
     if (std::from_chars(argv[2], end, robots).ptr != end) robots = 0;
   }
-  if (robots < 1) {
-    std::fprintf(stderr, "usage: bench_field [--hall NUMBER_OF_ROBOTS]\n");
+  if (robots > 0 && std::strcmp(argv[1], "--hall") == 0) {
+    sim::bench::print_hall(robots);
+  } else if (robots > 0 && std::strcmp(argv[1], "--arena") == 0) {
+    sim::bench::print_arena(robots);
+  } else {
+    std::fprintf(stderr, "usage: bench_field [--hall | --arena NUMBER_OF_ROBOTS]\n");
     return 2;
   }
-  sim::bench::print_hall(robots);
 }

@@ -57,6 +57,7 @@ holds() {
 }
 holds playpen ./usr/bin/playpen ./usr/bin/playpen-page ./usr/bin/playpen-view "$libraries/libplaypen_playerlike.so.0.1" \
   "$libraries/libplaypen_batch.so.0.1" ./usr/share/playpen/docs/examples/playpen_gym.py \
+  ./usr/share/playpen/docs/examples/playpen_client.py \
   "$libraries/playpen/libplaypen_virtual_time.so" ./usr/share/playpen/worlds/cave.json \
   ./usr/share/playpen/templates/intro/robot.cc ./usr/share/man/man1/playpen.1.gz \
   ./usr/share/bash-completion/completions/playpen ./usr/share/playpen/docs/start_here.md \

@@ -49,7 +49,8 @@ struct NativeHandler::OwnRequest {
   using Method = json (NativeHandler::*)(const json&);
   std::string_view name;
   std::initializer_list<std::string_view> keys;  ///< all allowed keys
-  Method handle;                                 ///< null: `read` and `draw`, handled separately
+  Method handle;                                 ///< null: `read`, `step` and `draw`, handled
+                                                 ///< separately
   bool for_watchers = false;                     ///< allowed without a session
 };
 
@@ -60,6 +61,8 @@ const NativeHandler::OwnRequest* NativeHandler::find_own_request(std::string_vie
        {"id", "do", "wait", "timeout", "thread", "commands", "drawings", "until", "data", "take",
         "others", "joined", "unrepeatable"},
        nullptr},
+      {"select", {"id", "do", "numbers", "motions"}, &H::select},
+      {"step", {"id", "do", "twists", "thread"}, nullptr},
       {"command", {"id", "do", "device", "command"}, &H::command},
       {"draw", {"id", "do", "drawings"}, nullptr},
       {"time", {"id", "do"}, &H::time, true},
@@ -162,6 +165,7 @@ void NativeHandler::execute(const json& message, const json& id, std::string& na
     return;
   }
   if (name == "read") return read(message, id);
+  if (name == "step") return step(message, id);
   auto drawings =
       protocol::decode_drawings(protocol::require(message, "drawings"), terms_.encoding);
   require_drawing(drawings);
@@ -410,20 +414,30 @@ void NativeHandler::begin_to_wait(const json& request, const json& id, Wait wait
 }
 
 void NativeHandler::answer_waiting() {
-  if (!waiting_) return;
+  if (!waiting_ || waiting_->rests) return;
   const Outcome outcome = wait_->client()->outcome();
   if (outcome == Outcome::kWaiting) return;
   const Waiting done = std::move(*waiting_);
   waiting_.reset();
   if (done.timer != 0) hub_.cancel(done.timer);
   peer_.set_in_flight(0);
+  const char* const name = done.wait == Wait::kStep ? "step" : "read";
   try {
+    if (done.wait == Wait::kStep && !step_is_over(outcome)) {
+      return wait_for_step(done.id, done.thread);
+    }
     answer(done.id, round(done.wait, outcome, done.take));
   } catch (const SessionError& error) {
-    fail(done.id, "read", protocol::error_id(error.code()), error.what());
+    fail(done.id, name, protocol::error_id(error.code()), error.what());
   } catch (const std::exception& error) {
-    fail(done.id, "read", "server/internal", error.what());
+    fail(done.id, name, "server/internal", error.what());
   }
+}
+
+void NativeHandler::go_on_with_step() {
+  if (!waiting_ || !waiting_->rests) return;
+  const Waiting step = *waiting_;
+  guarded(step.id, "step", [&] { wait_for_step(step.id, step.thread); });
 }
 
 void NativeHandler::on_peek_timeout() {
@@ -435,6 +449,7 @@ void NativeHandler::on_peek_timeout() {
 
 // The answer to a `read` for the outcome of its wait. A cancelled wait has timed out.
 json NativeHandler::round(Wait wait, Outcome outcome, bool take) {
+  if (wait == Wait::kStep) return round_of_step();
   if (outcome != Outcome::kIdle && wait != Wait::kNone) light_drawings_.note_step();
   if (wait == Wait::kData && outcome == Outcome::kFinished) {
     throw SessionError(SessionError::Code::kFinished, "the simulated run is over");

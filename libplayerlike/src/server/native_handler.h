@@ -13,6 +13,7 @@
 #include "server/event_wait.h"
 #include "server/light_drawings.h"
 #include "server/native_state.h"
+#include "server/native_step.h"
 #include "server/native_work.h"
 #include "server/peer.h"
 #include "server/request_guard.h"
@@ -56,13 +57,16 @@ class NativeHandler final : public Handler {
   struct OwnRequest;
   class ReadingList;
 
-  enum class Wait { kData, kPeek, kSleep, kTurns, kJoin, kNone };
-  /// A `read` without an answer so far.
+  /// The waits of `read`, and that of `step`.
+  enum class Wait { kData, kPeek, kSleep, kTurns, kJoin, kNone, kStep };
+  /// A `read` or `step` without an answer so far.
   struct Waiting {
     json id;
     Wait wait;
     bool take = true;         ///< kTurns: whether the answer contains the data
     std::uint64_t timer = 0;  ///< 0: none
+    ThreadId thread = 0;      ///< kStep: who waits
+    bool rests = false;       ///< kStep: goes on after others have had a turn
   };
 
   void execute(const json& message, const json& id, std::string& name);
@@ -111,6 +115,19 @@ class NativeHandler final : public Handler {
   /// Adds the session's readings to an answer. @return their number.
   std::size_t take_readings(json& answer);
 
+  /// Sends the speeds of a `step`, and begins its wait.
+  void step(const json& request, const json& id);
+  /// Begins or continues the wait of a `step`, and answers when it is over.
+  void wait_for_step(const json& id, ThreadId thread);
+  /// Continues the wait of a step that rests, see Waiting.
+  void go_on_with_step();
+  /// Whether the wait of a step is over after one that ended with this outcome.
+  [[nodiscard]] bool step_is_over(Outcome outcome);
+  json round_of_step();
+  /// Subscribes to devices, or to none of them. @throws SessionError.
+  void subscribe_all(const StepSelection& selection);
+  void unsubscribe_all(const StepSelection& selection);
+
   /// Opens the connection's session in the simulation.
   void open_session(EventRole role);
 
@@ -119,6 +136,7 @@ class NativeHandler final : public Handler {
 
   // Requests about the connection or the client, not about the simulation.
   json command(const json& request);
+  json select(const json& request);
   json time(const json& request);
   json thread_ended(const json& request);
   json watch(const json& request);
@@ -140,6 +158,7 @@ class NativeHandler final : public Handler {
   bool ending_ = false;                  ///< the client has sent bye
   std::uint64_t canvas_generation_ = 0;  ///< the generation that the client knows
   LightDrawings light_drawings_;
+  std::unique_ptr<StepSelection> selection_;  ///< of `select`; null before it
   // For images, which come one after another.
   Spare<std::uint8_t> spare_bytes_;
   Spare<sim::CellValue> spare_cells_;

@@ -14,33 +14,13 @@ because other processes can only slow it down. The table is printed in Markdown.
 cannot be measured is named below it with the reason.
 """
 import argparse
-import os
-import re
-import subprocess
 import sys
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
+from peers import HERE, PACKAGES, NotMeasured, figures_of, in_python, output_of, processor
+
 ROBOTS = (1, 13, 100)
-# Names and versions of the packages in Python; the versions are those that the page describes.
-PACKAGES = {"navground": "0.7.0", "ir-sim": "2.12.0"}
 OURS = [("Playpen alone", "alone_100ms"), ("Playpen, clients", "clients_100ms")]
-
-
-class NotMeasured(Exception):
-    """Why there are no figures of a simulator."""
-
-
-def output_of(command, what, **options):
-    """What a command prints; its last line of errors is the reason if it fails."""
-    try:
-        run = subprocess.run(command, capture_output=True, text=True, check=False, **options)
-    except OSError as error:
-        raise NotMeasured(f"{what}: {error}") from error
-    if run.returncode != 0:
-        reason = (run.stderr.strip() or f"status {run.returncode}").splitlines()[-1]
-        raise NotMeasured(f"{what}: {reason}")
-    return run.stdout
 
 
 def enki(prefix):
@@ -52,31 +32,6 @@ def enki(prefix):
     output_of(["c++", "-std=c++17", "-O3", "-DNDEBUG", HERE / "enki_field.cc", "-isystem",
                prefix / "include", library, "-o", program], "enki_field.cc does not compile")
     return [program]
-
-
-def in_python(prefix, package, script):
-    """Installs a package. Returns the command of its program."""
-    python = prefix / "venv" / "bin" / "python"
-    if not python.exists():
-        output_of([sys.executable, "-m", "venv", prefix / "venv"], "no virtual environment")
-    output_of([python, "-m", "pip", "install", "--quiet", f"{package}=={PACKAGES[package]}"],
-              "not installed")
-    return [python, HERE / script]
-
-
-def figures_of(command, hall=None):
-    """The figures that a program prints, by name. It runs on one core and reads `hall`."""
-    # Workarounds for old OpenBLAS libraries slow numpy down, and one core needs one thread.
-    environment = {name: value for name, value in os.environ.items()
-                   if not name.startswith("OPENBLAS_")}
-    environment.update(OPENBLAS_NUM_THREADS="1", MPLBACKEND="Agg")
-    core = {max(os.sched_getaffinity(0))}
-    text = output_of(command, "its program failed", input=hall, env=environment,
-                     preexec_fn=lambda: os.sched_setaffinity(0, core))
-    found = re.findall(r"^figure (\S+) (\S+)$", text, re.MULTILINE)
-    if not found:
-        raise NotMeasured("its program printed no figures")
-    return {name: float(value) for name, value in found}
 
 
 class Comparison:
@@ -127,12 +82,6 @@ class Comparison:
             lines.append(f"| {robots} | {' | '.join(cells)} |")
         lines += [f"\nNot measured: {name}: {reason}." for name, reason in self.reasons.items()]
         return "\n".join(lines)
-
-
-def processor():
-    model = re.search(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"),
-                      re.MULTILINE)
-    return model[1] if model else os.uname().machine
 
 
 def main():

@@ -8,14 +8,15 @@ LEAST_TIME_S = 2.0
 
 
 class Hall:
-    """The hall that `bench_field --hall N` describes, in metres and radians.
+    """The hall that `bench_field --hall N` describes, or the arena of --arena, in metres and radians.
 
-    side, beams, first (angle of the first beam), step (angle between two), range, laser_x: numbers;
-    footprint: points; boxes: (x, y, size_x, size_y); robots: (x, y, yaw).
+    side (of the hall), beams, first (angle of the first beam), step (angle between two), range, laser_x: numbers;
+    footprint: points; boxes: (x, y, size_x, size_y); outlines: corners (x, y) of the arena's room and
+    of each block; robots: (x, y, yaw).
     """
 
     def __init__(self, lines):
-        self.boxes, self.robots = [], []
+        self.boxes, self.outlines, self.robots = [], [], []
         for line in lines:
             what, *words = line.split()
             numbers = [float(word) for word in words]
@@ -29,6 +30,8 @@ class Hall:
             elif what == "box":
                 x, y, size_x, size_y = numbers
                 self.boxes.append((x, y, size_x, size_y))
+            elif what == "outline":
+                self.outlines.append(list(zip(numbers[::2], numbers[1::2])))
             elif what == "robot":
                 x, y, yaw = numbers
                 self.robots.append((x, y, yaw))

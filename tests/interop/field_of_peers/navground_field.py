@@ -75,4 +75,5 @@ def main():
     print_figure(hall, lambda: world.update(STEP_S), positions)
 
 
-main()
+if __name__ == "__main__":
+    main()

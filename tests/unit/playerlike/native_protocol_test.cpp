@@ -730,6 +730,181 @@ TEST_P(NativeProtocol, Turns_FaultyRequests_Refused) {
   EXPECT_EQ(host->time().steps, 0U);
 }
 
+// --- select and step
+
+/// A selection of r1's scan and pose, and of the speeds of both robots.
+json both_driven(const Client& client) {
+  return {{"numbers",
+           {{{"device", client.device("r1", "laser")}, {"keys", {"ranges"}}},
+            {{"device", client.device("r1", "pose")}, {"keys", {"x", "yaw", "v", "stalled"}}}}},
+          {"motions", {client.device("r1", "motion"), client.device("r2", "motion")}}};
+}
+
+std::vector<double> numbers_of(const json& answer, Encoding encoding) {
+  return protocol::require_doubles(answer, "numbers", encoding);
+}
+
+TEST_P(NativeProtocol, Step_DrivesAndReadsAsCommandsAndReadingsDo) {
+  FakeHub other_hub(test::patient_host(two_robots()));
+  Client reader(other_hub, GetParam());
+  for (const char* type : {"laser", "pose"}) {
+    reader.ask("subscribe", {{"device", reader.device("r1", type)}});
+  }
+  ASSERT_EQ(client->error("select", both_driven(*client)), "");
+  for (int i = 0; i < 3; ++i) {
+    const json answer = client->ask(
+        "step", {{"twists", protocol::doubles(std::vector{0.2, 0.1, -0.1, 0.5}, GetParam())}});
+    json commands;
+    commands.push_back({{"device", reader.device("r1", "motion")}, {"command", twist(0.2, 0.1)}});
+    commands.push_back({{"device", reader.device("r2", "motion")}, {"command", twist(-0.1, 0.5)}});
+    const json round = reader.read("data", {{"commands", commands}});
+    ASSERT_THAT(round["readings"], SizeIs(2));
+    std::vector<double> expected =
+        protocol::require_doubles(round["readings"][0], "ranges", GetParam());
+    ASSERT_THAT(expected, SizeIs(682));
+    const json& pose = round["readings"][1];
+    expected.insert(expected.end(), {pose["x"], pose["yaw"], pose["v"], 0.0});
+    EXPECT_EQ(numbers_of(answer, GetParam()), expected) << "step " << i;
+    EXPECT_EQ(answer["t"], round["t"]);
+    EXPECT_EQ(answer["finished"], false);
+  }
+  EXPECT_EQ(client->ask("object_pose", {{"name", "r2"}})["pose"],
+            reader.ask("object_pose", {{"name", "r2"}})["pose"]);
+}
+
+TEST(NativeStep, DevicesWithOtherPeriods_WaitsForEachOfThem) {
+  // In 1 s there are 10 poses, but only 5 scans.
+  FakeHub hub(test::patient_host(sim::load_world_text(
+      R"({"arena": {"size": [2, 1]}, "robots": [{"pose": {"x": 0.3, "y": 0.3}, "devices":
+          {"laser": {"frequency": 5, "beams": 10, "resolution_deg": 20}}}]})")));
+  Client client(hub, Encoding::kCbor);
+  ASSERT_EQ(client.error("select",
+                         {{"numbers",
+                           {{{"device", client.device("r1", "pose")}, {"keys", {"x"}}},
+                            {{"device", client.device("r1", "laser")}, {"keys", {"ranges"}}}}}}),
+            "");
+  const std::int64_t first_ns = client.ask("step")["t"];
+  const json answer = client.ask("step");
+  EXPECT_EQ(answer["t"].get<std::int64_t>() - first_ns, kSecond_ns / 5);
+  EXPECT_THAT(numbers_of(answer, Encoding::kCbor), SizeIs(11));
+  // A device that has no more readings than the turn of the others lasts: the server is not
+  // blocked.
+  EXPECT_EQ(client.error("select", {{"numbers", json::array()}}), "");
+  EXPECT_EQ(client.error("step"), "session/bad-argument");
+}
+
+TEST_P(NativeProtocol, Step_OtherSession_IsWaitedForInEachRound) {
+  FakeHub slow_hub(test::patient_host(sim::load_world_text(
+      R"({"arena": {"size": [2, 1]}, "robots": [{"pose": {"x": 0.3, "y": 0.3}, "devices":
+          {"laser": {"frequency": 5, "beams": 10, "resolution_deg": 20}}}]})")));
+  Client program(slow_hub, GetParam());
+  Client other(slow_hub, GetParam());
+  other.ask("subscribe", {{"device", other.device("r1", "pose")}});
+  other.read("join");
+  ASSERT_EQ(
+      program.error("select",
+                    {{"numbers",
+                      {{{"device", program.device("r1", "pose")}, {"keys", {"x"}}},
+                       {{"device", program.device("r1", "laser")}, {"keys", {"range_max"}}}}}}),
+      "");
+  program.say({{"id", 90}, {"do", "step"}});
+  EXPECT_EQ(other.read("data")["t"], kSecond_ns / 10);
+  EXPECT_TRUE(program.hear().is_null());  // a pose, but no scan yet
+  EXPECT_EQ(other.read("data")["t"], kSecond_ns / 5);
+  slow_hub.run();
+  const json answer = program.hear();
+  EXPECT_EQ(answer["id"], 90) << answer;
+  EXPECT_EQ(answer["t"], kSecond_ns / 5);
+  EXPECT_EQ(numbers_of(answer, GetParam()).back(), 5.0);
+}
+
+TEST_P(NativeProtocol, Step_RareReading_OthersAreServedMeanwhile) {
+  // 100 poses a second, and a reading of the thermometer in 100 s: 10 000 rounds for the second
+  // one.
+  FakeHub slow_hub(test::patient_host(sim::load_world_text(
+      R"({"arena": {"size": [2, 1]}, "robots": [{"pose": {"x": 0.3, "y": 0.3}, "devices":
+          {"thermometer": {"frequency": 0.01}, "pose": {"frequency": 100}}}]})")));
+  Client slow(slow_hub, GetParam());
+  ASSERT_EQ(
+      slow.error("select",
+                 {{"numbers",
+                   {{{"device", slow.device("r1", "pose")}, {"keys", {"x"}}},
+                    {{"device", slow.device("r1", "thermometer")}, {"keys", {"temperature"}}}}}}),
+      "");
+  slow.say({{"id", 90}, {"do", "step"}});
+  EXPECT_TRUE(slow.hear().is_null());
+  EXPECT_EQ(slow.peer.in_flight, 1U);
+  EXPECT_EQ(slow.error("step"), "protocol/busy");
+  EXPECT_EQ(slow.error("read", {{"wait", "data"}}), "protocol/busy");
+  EXPECT_EQ(slow.error("select", {{"numbers", json::array()}}), "protocol/busy");
+  EXPECT_EQ(slow.error("time"), "");
+  json answer;
+  for (int i = 0; i < 1000 && (answer = slow.hear()).is_null(); ++i) slow_hub.run();
+  EXPECT_EQ(answer["id"], 90) << answer;
+  EXPECT_EQ(answer["t"], 100 * kSecond_ns);
+  EXPECT_THAT(numbers_of(answer, GetParam()), SizeIs(2));
+  EXPECT_EQ(slow.peer.in_flight, 0U);
+}
+
+TEST_P(NativeProtocol, Step_FaultyRequests_Refused) {
+  EXPECT_EQ(client->error("step"), "session/bad-argument");
+  const json laser = client->device("r1", "laser");
+  const json good = both_driven(*client);
+  struct Case {
+    json numbers;
+    json motions;
+    const char* error;
+    const char* message;
+  };
+  const json none = json::array();
+  const auto pick = [](const json& device, const json& keys) {
+    return json::array({{{"device", device}, {"keys", keys}}});
+  };
+  for (const Case& c : {
+           Case{7, none, "protocol/bad-value", "numbers: expected a list"},
+           Case{pick(laser, json::array({"rangs"})), none, "protocol/bad-value",
+                "keys of numbers or doubles in the readings of a laser"},
+           Case{pick(laser, none), none, "protocol/bad-value", "1 to 64 keys"},
+           Case{pick(laser, "ranges"), none, "protocol/bad-value", "a list of keys"},
+           Case{pick(json::array({0, 99}), json::array({"x"})), none, "session/no-such-device", ""},
+           Case{pick(client->device("r1", "motion"), json::array({"x"})), none,
+                "protocol/bad-value", ""},
+           Case{good["numbers"], json::array({laser}), "protocol/bad-value", "motion devices"},
+           Case{good["numbers"], json::array({json::array({5, 0})}), "session/no-such-device", ""},
+       }) {
+    const json answer = client->ask("select", {{"numbers", c.numbers}, {"motions", c.motions}});
+    EXPECT_EQ(answer.value("error", ""), c.error) << answer;
+    EXPECT_THAT(answer.value("message", ""), HasSubstr(c.message));
+  }
+  EXPECT_EQ(client->error("step"), "session/bad-argument");  // none of them had an effect
+
+  ASSERT_EQ(client->error("select", good), "");
+  const json answer =
+      client->ask("step", {{"twists", protocol::doubles(std::vector{0.2}, GetParam())}});
+  EXPECT_EQ(answer.value("error", ""), "protocol/bad-value");
+  EXPECT_THAT(answer.value("message", ""), HasSubstr("expected 4 numbers"));
+  EXPECT_EQ(client->error("step", {{"twists", "fast"}}), "protocol/bad-value");
+  EXPECT_EQ(client->error("step", {{"speed", 1}}), "protocol/bad-value");
+  EXPECT_EQ(host->time().steps, 0U);
+}
+
+TEST(NativeStep, RobotOfAnother_CannotBeDriven) {
+  AccessSettings access;
+  access.robot_tokens = {{"r1", "one"}, {"r2", "two"}};
+  FakeHub hub(test::patient_host(two_robots()), access);
+  Client client(hub, Encoding::kJson, {{"tokens", {"one"}}});
+  EXPECT_EQ(client.error("select", both_driven(client)), "access/denied");
+}
+
+TEST_P(NativeProtocol, Step_EndOfRun_IsAnError) {
+  FakeHub short_hub(test::patient_host(two_robots(R"("time": "lockstep", "duration": 0.25)")));
+  Client program(short_hub, GetParam());
+  ASSERT_EQ(program.error("select", both_driven(program)), "");
+  EXPECT_EQ(program.error("step"), "");
+  EXPECT_EQ(program.error("step"), "");
+  EXPECT_EQ(program.error("step"), "session/finished");
+}
+
 TEST_P(NativeProtocol, SleepAndJoin_KeepReadings) {
   client->ask("subscribe", {{"device", client->device("r1", "pose")}});
   const json slept = client->read("sleep", {{"timeout", 0.25}});
