@@ -501,6 +501,30 @@ def promises(tree):
                 yield at(page, text, row.start(), f"there is no test {name}")
 
 
+ERROR_ID = re.compile(
+    r'"((?:file|json|world|device|map|run|stage|task|class|plan|server|access)/[a-z0-9-]+)"')
+
+
+def error_ids(tree):
+    """docs/errors.md explains each error's name in the sources, and no other."""
+    page = "docs/errors.md"
+    text = tree.files.get(page) or ""
+    listed = {m[1]: m.start() for m in re.finditer(r"^### `([a-z]+/[a-z0-9-]+)`", text, re.MULTILINE)}
+    # The pages of the protocols explain the errors in answers to clients.
+    elsewhere = "".join(tree.files.get(f"docs/{name}.md") or "" for name in ("protocol", "remote"))
+    used = set()
+    for path, source in tree.texts(r"(libsim/src|libplayerlike/src|apps)/.*\.(h|cpp)$"):
+        for found in ERROR_ID.finditer(source):
+            name = found[1]
+            of_servers = name.startswith(("server/", "access/"))
+            if name not in used | set(listed) and not (of_servers and f"`{name}`" in elsewhere):
+                yield at(path, source, found.start(), f"{page} does not explain {name}")
+            used.add(name)
+    for name, place in listed.items():
+        if name not in used:
+            yield at(page, text, place, f"{name} is used no more")
+
+
 # Words that begin a story instead of naming a subject.
 NARRATIVE = re.compile(r"(A|An|The|Who|What|So|It|Does|Do)(?=[A-Z])")
 
@@ -561,7 +585,7 @@ def least(tree):
 
 
 RULES = [layering, seam, numbers, unused_using, size, words, links, index, glossary, which_world,
-         promises, test_names, add_a_device, least]
+         promises, error_ids, test_names, add_a_device, least]
 
 
 # --- Tests of the rules themselves: each planted fault is found, and its neighbour is not.
@@ -705,6 +729,10 @@ def self_test():
     rule(promises, {"tests/x_test.cpp": "TEST(A, BcD) {}\nTEST_F(E,\n       F_Is) {}\n",
                     "docs/trust.md": "| `A.B*D`, `E.F_*` |\n| `A.Bc` |\n| `E.F_I` |\n`A.X`\n"},
          ":2: there is no test A.Bc", ":3: there is no test E.F_I")
+
+    rule(error_ids, {"libsim/src/x.cpp": 'a("map/one");\nb("map/two", "server/busy", "map/two");',
+                     "docs/errors.md": "### `map/one`\n### `run/old`\n", "docs/remote.md": "`server/busy`"},
+         "x.cpp:2: docs/errors.md does not explain map/two", "errors.md:2: run/old is used no more")
 
     page = "".join(f"<!-- from: {name}.h -->\n```cpp\ncompass {name}\n```\n" for name in "abcdefg")
     rule(test_names, {"tests/x_test.cpp": "TEST(A, B_IsC) {}\nTEST(A, TheB) {}\nTEST_F(A, B_C_D_E) {}\n"

@@ -5,20 +5,17 @@
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "device_table.h"
 #include "sim/io/world_io.h"
-#include "temporary_folder.h"
 
 namespace sim::io {
 namespace {
 
 namespace fs = std::filesystem;
-using test_support::read_bytes;
 
 /// The expected errors of a bad file: id and place of the first issue, and words of its message.
 struct BadWorld {
@@ -394,40 +391,6 @@ TEST(InvalidWorlds, EachFileIsInTable) {
     in_folder.insert(entry.path().stem().string());
   }
   EXPECT_EQ(in_table, in_folder);
-}
-
-TEST(ErrorPage, ListsIdsOfSourceOnly) {
-  const fs::path root(PLAYPEN_SOURCE_DIR);
-  const std::regex in_source(
-      "\"((?:file|json|world|device|map|run|stage|task|class|plan|server|access)/[a-z0-9-]+)\"");
-  std::set<std::string> used;
-  for (const char* folder : {"libsim/src", "libplayerlike/src", "apps"}) {
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
-      const std::string text = read_bytes(entry.path());
-      for (std::sregex_iterator it(text.begin(), text.end(), in_source), end; it != end; ++it) {
-        used.insert((*it)[1]);
-      }
-    }
-  }
-  ASSERT_GT(used.size(), 30U);
-
-  const std::string page = read_bytes(root / "docs" / "errors.md");
-  const std::regex heading("(?:^|\n)### `([a-z]+/[a-z0-9-]+)`");
-  std::set<std::string> listed;
-  for (std::sregex_iterator it(page.begin(), page.end(), heading), end; it != end; ++it) {
-    listed.insert((*it)[1]);
-  }
-  // The pages of the protocols explain the errors in answers to clients.
-  const std::string elsewhere =
-      read_bytes(root / "docs" / "protocol.md") + read_bytes(root / "docs" / "remote.md");
-  for (const std::string& id : used) {
-    const bool of_servers = id.starts_with("server/") || id.starts_with("access/");
-    EXPECT_TRUE(listed.contains(id) ||
-                (of_servers && elsewhere.find('`' + id + '`') != std::string::npos))
-        << id << " is not explained";
-  }
-  for (const std::string& id : listed) EXPECT_TRUE(used.contains(id)) << id << " is used no more";
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/core/error.h"
@@ -698,7 +699,11 @@ TEST(Realism, NoiseSettings_HaveFiguresInRange) {
 }
 
 TEST(Realism, Ideal_ExactAfterLongDrive) {
-  Simulation simulation(rich_world(Realism::kIdeal));
+  WorldDescription world = open_world(
+      R"("odometry": {"noise": 0.01, "wheel_ratio": 1.1}, "pose": {"noise": 0.02, "latency": 0.1},
+         "motion": {"slip": 0.05, "latency": 0.1})");
+  world.simulation.realism = Realism::kIdeal;
+  Simulation simulation(std::move(world));
   for (int i = 0; i < 200; ++i) {
     send(simulation, "motion",
          TwistCommand{{.v_mps = 0.1 + 0.002 * (i % 100), .omega_radps = 1.5 * std::sin(0.3 * i)}});

@@ -37,8 +37,8 @@ using testing::HasSubstr;
 constexpr const char* kFolderVariable = "PLAYPEN_STATE_TEST_FOLDER";
 constexpr int kGoOn = 30;  // steps after a restore
 
-int steps_of_trace() { return cases(300, 600); }
-std::size_t snapshots_of_trace() { return cases<std::size_t>(10, 50); }
+int steps_of_trace() { return cases(150, 600); }
+std::size_t snapshots_of_trace() { return cases<std::size_t>(6, 50); }
 
 const fs::path kWorlds = fs::path(PLAYPEN_SOURCE_DIR) / "worlds";
 
