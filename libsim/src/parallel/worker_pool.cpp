@@ -8,8 +8,8 @@
 namespace sim::parallel {
 namespace {
 
-// How often a thread looks before it sleeps. A look takes 25 to 50 ns, so this is 25 to 50 us: as
-// long as it takes to wake a thread, and a policy for 64 robots is done sooner.
+// How often a thread looks before it sleeps. A look takes 25 to 50 ns, so this is 25 to 50 us. A
+// policy for 64 robots takes less; to wake a thread takes 10 us or more.
 constexpr int kLooks = 1000;
 
 // Processors on which this thread, and those that it starts, may run.
