@@ -33,7 +33,7 @@ std::string_view without_blanks_behind(std::string_view text) {
 
 /// Whether an id can be echoed unchanged.
 bool is_valid_id(std::string_view id) {
-  const auto is_control = [](char c) { return (c >= 0 && c <= 0x20) || c == 0x7f; };
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) <= 0x20 || c == 0x7f; };
   return id.size() <= kMaxId && std::none_of(id.begin(), id.end(), is_control) &&
          sim::find_invalid_utf8(id) == std::string_view::npos;
 }

@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -36,8 +40,7 @@ TEST(WorkerPool, EachItemOnce_AnyNumberOfThreads) {
 }
 
 // The thread of an item that waits for another part does not keep the others from going on.
-TEST(WorkerPool, SlowItem_OthersTakeItsPart) {
-  WorkerPool pool(2);
+void run_with_slow_item(WorkerPool& pool) {
   std::atomic<int> done = 0;
   pool.run(10, [&](int item, int) {
     // Item 0 begins the caller's part; it ends only after all others.
@@ -45,6 +48,65 @@ TEST(WorkerPool, SlowItem_OthersTakeItsPart) {
     ++done;
   });
   EXPECT_EQ(done, 10);
+}
+
+TEST(WorkerPool, SlowItem_OthersTakeItsPart) {
+  WorkerPool pool(2);
+  run_with_slow_item(pool);
+}
+
+// Rounds follow one another at once, after a short while and after a sleep of the threads. A caller
+// that is not woken would end the test by its timeout.
+TEST(WorkerPool, RoundsAtAnyTime_EachItemOnce) {
+  for (const int threads : {2, 3, 16}) {
+    WorkerPool pool(threads);
+    std::vector<int> calls(5);
+    constexpr int kRounds = 500;
+    for (int round = 0; round < kRounds; ++round) {
+      if (round % 100 == 0) std::this_thread::sleep_for(std::chrono::microseconds(300));
+      for (std::atomic<int> wait = 0; wait < (round % 7) * 1000;) ++wait;
+      pool.run(5, [&](int item, int) { ++calls[static_cast<std::size_t>(item)]; });
+    }
+    EXPECT_THAT(calls, Each(kRounds)) << threads;
+  }
+}
+
+TEST(WorkerPool, EndsBeforeAndAfterRounds) {
+  for (int rounds = 0; rounds < 30; ++rounds) {
+    std::atomic<int> calls = 0;
+    {
+      WorkerPool pool(2);
+      for (int round = 0; round < rounds % 3; ++round) pool.run(2, [&](int, int) { ++calls; });
+    }
+    ASSERT_EQ(calls, 2 * (rounds % 3));
+  }
+}
+
+// Number of threads of this process that are not asleep.
+int awake_threads() {
+  int awake = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream file(task.path() / "stat");
+    std::string text;
+    std::getline(file, text);
+    // The state follows the program's name, which is in parentheses.
+    const std::size_t name_end = text.rfind(')');
+    if (name_end != std::string::npos && text.compare(name_end, 3, ") S") != 0) ++awake;
+  }
+  return awake;
+}
+
+TEST(WorkerPool, NoFurtherRound_ThreadsSleepUntilNextOne) {
+  WorkerPool pool(2);
+  pool.run(2, [](int, int) {});
+  constexpr int kMostTries = 10'000;
+  int tries = 0;
+  while (awake_threads() > 1 && tries < kMostTries) {
+    ++tries;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_LT(tries, kMostTries);
+  run_with_slow_item(pool);
 }
 
 }  // namespace
