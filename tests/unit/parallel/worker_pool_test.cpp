@@ -61,9 +61,9 @@ TEST(WorkerPool, RoundsAtAnyTime_EachItemOnce) {
   for (const int threads : {2, 3, 16}) {
     WorkerPool pool(threads);
     std::vector<int> calls(5);
-    constexpr int kRounds = 500;
+    constexpr int kRounds = 200;
     for (int round = 0; round < kRounds; ++round) {
-      if (round % 100 == 0) std::this_thread::sleep_for(std::chrono::microseconds(300));
+      if (round % 50 == 0) std::this_thread::sleep_for(std::chrono::microseconds(300));
       for (std::atomic<int> wait = 0; wait < (round % 7) * 1000;) ++wait;
       pool.run(5, [&](int item, int) { ++calls[static_cast<std::size_t>(item)]; });
     }
