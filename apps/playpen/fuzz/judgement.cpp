@@ -144,6 +144,13 @@ std::optional<Failure> stuck(const RunResult& result, const Base& base) {
                  "", way->time_s.back()};
 }
 
+// Whether the run was over before the program ended: what it says then is about that.
+bool was_over(const RunResult& result) {
+  return result.report && result.report->ended &&
+         (result.report->ended->by == playerlike::RunEnd::By::kDuration ||
+          result.report->ended->by == playerlike::RunEnd::By::kVerdict);
+}
+
 std::optional<Failure> failure_of_kind(Kind kind, const RunResult& result, const Rules& rules,
                                        const Base& base, const Base::World& world) {
   switch (kind) {
@@ -155,7 +162,9 @@ std::optional<Failure> failure_of_kind(Kind kind, const RunResult& result, const
       return line.empty() ? std::nullopt : std::optional(Failure{kind, line, "", 0.0});
     }
     case Kind::kBadStatus:
-      if (result.end.signal || result.end.status == 0) return std::nullopt;
+      if (result.end.signal || result.end.status == 0 || was_over(result)) return std::nullopt;
+      // A program that finds no way says so by its status.
+      if (rules.goal && !has_way(*rules.goal, base, world)) return std::nullopt;
       return Failure{kind, result.end.text(), "", 0.0};
     case Kind::kHang:
       if (!result.hangs) return std::nullopt;

@@ -81,6 +81,18 @@ TEST_F(JudgementTest, CrashStatusHangAndSanitizer) {
   expect(Kind::kSanitizer, "robot.cc:7:3: runtime error: index 9 out of bounds");
 }
 
+TEST_F(JudgementTest, BadStatus_NotAfterTheRunNorWithoutAWay) {
+  result.end.status = 1;
+  EXPECT_FALSE(failure());  // its duration was over
+  result.report->ended->by = playerlike::RunEnd::By::kProgram;
+  expect(Kind::kBadStatus, "status 1");
+  result.report->ended->by = playerlike::RunEnd::By::kVerdict;
+  EXPECT_FALSE(failure());
+  result.report->ended->by = playerlike::RunEnd::By::kProgram;
+  rules.goal = grade::Goal{.position = base.world().arena.obstacles[0].center, .yaw_rad = {}};
+  EXPECT_FALSE(failure());
+}
+
 TEST_F(JudgementTest, Goal_MustBeReachedIfThereIsAWay) {
   rules.goal = grade::Goal{.position = {3.1, 3.3}, .yaw_rad = {}};
   expect(Kind::kGoal, "from its goal");
