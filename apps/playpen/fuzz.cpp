@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -56,6 +57,32 @@ class RunFolder {
 
  private:
   fs::path path_;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// Notes signals that ask this process to end, instead of ending at once: the processes and files
+/// of the search are then removed.
+class NotedSignals {
+ public:
+  NotedSignals() {
+    struct sigaction noted {};
+    noted.sa_handler = [](int /*signal*/) { interrupted = 1; };
+    for (std::size_t i = 0; i < kSignals.size(); ++i) {
+      sigaction(kSignals[i], nullptr, &before_[i]);
+      // Under nohup one stays ignored.
+      if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &noted, nullptr);
+    }
+  }
+  NotedSignals(const NotedSignals&) = delete;
+  NotedSignals& operator=(const NotedSignals&) = delete;
+  ~NotedSignals() {
+    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+  }
+
+ private:
+  static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, kSignals.size()> before_{};
 };
 
 /// Ends a run of this process that takes too long: another process sends SIGTERM, which run() hands
@@ -159,6 +186,7 @@ class FoundWorlds {
         wall_limit_s_(wall_limit_s),
         begin_(Clock::now()) {
     fs::create_directories(request.output_folder);
+    if (!request.keep_folder.empty()) fs::create_directories(request.keep_folder);
   }
 
   void add(const fuzz::Finding& finding) {
@@ -180,7 +208,7 @@ class FoundWorlds {
               << "   in " << fuzz::description_of(finding.scenario) << '\n'
               << "   world: " << file.string() << '\n'
               << "   again: " << call << std::endl;
-    run_again(finding, run);
+    if (interrupted == 0) run_again(finding, run);
     if (!request_.keep_folder.empty()) keep(finding, file, expectation);
   }
 
@@ -211,7 +239,9 @@ class FoundWorlds {
     if (kind == fuzz::Kind::kHang) {
       Watchdog watchdog(wall_limit_s_);
       static_cast<void>(playpen::run(run));
-      return watchdog.stop();
+      const bool hangs = watchdog.stop();
+      if (hangs) interrupted = 0;  // its signal may have come after the run
+      return hangs;
     }
     const int status = playpen::run(run);
     if (kind == fuzz::Kind::kSanitizer) return true;  // its status depends on the sanitizer
@@ -289,6 +319,7 @@ fuzz::RunnerSettings runner_settings(const FuzzRequest& request, const Subject& 
   runner.folder = folder.path();
   runner.jobs = static_cast<std::size_t>(request.jobs);
   runner.duration_s = request.duration_s;
+  runner.is_interrupted = [] { return interrupted != 0; };
   runner.wall_limit_s = request.timeout_s.value_or(runner.wall_limit_s);
   return runner;
 }
@@ -302,6 +333,7 @@ int fuzz_program(FuzzRequest request) {
   const fuzz::Base base(subject.world_file, subject.robot, request.freedom);
   for (const expect::Expectation& one : request.expectations) one.require_robot_of(base.world());
   if (request.output_folder.empty()) request.output_folder = "out/fuzz/" + subject.name;
+  const NotedSignals signals;
   const RunFolder folder;
   const PreloadedLibrary virtual_time;
   fuzz::Runner runner(runner_settings(request, subject, folder, virtual_time));
@@ -311,23 +343,26 @@ int fuzz_program(FuzzRequest request) {
   settings.seed = request.seed;
   settings.guided = !request.random;
   settings.most_findings = request.most_findings;
+  settings.is_over = [] { return interrupted != 0; };
   if (request.runs) settings.most_runs = *request.runs;
   if (!request.runs || request.budget_s) {
     const double budget_s = request.budget_s.value_or(60.0);
     if (!request.runs) settings.most_runs = std::numeric_limits<std::size_t>::max();
     settings.is_over = [begin, budget_s] {
-      return std::chrono::duration<double>(Clock::now() - begin).count() > budget_s;
+      return interrupted != 0 ||
+             std::chrono::duration<double>(Clock::now() - begin).count() > budget_s;
     };
   }
   fuzz::Search search(base, subject.rules, runner, settings);
   search.run([&findings](const fuzz::Finding& finding) { findings.add(finding); });
   const double spent_s = std::chrono::duration<double>(Clock::now() - begin).count();
   if (!request.quiet) {
-    std::cout << (findings.count() == 0 ? "nothing found: " : "") << search.runs() << " runs and "
+    std::cout << (interrupted != 0 ? "interrupted, " : "")
+              << (findings.count() == 0 ? "nothing found: " : "") << search.runs() << " runs and "
               << search.situations() << " situations in " << sim::fixed_text(spent_s, 0) << " s, "
               << runner.count() - search.runs() << " runs to make findings simpler\n";
   }
-  return findings.count() == 0 ? kOk : kProgramFailed;
+  return findings.count() == 0 && interrupted == 0 ? kOk : kProgramFailed;
 }
 
 }  // namespace playpen

@@ -78,7 +78,7 @@ void add_fuzz(CommandLine& line) {
       "  playpen fuzz par_intro --budget 5m -- build/my_robot\n"
       "Adds obstacles, doors, mazes, moving things, noise and other starts to the\n"
       "world, and makes what is found as simple as possible.\n"
-      "Exit status: 0 nothing was found, 1 something was, 2 bad input.");
+      "Exit status: 0 nothing found, 1 something found or interrupted, 2 bad input.");
   CLI::Option* const world =
       command.add_option("world", request->world, "World or task, a file or a name");
   line.takes(world->required()->type_name(""), ValueKind::Kind::kWorld);

@@ -99,7 +99,7 @@ class Session:
         self.peer, self.timeout = f"{host}:{port}", timeout
         try:
             self.socket = socket.create_connection((host, port), timeout)
-        except OSError as error:
+        except (OSError, OverflowError) as error:  # such as the port 70000
             raise PlaypenError("connection", f"no server at {self.peer}: {error}") from error
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.file = self.socket.makefile("rb", 1 << 18)
@@ -132,8 +132,8 @@ class Session:
 
     def select(self, names, pose):
         """Chooses the robots, and the numbers that each step gives."""
-        known = {robot["name"]: {device["type"]: device for device in robot["devices"]}
-                 for robot in self.welcome["robots"]}
+        known = {robot["name"]: {device["type"]: device for device in reversed(robot["devices"])}
+                 for robot in self.welcome["robots"]}  # the first device of each type
         self.robots = list(known) if names is None else [names] if isinstance(names, str) else list(names)
         numbers, motions = [], []
         for name in self.robots:
@@ -177,11 +177,18 @@ class Session:
     def exchange(self, message):
         return self.guarded(self.send_and_receive, message)
 
+    def receive(self, size):
+        data = self.file.read(size)
+        if len(data) < size:
+            raise EOFError("the server has ended the connection")
+        return data
+
     def send_and_receive(self, message):
+        if self.file.closed:
+            raise EOFError("this session is closed")
         self.socket.sendall(message)
         while True:
-            size = self.file.read(4)
-            answer = decode(self.file.read(int.from_bytes(size, "big")))[0] if size else {"event": "bye"}
+            answer = decode(self.receive(int.from_bytes(self.receive(4), "big")))[0]
             if "error" in answer:
                 raise PlaypenError(answer["error"], answer["message"])
             if "id" in answer:
@@ -190,12 +197,20 @@ class Session:
                 raise PlaypenError("connection", answer.get("message", f"{self.peer} has left"))
 
     def guarded(self, action, *arguments):
+        """Closes the session after an interruption: the next step would take the late answer for its own."""
         try:
             return action(*arguments)
+        except PlaypenError:
+            raise
         except socket.timeout as error:
+            self.close()
             raise PlaypenError("connection", f"{self.peer} has not answered for {self.timeout} s") from error
-        except (OSError, IndexError, ValueError, struct.error) as error:  # a message may be cut
+        except (OSError, EOFError, IndexError, ValueError, struct.error) as error:
+            self.close()
             raise PlaypenError("connection", f"{self.peer}: {error}") from error
+        except BaseException:  # such as Ctrl-C
+            self.close()
+            raise
 
 
 def roam(scans):

@@ -68,8 +68,11 @@ class Batch:
             array(getattr(self, name)) for name, _ in Observations._fields_[1:]))
         self.observe()
 
-    def __del__(self):
+    def close(self):
         lib.playpen_batch_destroy(self.handle)
+        self.handle = c.c_void_p()
+
+    __del__ = close
 
     def observe(self):
         check(lib.playpen_batch_observe(self.handle, c.byref(self.out)))
@@ -77,6 +80,8 @@ class Batch:
     def step(self, actions, steps=1):
         """actions: [N, R, 2], forward speed [m/s] and turn rate [rad/s]."""
         actions = np.ascontiguousarray(actions, np.float64)
+        if actions.shape != self.shape + (2,):
+            raise ValueError(f"actions: expected shape {self.shape + (2,)}, found {actions.shape}")
         check(lib.playpen_batch_step(self.handle, c.byref(array(actions)), steps, c.byref(self.out)))
 
     def reset(self, mask=None, seeds=None, poses=None):
@@ -96,6 +101,9 @@ class ArenaEnv(Env):
 
     def __init__(self, world="", seconds=60.0):
         self.batch, self.seconds, self.render_mode = Batch(world, beams=36, threads=1), seconds, None
+        if self.batch.scans.shape != (1, 1, 36):
+            raise ValueError(f"{world}: expected one robot with a laser, found {self.batch.shape[1]} robots "
+                             f"with scans of {self.batch.scans.shape[2]} beams")
         if Box is not None:
             self.observation_space = Box(0.0, 5.0, (36,), np.float32)
             self.action_space = Box(-1.0, 1.0, (2,), np.float32)
@@ -105,6 +113,9 @@ class ArenaEnv(Env):
             super().reset(seed=seed)
         self.batch.reset(seeds=None if seed is None else [seed])
         return self.batch.scans[0, 0].copy(), {}
+
+    def close(self):
+        self.batch.close()
 
     def step(self, action):
         self.batch.step(np.multiply(action, (0.5, 3.0)).reshape(1, 1, 2), steps=10)

@@ -14,7 +14,9 @@
  * Functions that return a playpen_batch_status return PLAYPEN_BATCH_OK (0) on success. Otherwise
  * playpen_batch_last_error() says in English what is wrong. No function throws, prints, or ends the
  * process. A batch takes one call at a time, from any thread; different batches may be used at
- * once. After fork(), the child process must not use batches of its parent.
+ * once. A call while another one of the same batch is running is refused with
+ * PLAYPEN_BATCH_ARGUMENT. So are calls of a child process with batches that its parent has made
+ * before fork(); playpen_batch_destroy() does nothing then.
  */
 
 /* This is C, with the names of C. */

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -132,6 +135,48 @@ TEST_F(PlaypenFuzz, ProgramHangs_ItsResultsAreThoseUntilTheLimit) {
                                 HasSubstr("again: timeout 1 playpen run "),
                                 testing::Not(HasSubstr("did not happen again"))));
   EXPECT_TRUE(fs::exists(fs::path(out) / "1/scene.png"));
+}
+
+// A search whose program computes for ever, after it has begun. Its processes inherit the test's
+// pipes, so the test notices if one of them is left.
+class InterruptedSearch {
+ public:
+  explicit InterruptedSearch(const std::string& out)
+      : search_({PLAYPEN_COMMAND, "fuzz", "par_intro", "--runs", "1000", "--timeout", "1000",
+                 "--jobs", "2", "--out", out, "--", ENDS_PROGRAM, "compute", "0"}) {
+    while (!fs::exists(out)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  [[nodiscard]] ProcessResult end_by(int signal) {
+    search_.send_signal(signal);
+    return search_.finish();
+  }
+
+ private:
+  test_support::Process search_;
+};
+
+TEST_F(PlaypenFuzz, Interrupted_ReportsAndLeavesNothing) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const ProcessResult result = InterruptedSearch(folder_ / std::to_string(signal)).end_by(signal);
+    EXPECT_FALSE(result.timed_out);
+    EXPECT_EQ(result.status, 1) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("interrupted, nothing found: 0 runs"));
+  }
+}
+
+TEST_F(PlaypenFuzz, Killed_LeavesNoProcess) {
+  const ProcessResult result = InterruptedSearch(folder_ / "out").end_by(SIGKILL);
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.signal, SIGKILL);
+}
+
+TEST_F(PlaypenFuzz, FolderToKeepCannotBeMade_StatusTwoBeforeTheSearch) {
+  const std::string file = folder_ / "file";
+  std::ofstream(file) << "no folder";
+  const ProcessResult result = fuzz({"--out", folder_ / "out", "--keep", file + "/kept"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr(file));
 }
 
 TEST_F(PlaypenFuzz, ProgramWithoutFault_NothingFound) {

@@ -80,7 +80,6 @@ void Runner::start(Slot& slot, const std::string& world) {
                       {"PLAYPEN_OUT", out.string()},
                       {"PLAYPEN_DURATION", sim::shortest_text(settings_.duration_s)}},
                      (slot.folder / "printed.txt").string());
-  ++count_;
 }
 
 std::optional<RunResult> Runner::poll(Slot& slot) {
@@ -104,9 +103,14 @@ std::vector<std::optional<RunResult>> Runner::run(const std::vector<std::string>
   std::vector<std::optional<RunResult>> results(worlds.size());
   std::size_t next = 0;
   std::size_t running = 0;
+  bool interrupted = false;
   for (;;) {
+    if (!interrupted && settings_.is_interrupted && settings_.is_interrupted()) {
+      interrupted = true;
+      for (const auto& slot : slots_) slot->program.kill_copy();
+    }
     for (const auto& slot : slots_) {
-      if (slot->job || next == worlds.size() || (is_over && is_over())) continue;
+      if (slot->job || next == worlds.size() || interrupted || (is_over && is_over())) continue;
       slot->job = next;
       start(*slot, worlds[next++]);
       ++running;
@@ -121,7 +125,10 @@ std::vector<std::optional<RunResult>> Runner::run(const std::vector<std::string>
     for (const auto& slot : slots_) {
       if (!slot->job) continue;
       if (auto result = poll(*slot)) {
-        results[*slot->job] = std::move(result);
+        if (!interrupted) {
+          results[*slot->job] = std::move(result);
+          ++count_;
+        }
         slot->job.reset();
         --running;
       }

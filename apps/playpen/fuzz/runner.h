@@ -22,6 +22,8 @@ struct RunnerSettings {
   std::size_t jobs = 1;                        ///< programs that run side by side, >= 1
   double duration_s = 30.0;                    ///< simulated, of each run [s]
   double wall_limit_s = 20.0;                  ///< of each run; beyond it hangs [s]
+  /// Whether a signal has asked this process to end: runs are then killed. May be empty.
+  std::function<bool()> is_interrupted;
 };
 
 /// What a run gave.
@@ -49,11 +51,12 @@ class Runner {
   /// Runs the program once in each world, side by side.
   /// @param worlds  texts of world files.
   /// @param is_over  asked between runs: whether to start no further one.
-  /// @return results in the order of the worlds; of those that were not started none.
+  /// @return results in the order of the worlds; none of those that were not started or were
+  ///     interrupted.
   /// @throws playerlike::ProgramError if a prepared process has died.
   [[nodiscard]] std::vector<std::optional<RunResult>> run(
       const std::vector<std::string>& worlds, const std::function<bool()>& is_over = {});
-  /// Runs so far.
+  /// Runs so far that have ended.
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
   [[nodiscard]] const RunnerSettings& settings() const noexcept { return settings_; }
 

@@ -2,9 +2,11 @@
 #include "connect/prepared_process.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -72,6 +74,17 @@ void become_copy(std::string_view variables) {
   }
 }
 
+// Waits until a copy has ended. Kills it if the process that wants its status ends before.
+void kill_if_left_alone(int socket, pid_t copy) {
+  const auto process = static_cast<int>(syscall(SYS_pidfd_open, copy, 0));
+  if (process < 0) return;                                 // an old kernel
+  pollfd both[] = {{process, POLLIN, 0}, {socket, 0, 0}};  // of the socket, that it is hung up
+  while (poll(both, 2, -1) < 0 && errno == EINTR) {
+  }
+  if (both[0].revents == 0) kill(-copy, SIGKILL);
+  close(process);
+}
+
 // Serves the next request. @return false: there is none; true in a copy.
 std::optional<bool> serve_one(int socket) {
   std::uint32_t size = 0;
@@ -87,6 +100,7 @@ std::optional<bool> serve_one(int socket) {
   if (copy > 0) setpgid(copy, copy);
   if (!send_number(socket, copy < 0 ? 0U : static_cast<std::uint32_t>(copy))) return false;
   if (copy < 0) return std::nullopt;
+  kill_if_left_alone(socket, copy);
   int status = 0;
   while (waitpid(copy, &status, 0) < 0 && errno == EINTR) {
   }

@@ -58,9 +58,19 @@ NumberPick::NumberPick(std::string_view type, const std::string& key) : kind_(re
   }
 }
 
-void NumberPick::append(const sim::Reading& reading, std::vector<double>& numbers) const {
+const void* NumberPick::value_in(const sim::Reading& reading) const {
   const void* value = kind_.object(reading);
   for (const Field* const field : path_) value = field->get(value);
+  return value;
+}
+
+std::size_t NumberPick::count(const sim::Reading& reading) const {
+  if (path_.back()->type != FieldType::kNumbers) return 1;
+  return static_cast<const std::vector<double>*>(value_in(reading))->size();
+}
+
+void NumberPick::append(const sim::Reading& reading, std::vector<double>& numbers) const {
+  const void* value = value_in(reading);
   const Field& field = *path_.back();
   switch (field.type) {
     case FieldType::kNumbers: {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,8 +27,13 @@ class NumberPick {
 
   /// Appends the numbers of a reading, in SI units and radians. @pre it is one of the type.
   void append(const sim::Reading& reading, std::vector<double>& numbers) const;
+  /// How many numbers append() appends. @pre as append().
+  [[nodiscard]] std::size_t count(const sim::Reading& reading) const;
 
  private:
+  /// The value of the field in a reading.
+  [[nodiscard]] const void* value_in(const sim::Reading& reading) const;
+
   const sim::ReadingKind& kind_;
   std::vector<const sim::Field*> path_;  ///< of included tables, then the field itself
   int part_ = 0;                         ///< of a pose: 0 x, 1 y, 2 yaw

@@ -26,8 +26,10 @@ class EventWait {
     client_ = hub.host().connect_events(
         port,
         [&hub, me, weak = std::weak_ptr(on_end_)] {
-          if (beginning == me) return;
-          hub.post([weak] {
+          if (is_beginning(me)) return;
+          hub.post([me, weak] {
+            // begin() also runs tasks, and checks the outcome itself afterwards.
+            if (is_beginning(me)) return;
             if (const auto action = weak.lock()) (*action)();
           });
         },
@@ -54,16 +56,26 @@ class EventWait {
   }
 
  private:
+  /// A call of begin() in this thread. Calls nest: the tasks that one of them runs may begin the
+  /// waits of other objects.
   class Beginning {
    public:
-    explicit Beginning(const void* who) { beginning = who; }
-    ~Beginning() { beginning = nullptr; }
+    explicit Beginning(const void* who) : who_(who), outer_(innermost) { innermost = this; }
+    ~Beginning() { innermost = outer_; }
     Beginning(const Beginning&) = delete;
     Beginning& operator=(const Beginning&) = delete;
+
+    static inline thread_local const Beginning* innermost = nullptr;
+    const void* const who_;
+    const Beginning* const outer_;
   };
 
-  // The object whose wait this thread is beginning; begin() checks the outcome itself.
-  static inline thread_local const void* beginning = nullptr;
+  /// Whether this thread is in begin() of an object.
+  [[nodiscard]] static bool is_beginning(const void* who) noexcept {
+    const Beginning* at = Beginning::innermost;
+    while (at != nullptr && at->who_ != who) at = at->outer_;
+    return at != nullptr;
+  }
 
   Hub& hub_;
   std::shared_ptr<const std::function<void()>> on_end_;  ///< expires with this object

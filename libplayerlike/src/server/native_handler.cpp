@@ -22,9 +22,6 @@ using protocol::ProtocolError;
 
 // Doubles represent all whole numbers up to this one exactly.
 constexpr std::int64_t kMaxInteger = std::int64_t{1} << 53U;
-// A larger answer needs a claim on the server's limit of queued bytes, see Hub::claim_room()
-// [bytes].
-constexpr std::size_t kSmallAnswer = std::size_t{1} << 20U;
 constexpr double kMaxTimeout_s = 1e9;
 
 std::int64_t integer_or(const json& object, const char* key, std::int64_t otherwise,
@@ -421,17 +418,12 @@ void NativeHandler::answer_waiting() {
   waiting_.reset();
   if (done.timer != 0) hub_.cancel(done.timer);
   peer_.set_in_flight(0);
-  const char* const name = done.wait == Wait::kStep ? "step" : "read";
-  try {
+  guarded(done.id, done.wait == Wait::kStep ? "step" : "read", [&] {
     if (done.wait == Wait::kStep && !step_is_over(outcome)) {
       return wait_for_step(done.id, done.thread);
     }
     answer(done.id, round(done.wait, outcome, done.take));
-  } catch (const SessionError& error) {
-    fail(done.id, name, protocol::error_id(error.code()), error.what());
-  } catch (const std::exception& error) {
-    fail(done.id, name, "server/internal", error.what());
-  }
+  });
 }
 
 void NativeHandler::go_on_with_step() {

@@ -124,6 +124,8 @@ class NativeHandler final : public Handler {
   /// Whether the wait of a step is over after one that ended with this outcome.
   [[nodiscard]] bool step_is_over(Outcome outcome);
   json round_of_step();
+  /// How many numbers of a device an answer to `step` contains, by its present reading.
+  [[nodiscard]] std::size_t expected_numbers(const StepSelection::Device& device);
   /// Subscribes to devices, or to none of them. @throws SessionError.
   void subscribe_all(const StepSelection& selection);
   void unsubscribe_all(const StepSelection& selection);

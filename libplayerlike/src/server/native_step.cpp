@@ -2,7 +2,7 @@
 // The requests of programs that decide by numbers, step by step: `select` and `step`, see
 // docs/protocol.md.
 #include <algorithm>
-#include <array>
+#include <numeric>
 #include <utility>
 
 #include "protocol/codec.h"
@@ -19,19 +19,33 @@ using protocol::ProtocolError;
 // Limits of one message.
 constexpr std::size_t kMostDevices = 4096;
 constexpr std::size_t kMostKeys = 64;
+constexpr std::size_t kMostPicks = std::size_t{1} << 15U;  ///< keys of all devices together
+// Numbers of one answer: 2 MiB in CBOR, less than 7 MiB in JSON.
+constexpr std::size_t kMostNumbers = std::size_t{1} << 18U;
 // Rounds of readings that a step waits for before other connections get a turn.
 constexpr int kRoundsATurn = 32;
 
+constexpr std::size_t kBytesANumber = 25;  // at most, in JSON
+
 constexpr const char* kDevices = "a list of up to 4096 objects with \"device\" and \"keys\"";
 constexpr const char* kMotions = "a list of up to 4096 motion devices, each [robot, device]";
+
+bool is_before(DeviceId a, DeviceId b) {
+  return a.robot != b.robot ? a.robot < b.robot : a.device < b.device;
+}
 
 /// Keeps the newest reading of each selected device.
 class NewestReadings final : public ReadingSink {
  public:
   explicit NewestReadings(StepSelection& selection) : selection_(selection) {}
   void on_reading(DeviceId device, const sim::SharedReading& reading) override {
-    for (StepSelection::Device& selected : selection_.devices) {
-      if (selected.id == device) selected.newest = reading;
+    const std::vector<std::size_t>& by_id = selection_.by_id;
+    auto at = std::lower_bound(by_id.begin(), by_id.end(), device,
+                               [this](std::size_t index, DeviceId id) {
+                                 return is_before(selection_.devices[index].id, id);
+                               });
+    for (; at != by_id.end() && selection_.devices[*at].id == device; ++at) {
+      selection_.devices[*at].newest = reading;
     }
   }
 
@@ -39,12 +53,34 @@ class NewestReadings final : public ReadingSink {
   StepSelection& selection_;
 };
 
+void sort_by_id(StepSelection& selection) {
+  selection.by_id.resize(selection.devices.size());
+  std::iota(selection.by_id.begin(), selection.by_id.end(), std::size_t{0});
+  std::sort(selection.by_id.begin(), selection.by_id.end(), [&](std::size_t a, std::size_t b) {
+    return is_before(selection.devices[a].id, selection.devices[b].id);
+  });
+}
+
+std::size_t count_numbers(const StepSelection::Device& device, const sim::Reading& reading) {
+  std::size_t count = 0;
+  for (const protocol::NumberPick& pick : device.picks) count += pick.count(reading);
+  return count;
+}
+
+void require_few_numbers(std::size_t numbers) {
+  if (numbers <= kMostNumbers) return;
+  throw ProtocolError("protocol/bad-value",
+                      "numbers: expected at most " + std::to_string(kMostNumbers) +
+                          " numbers in an answer to step, found " + std::to_string(numbers));
+}
+
 }  // namespace
 
 json NativeHandler::select(const json& request) {
   if (waiting_) throw ProtocolError("protocol/busy", "a read or step of this session waits");
   const std::vector<RobotInfo>& robots = hub_.host().robots();
   auto selection = std::make_unique<StepSelection>();
+  std::size_t picks = 0;
   const json& numbers = protocol::require(request, "numbers");
   if (protocol::require_list(numbers, "numbers", kDevices).size() > kMostDevices) {
     protocol::refuse_value("numbers", kDevices, numbers);
@@ -58,10 +94,19 @@ json NativeHandler::select(const json& request) {
     if (keys.empty() || keys.size() > kMostKeys) {
       protocol::refuse_value("keys", "1 to 64 keys of readings", item["keys"]);
     }
+    picks += keys.size();
+    if (picks > kMostPicks) {
+      throw ProtocolError("protocol/bad-value", "numbers: expected at most " +
+                                                    std::to_string(kMostPicks) +
+                                                    " keys of all devices together, found more");
+    }
     StepSelection::Device& added = selection->devices.emplace_back();
     added.id = device;
     for (const std::string& key : keys) added.picks.emplace_back(type, key);
+    selection->numbers += expected_numbers(added);
+    require_few_numbers(selection->numbers);
   }
+  sort_by_id(*selection);
   if (request.contains("motions")) {
     const json& motions = request["motions"];
     if (protocol::require_list(motions, "motions", kMotions).size() > kMostDevices) {
@@ -80,6 +125,16 @@ json NativeHandler::select(const json& request) {
   if (selection_) unsubscribe_all(*selection_);
   selection_ = std::move(selection);
   return json::object();
+}
+
+std::size_t NativeHandler::expected_numbers(const StepSelection::Device& device) {
+  const sim::SharedReading reading =
+      hub_.host().with_simulation([&](const sim::Simulation& simulation) {
+        const sim::Sensor* const sensor =
+            simulation.device(device.id.robot, device.id.device).sensor();
+        return sensor == nullptr ? nullptr : sensor->share();
+      });
+  return reading == nullptr ? 0 : count_numbers(device, *reading);
 }
 
 void NativeHandler::subscribe_all(const StepSelection& selection) {
@@ -109,6 +164,9 @@ void NativeHandler::step(const json& request, const json& id) {
     throw ProtocolError("protocol/busy", "a read or step of this session waits; one can at a time");
   }
   const ThreadId thread = thread_id(request);
+  const bool is_large = selection_->numbers * kBytesANumber > kSmallAnswer;
+  // Only checks that there is room: the answer is made at once when the wait is over.
+  if (is_large) static_cast<void>(hub_.claim_room(selection_->numbers * kBytesANumber));
   if (request.contains("twists")) {
     const std::vector<double> twists =
         protocol::require_doubles(request, "twists", terms_.encoding);
@@ -171,7 +229,12 @@ bool NativeHandler::step_is_over(Outcome outcome) {
 }
 
 json NativeHandler::round_of_step() {
+  std::size_t count = 0;
+  for (const auto& device : selection_->devices) count += count_numbers(device, *device.newest);
+  selection_->numbers = count;
+  require_few_numbers(count);
   std::vector<double> numbers;
+  numbers.reserve(count);
   for (StepSelection::Device& device : selection_->devices) {
     for (const protocol::NumberPick& pick : device.picks) pick.append(*device.newest, numbers);
     device.newest = nullptr;

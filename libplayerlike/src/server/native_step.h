@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "playerlike/messages/messages.h"
@@ -17,7 +18,9 @@ struct StepSelection {
     sim::SharedReading newest = nullptr;  ///< null: none since the last answer
   };
   std::vector<Device> devices;
-  std::vector<DeviceId> motions;  ///< that the speeds of a step are for
+  std::vector<std::size_t> by_id;  ///< indices of `devices`, sorted by DeviceId
+  std::size_t numbers = 0;         ///< of an answer, as far as it is known before the next step
+  std::vector<DeviceId> motions;   ///< that the speeds of a step are for
 };
 
 }  // namespace playerlike::server

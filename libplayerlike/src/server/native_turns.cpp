@@ -73,6 +73,7 @@ json NativeHandler::leave(const json& /*request*/) {
   if (waiting_) throw ProtocolError("protocol/busy", "a read of this session waits");
   state_->open.erase(terms_.key);
   wait_.reset();
+  selection_.reset();  // its subscriptions were those of the session
   open_session(EventRole::kFollower);
   hub_.pump();
   return json::object();

@@ -11,6 +11,10 @@
 /// arena. The server's worker thread (worker_thread.h) executes expensive ones.
 namespace playerlike::server {
 
+/// A larger answer needs a claim on the server's limit of queued bytes, see Hub::claim_room()
+/// [bytes].
+inline constexpr std::size_t kSmallAnswer = std::size_t{1} << 20U;
+
 /// Maximum number of cells of a server's map.
 inline constexpr double kMaxMapCells = 1 << 22;
 

@@ -1,18 +1,24 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+
+#include <atomic>
 #include <cstring>
 #include <exception>
-#include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "playpen_batch.h"
 #include "sim/core/error.h"
 #include "sim/core/state_archive.h"
+#include "sim/core/utf8.h"
 #include "sim/parallel/batch.h"
 
 struct playpen_batch {  // NOLINT(readability-identifier-naming): a name of C
   sim::Batch batch;
+  const pid_t process = getpid();           // its threads are this process's
+  mutable std::atomic<bool> in_use{false};  // a call is running
 };
 
 namespace {
@@ -35,7 +41,12 @@ playpen_batch_status failed(playpen_batch_status status, const char* what) {
     while (end > 0 && (static_cast<unsigned char>(last_error.text[end]) & 0xC0U) == 0x80U) --end;
     last_error.text[end] = '\0';
   }
-  return status;
+  // Names of files may contain any bytes.
+  for (;;) {
+    const std::size_t at = sim::find_invalid_utf8(last_error.text);
+    if (at == std::string_view::npos) return status;
+    last_error.text[at] = '?';
+  }
 }
 
 // Calls work() and turns what it throws into a status.
@@ -63,6 +74,28 @@ playpen_batch_status guarded(Work work) noexcept {
 void expect_pointer(const char* name, const void* pointer) {
   if (pointer == nullptr) throw BatchError(std::string(name) + ": expected a pointer, found null");
 }
+
+// A call of a batch.
+class Call {
+ public:
+  explicit Call(const playpen_batch* batch) : batch_(batch) {
+    expect_pointer("batch", batch);
+    if (batch->process != getpid()) {
+      throw BatchError(
+          "batch: expected one of this process, found one of its parent; make it after fork()");
+    }
+    if (batch->in_use.exchange(true, std::memory_order_acquire)) {
+      throw BatchError(
+          "batch: expected one call at a time, found one while another thread's is running");
+    }
+  }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+  ~Call() { batch_->in_use.store(false, std::memory_order_release); }
+
+ private:
+  const playpen_batch* batch_;
+};
 
 // Structs of other versions of this interface have other sizes.
 void expect_struct(const char* name, std::size_t found, std::size_t expected) {
@@ -136,7 +169,7 @@ playpen_batch_status create(const char* name, const char* world,
     expect_pointer("batch", batch);
     expect_pointer(name, world);
     const sim::BatchOptions own = options_of(options);
-    *batch = std::make_unique<playpen_batch>(playpen_batch{Batch(load(world), own)}).release();
+    *batch = new playpen_batch{Batch(load(world), own)};
   });
 }
 
@@ -167,7 +200,11 @@ playpen_batch_status playpen_batch_create_from_text(const char* world_text,
                 [](const char* text) { return sim::load_world_text(text); });
 }
 
-void playpen_batch_destroy(playpen_batch* batch) { delete batch; }
+void playpen_batch_destroy(playpen_batch* batch) {
+  // In a child process the threads that it would wait for do not exist.
+  if (batch == nullptr || batch->process != getpid()) return;
+  delete batch;
+}
 
 int32_t playpen_batch_simulations(const playpen_batch* batch) {
   return batch == nullptr ? 0 : batch->batch.simulations();
@@ -193,7 +230,7 @@ const char* playpen_batch_robot_name(const playpen_batch* batch, int32_t robot) 
 playpen_batch_status playpen_batch_describe_scan(const playpen_batch* batch, int32_t robot,
                                                  playpen_batch_scan* scan) {
   return guarded([&] {
-    expect_pointer("batch", batch);
+    const Call call(batch);
     expect_pointer("scan", scan);
     const auto geometry = batch->batch.scan_geometry(robot);
     *scan = {};
@@ -207,7 +244,7 @@ playpen_batch_status playpen_batch_step(playpen_batch* batch, const playpen_batc
                                         int32_t steps,
                                         const playpen_batch_observations* observations) {
   return guarded([&] {
-    expect_pointer("batch", batch);
+    const Call call(batch);
     const auto commands = actions == nullptr ? BatchArray<const double>{}
                                              : array_of<const double>("actions", *actions);
     batch->batch.step(commands, steps, observations_of(observations));
@@ -217,7 +254,7 @@ playpen_batch_status playpen_batch_step(playpen_batch* batch, const playpen_batc
 playpen_batch_status playpen_batch_observe(playpen_batch* batch,
                                            const playpen_batch_observations* observations) {
   return guarded([&] {
-    expect_pointer("batch", batch);
+    const Call call(batch);
     batch->batch.observe(observations_of(observations));
   });
 }
@@ -226,7 +263,7 @@ playpen_batch_status playpen_batch_reset(playpen_batch* batch, const uint8_t* ma
                                          size_t mask_size, const uint64_t* seeds, size_t seed_count,
                                          const playpen_batch_array* poses) {
   return guarded([&] {
-    expect_pointer("batch", batch);
+    const Call call(batch);
     batch->batch.reset({.mask = list_of("mask", mask, mask_size),
                         .seeds = list_of("seeds", seeds, seed_count),
                         .poses = poses == nullptr ? BatchArray<const double>{}
@@ -237,7 +274,7 @@ playpen_batch_status playpen_batch_reset(playpen_batch* batch, const uint8_t* ma
 playpen_batch_status playpen_batch_save(const playpen_batch* batch, int32_t simulation, void* data,
                                         size_t capacity, size_t* size) {
   return guarded([&] {
-    expect_pointer("batch", batch);
+    const Call call(batch);
     expect_pointer("size", size);
     const sim::Snapshot state = batch->batch.save(simulation);
     *size = state.size();
@@ -253,7 +290,7 @@ playpen_batch_status playpen_batch_save(const playpen_batch* batch, int32_t simu
 playpen_batch_status playpen_batch_restore(playpen_batch* batch, const uint8_t* mask,
                                            size_t mask_size, const void* data, size_t size) {
   return guarded([&] {
-    expect_pointer("batch", batch);
+    const Call call(batch);
     expect_pointer("data", data);
     batch->batch.restore(list_of("mask", mask, mask_size),
                          {static_cast<const std::uint8_t*>(data), size});
@@ -263,7 +300,7 @@ playpen_batch_status playpen_batch_restore(playpen_batch* batch, const uint8_t* 
 playpen_batch_status playpen_batch_state_hash(const playpen_batch* batch, int32_t simulation,
                                               uint64_t* hash) {
   return guarded([&] {
-    expect_pointer("batch", batch);
+    const Call call(batch);
     expect_pointer("hash", hash);
     *hash = batch->batch.simulation(simulation).state_hash();
   });

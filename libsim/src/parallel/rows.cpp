@@ -48,11 +48,11 @@ Strides checked_strides(const char* name, const Shape& shape, std::size_t size,
   const std::ptrdiff_t needed = (shape.simulations - 1) * strides.simulation +
                                 (shape.robots - 1) * strides.robot + shape.width;
   const bool without_gaps = simulation_stride == 0 && robot_stride == 0;
-  const auto found = static_cast<std::ptrdiff_t>(size);
-  if (found < needed || (without_gaps && found != needed)) {
+  const auto least = static_cast<std::size_t>(needed);
+  if (size < least || (without_gaps && size != least)) {
     fail_array(name, std::string("expected ") + (without_gaps ? "" : "at least ") +
                          std::to_string(needed) + " elements for " + text_of(shape) + ", found " +
-                         std::to_string(found));
+                         std::to_string(size));
   }
   if (!are_apart(shape, strides)) {
     fail_array(name, "expected strides with which no two rows of " + text_of(shape) +

@@ -144,6 +144,38 @@ def other_servers():
             thread.join()
 
 
+def interruptions(port):
+    """After one, the session is closed: no answer is taken for that of a later step."""
+    for error in (KeyboardInterrupt(), socket.timeout()):
+        session = Session(port=port, robots="r1")
+        session.step([[0.1, 0.0]])
+
+        class Interrupted:
+            closed, close = False, staticmethod(session.file.close)
+
+            def read(self, size, error=error):
+                raise error
+        session.file = Interrupted()
+        kind, id = (PlaypenError, "connection") if isinstance(error, OSError) else (KeyboardInterrupt, None)
+        expect_error(lambda: session.step([[0.1, 0.0]]), kind, id, "")
+        expect(session.socket.fileno() == -1, f"the session is closed after {error!r}")
+
+
+def cut_answers():
+    """A message that ends too early is no answer, wherever it is cut."""
+    answer = playpen_client.frame({"id": 1, "numbers": np.zeros(2), "finished": False, "t": 100000000})
+    for size in range(len(answer)):
+        ours, theirs = socket.socketpair()
+        session = Session.__new__(Session)
+        session.peer, session.timeout, session.socket = "peer", 5.0, ours
+        session.file = ours.makefile("rb")
+        with theirs:
+            theirs.sendall(answer[:size])
+            theirs.shutdown(socket.SHUT_WR)
+            expect_error(lambda: session.send_and_receive(b""), EOFError, None, "has ended the connection")
+        session.close()
+
+
 def ends():
     with served(WORLD, "--duration", "0.25") as (_, port), Session(port=port) as session:
         session.step([[0.1, 0.0]])
@@ -155,6 +187,8 @@ def ends():
         server.terminate()
         server.wait()
         expect_error(lambda: session.step([[0.1, 0.0]]), PlaypenError, "connection", "")
+        session.close()
+        expect_error(lambda: session.step([[0.1, 0.0]]), PlaypenError, "connection", "session is closed")
         expect_error(lambda: Session(port=port), PlaypenError, "connection", "no server at 127.0.0.1")
 
 
@@ -166,8 +200,10 @@ def main():
     with served(TWO_ROBOTS) as (_, port):
         refusals(port)
         several_robots(port)
+        interruptions(port)
     tokens()
     other_servers()
+    cut_answers()
     ends()
 
 

@@ -42,7 +42,8 @@ def arrays(world):
 def errors(world):
     batch = playpen_gym.Batch(world, simulations=2)
     for call, text in ((lambda: batch.step(np.full((2, 1, 2), np.nan)), "found NaN as the speed"),
-                       (lambda: batch.step(np.zeros((3, 1, 2))), "expected 4 elements"),
+                       (lambda: batch.step(np.zeros((3, 1, 2))), "expected shape (2, 1, 2)"),
+                       (lambda: batch.step(np.zeros((1, 2, 2))), "found (1, 2, 2)"),
                        (lambda: batch.reset(mask=[1]), "mask: expected one for each of 2"),
                        (lambda: playpen_gym.Batch(world, simulations=0), "simulations: expected"),
                        (lambda: playpen_gym.Batch("none.json"), "none.json")):

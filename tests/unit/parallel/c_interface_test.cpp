@@ -2,11 +2,16 @@
 // The C interface: the same results as sim::Batch, and a status and a text for each wrong call.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "batches.h"
@@ -143,6 +148,8 @@ TEST(BatchInC, Creation_WrongArguments) {
   EXPECT_EQ(create(kRoom, options), "1: robots: expected their number, found 0");
   options.robot_count = 2;
   EXPECT_EQ(create(kRoom, options), "1: robots: expected a pointer, found null");
+  EXPECT_THAT(outcome(playpen_batch_create("no\xff\xfe.json", nullptr, &batch)),
+              StartsWith("2: no??.json: expected a world file"));
 }
 
 TEST(BatchInC, WrongArguments) {
@@ -159,6 +166,9 @@ TEST(BatchInC, WrongArguments) {
   out.poses = {reinterpret_cast<char*>(numbers.data()) + 1, 12, 0, 0};
   EXPECT_EQ(outcome(playpen_batch_observe(batch.get(), &out)),
             "1: poses: expected an address that is a multiple of 8");
+  out.poses = {numbers.data(), std::numeric_limits<std::size_t>::max(), 0, 0};
+  EXPECT_THAT(outcome(playpen_batch_observe(batch.get(), &out)),
+              HasSubstr("found 18446744073709551615"));
   out.poses = {nullptr, 12, 0, 0};
   EXPECT_EQ(outcome(playpen_batch_observe(batch.get(), &out)),
             "1: poses: expected a pointer, found null");
@@ -176,6 +186,39 @@ TEST(BatchInC, WrongArguments) {
   EXPECT_EQ(playpen_batch_robot_name(batch.get(), -1), nullptr);
   EXPECT_THAT(outcome(playpen_batch_state_hash(batch.get(), 2, nullptr)),
               StartsWith("1: hash: expected a pointer"));
+}
+
+TEST(BatchInC, CallsAtOnce_RefusedOrExecuted) {
+  const Handle batch = made(options_of(4));
+  std::atomic<bool> go_on{true};
+  std::thread other([&] {
+    while (go_on) playpen_batch_step(batch.get(), nullptr, 20, nullptr);
+  });
+  std::string own;
+  for (int i = 0; i < 100'000 && own.empty(); ++i) {
+    if (playpen_batch_observe(batch.get(), nullptr) != PLAYPEN_BATCH_OK) {
+      own = playpen_batch_last_error();
+    }
+  }
+  go_on = false;
+  other.join();
+  EXPECT_THAT(own, HasSubstr("expected one call at a time"));
+  EXPECT_EQ(playpen_batch_observe(batch.get(), nullptr), PLAYPEN_BATCH_OK);
+}
+
+TEST(BatchInC, ChildProcess_MayNotUseBatchOfParent) {
+  const Handle batch = made(options_of(2));
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const std::string text = outcome(playpen_batch_step(batch.get(), nullptr, 1, nullptr));
+    playpen_batch_destroy(batch.get());  // does not wait for threads that do not exist
+    _exit(text.starts_with("1: batch: expected one of this process") ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(playpen_batch_step(batch.get(), nullptr, 1, nullptr), PLAYPEN_BATCH_OK);
 }
 
 TEST(BatchInC, NullHandle) {

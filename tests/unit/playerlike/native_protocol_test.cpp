@@ -888,6 +888,57 @@ TEST_P(NativeProtocol, Step_FaultyRequests_Refused) {
   EXPECT_EQ(host->time().steps, 0U);
 }
 
+TEST(NativeStep, RoundsOfOneSessionInsideWaitOfAnother_EachAnsweredOnce) {
+  // The wait for a scan begins first. In its time the other step needs several rounds.
+  FakeHub hub(test::patient_host(sim::load_world_text(
+      R"({"arena": {"size": [2, 1]}, "robots": [{"pose": {"x": 0.3, "y": 0.3}, "devices":
+          {"laser": {"frequency": 5, "beams": 10, "resolution_deg": 20}}}]})")));
+  Client rounds(hub, Encoding::kJson);
+  Client scan(hub, Encoding::kJson);
+  const json laser = {{"device", scan.device("r1", "laser")}, {"keys", {"range_max"}}};
+  const json pose = {{"device", scan.device("r1", "pose")}, {"keys", {"x"}}};
+  ASSERT_EQ(rounds.error("select", {{"numbers", {pose, laser}}}), "");
+  ASSERT_EQ(scan.error("select", {{"numbers", {laser}}}), "");
+  rounds.read("join");
+  scan.read("join");
+  for (int i = 1; i < 4; ++i) {
+    rounds.say({{"id", i}, {"do", "step"}});
+    scan.say({{"id", i}, {"do", "step"}});
+    hub.run();
+    for (Client* const client : {&rounds, &scan}) {
+      const json answer = client->hear();
+      EXPECT_EQ(answer["id"], i) << answer;
+      EXPECT_EQ(answer["t"], i * kSecond_ns / 5);
+      EXPECT_TRUE(client->hear().is_null()) << "an answer twice";
+    }
+  }
+}
+
+TEST(NativeStep, LargeSelections_Refused) {
+  FakeHub hub(test::patient_host(sim::load_world_text(
+      R"({"arena": {"size": [2, 1]}, "robots": [{"pose": {"x": 0.3, "y": 0.3}, "devices":
+          {"laser": {"beams": 8192, "resolution_deg": 0.04}}}]})")));
+  Client client(hub, Encoding::kCbor);
+  const auto select = [&](std::size_t times, const char* type, const json& keys) {
+    const json item = {{"device", client.device("r1", type)}, {"keys", keys}};
+    return client.ask("select", {{"numbers", std::vector<json>(times, item)}}).value("message", "");
+  };
+  EXPECT_THAT(select(33, "laser", {"ranges"}),
+              HasSubstr("at most 262144 numbers in an answer to step, found 270336"));
+  EXPECT_THAT(select(513, "pose", std::vector<std::string>(64, "x")),
+              HasSubstr("at most 32768 keys of all devices together"));
+  EXPECT_EQ(client.error("step"), "session/bad-argument");  // none of them had an effect
+  EXPECT_EQ(select(512, "pose", std::vector<std::string>(64, "x")), "");
+  EXPECT_THAT(numbers_of(client.ask("step"), Encoding::kCbor), SizeIs(32768));
+}
+
+TEST_P(NativeProtocol, Step_AfterLeave_NeedsNewSelect) {
+  ASSERT_EQ(client->error("select", both_driven(*client)), "");
+  ASSERT_EQ(client->error("step"), "");
+  ASSERT_EQ(client->error("leave"), "");
+  EXPECT_EQ(client->error("step"), "session/bad-argument");
+}
+
 TEST(NativeStep, RobotOfAnother_CannotBeDriven) {
   AccessSettings access;
   access.robot_tokens = {{"r1", "one"}, {"r2", "two"}};
