@@ -60,20 +60,20 @@ class EventWait {
   /// waits of other objects.
   class Beginning {
    public:
-    explicit Beginning(const void* who) : who_(who), outer_(innermost) { innermost = this; }
-    ~Beginning() { innermost = outer_; }
+    explicit Beginning(const void* object) : who(object), outer(innermost) { innermost = this; }
+    ~Beginning() { innermost = outer; }
     Beginning(const Beginning&) = delete;
     Beginning& operator=(const Beginning&) = delete;
 
     static inline thread_local const Beginning* innermost = nullptr;
-    const void* const who_;
-    const Beginning* const outer_;
+    const void* const who;
+    const Beginning* const outer;
   };
 
   /// Whether this thread is in begin() of an object.
   [[nodiscard]] static bool is_beginning(const void* who) noexcept {
     const Beginning* at = Beginning::innermost;
-    while (at != nullptr && at->who_ != who) at = at->outer_;
+    while (at != nullptr && at->who != who) at = at->outer;
     return at != nullptr;
   }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -16,6 +17,8 @@
 #include "sim/parallel/batch.h"
 
 struct playpen_batch {  // NOLINT(readability-identifier-naming): a name of C
+  explicit playpen_batch(sim::Batch made) : batch(std::move(made)) {}
+
   sim::Batch batch;
   const pid_t process = getpid();           // its threads are this process's
   mutable std::atomic<bool> in_use{false};  // a call is running
@@ -169,7 +172,7 @@ playpen_batch_status create(const char* name, const char* world,
     expect_pointer("batch", batch);
     expect_pointer(name, world);
     const sim::BatchOptions own = options_of(options);
-    *batch = new playpen_batch{Batch(load(world), own)};
+    *batch = std::make_unique<playpen_batch>(Batch(load(world), own)).release();
   });
 }
 
