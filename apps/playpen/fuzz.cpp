@@ -177,13 +177,13 @@ std::string expectation_of(const fuzz::Finding& finding, const std::string& robo
 /// Writes what was found.
 class FoundWorlds {
  public:
-  /// @param wall_limit_s  of a run; beyond it hangs [s].
+  /// @param hang_limit_s  of a run that hangs [s].
   FoundWorlds(const FuzzRequest& request, const Subject& subject, const fuzz::Base& base,
-              double wall_limit_s)
+              double hang_limit_s)
       : request_(request),
         subject_(subject),
         base_(base),
-        wall_limit_s_(wall_limit_s),
+        hang_limit_s_(hang_limit_s),
         begin_(Clock::now()) {
     fs::create_directories(request.output_folder);
     if (!request.keep_folder.empty()) fs::create_directories(request.keep_folder);
@@ -237,7 +237,7 @@ class FoundWorlds {
   [[nodiscard]] bool happens_again(const fuzz::Finding& finding, const RunRequest& run) const {
     const fuzz::Kind kind = finding.failure.kind;
     if (kind == fuzz::Kind::kHang) {
-      Watchdog watchdog(wall_limit_s_);
+      Watchdog watchdog(hang_limit_s_);
       static_cast<void>(playpen::run(run));
       const bool hangs = watchdog.stop();
       if (hangs) interrupted = 0;  // its signal may have come after the run
@@ -258,7 +258,7 @@ class FoundWorlds {
   [[nodiscard]] std::string call_of(const fuzz::Finding& finding, const RunRequest& run,
                                     const std::string& expectation) const {
     std::string call = finding.failure.kind == fuzz::Kind::kHang
-                           ? "timeout " + sim::shortest_text(wall_limit_s_) + ' '
+                           ? "timeout " + sim::shortest_text(hang_limit_s_) + ' '
                            : std::string();
     call += "playpen run " + shell_word(run.world) + " --duration " +
             sim::shortest_text(*run.settings.duration_s);
@@ -298,10 +298,14 @@ class FoundWorlds {
   const FuzzRequest& request_;
   const Subject& subject_;
   const fuzz::Base& base_;
-  const double wall_limit_s_;
+  const double hang_limit_s_;
   const Clock::time_point begin_;
   std::size_t count_ = 0;
 };
+
+// A program that computes too long hangs: its run does not go on without it, as results would then
+// depend on the wall clock.
+constexpr double kNoSilenceLimit_s = 3600.0;
 
 fuzz::RunnerSettings runner_settings(const FuzzRequest& request, const Subject& subject,
                                      const RunFolder& folder,
@@ -311,6 +315,7 @@ fuzz::RunnerSettings runner_settings(const FuzzRequest& request, const Subject& 
   settings.quiet_end = true;
   settings.virtual_time = true;
   settings.time_mode = sim::TimeMode::kLockstep;
+  settings.silence_limit_s = kNoSilenceLimit_s;
   fuzz::RunnerSettings runner;
   runner.program = subject.program;
   runner.environment = playerlike::run_environment("", settings);
@@ -320,7 +325,7 @@ fuzz::RunnerSettings runner_settings(const FuzzRequest& request, const Subject& 
   runner.jobs = static_cast<std::size_t>(request.jobs);
   runner.duration_s = request.duration_s;
   runner.is_interrupted = [] { return interrupted != 0; };
-  runner.wall_limit_s = request.timeout_s.value_or(runner.wall_limit_s);
+  runner.limit_s = request.timeout_s.value_or(runner.limit_s);
   return runner;
 }
 
@@ -337,7 +342,7 @@ int fuzz_program(FuzzRequest request) {
   const RunFolder folder;
   const PreloadedLibrary virtual_time;
   fuzz::Runner runner(runner_settings(request, subject, folder, virtual_time));
-  FoundWorlds findings(request, subject, base, runner.settings().wall_limit_s);
+  FoundWorlds findings(request, subject, base, runner.settings().limit_s);
   const auto begin = Clock::now();
   fuzz::SearchSettings settings;
   settings.seed = request.seed;

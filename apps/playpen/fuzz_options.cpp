@@ -108,7 +108,7 @@ void add_fuzz(CommandLine& line) {
                return parse_number(text, request->most_findings) && request->most_findings > 0;
              });
   add_jobs(command, request->jobs);
-  add_time_limit(command, "--timeout", "Wall-clock seconds after which a run hangs [20]",
+  add_time_limit(command, "--timeout", "Processor time after which a run hangs [20]",
                  request->timeout_s);
   command.add_option("--robot", request->robot, "Robot under test [the task's, or the first]")
       ->type_name("NAME");

@@ -168,7 +168,7 @@ std::optional<Failure> failure_of_kind(Kind kind, const RunResult& result, const
       return Failure{kind, result.end.text(), "", 0.0};
     case Kind::kHang:
       if (!result.hangs) return std::nullopt;
-      return Failure{kind, "does not end in the limit of wall time", "", 0.0};
+      return Failure{kind, "does not end within the limit of time", "", 0.0};
     default:
       break;
   }

@@ -21,7 +21,8 @@ struct RunnerSettings {
   std::filesystem::path folder;                ///< for files of the runs; exists
   std::size_t jobs = 1;                        ///< programs that run side by side, >= 1
   double duration_s = 30.0;                    ///< simulated, of each run [s]
-  double wall_limit_s = 20.0;                  ///< of each run; beyond it hangs [s]
+  double limit_s = 20.0;  ///< processor time of each run; beyond it hangs. Also if it waits for as
+                          ///< long by the wall clock [s]
   /// Whether a signal has asked this process to end: runs are then killed. May be empty.
   std::function<bool()> is_interrupted;
 };
@@ -29,7 +30,7 @@ struct RunnerSettings {
 /// What a run gave.
 struct RunResult {
   playerlike::ProgramEnd end;
-  bool hangs = false;                           ///< the limit of wall time ended it
+  bool hangs = false;                           ///< the limit of time ended it
   std::optional<playerlike::Report> report;     ///< none: it wrote none
   std::vector<grade::Trajectory> trajectories;  ///< by robot; empty without a report
   std::string printed;                          ///< the last of it
