@@ -55,9 +55,7 @@ class Batch:
     scans [N, R, B], clearances [N, R], collisions [N, R], done [N] and times [N]."""
 
     def __init__(self, world="", simulations=1, threads=0, beams=0):
-        options, self.handle = Options(), c.c_void_p()
-        lib.playpen_batch_options_init(c.byref(options))
-        options.simulations, options.threads, options.beams = simulations, threads, beams
+        options, self.handle = Options(c.sizeof(Options), simulations, threads, beams), c.c_void_p()
         check(lib.playpen_batch_create(os.fsencode(world), c.byref(options), c.byref(self.handle)))
         self.shape = n, r = simulations, lib.playpen_batch_robots(self.handle)
         self.poses, self.twists = np.zeros((n, r, 3)), np.zeros((n, r, 3))
@@ -102,8 +100,7 @@ class ArenaEnv(Env):
     def __init__(self, world="", seconds=60.0):
         self.batch, self.seconds, self.render_mode = Batch(world, beams=36, threads=1), seconds, None
         if self.batch.scans.shape != (1, 1, 36):
-            raise ValueError(f"{world}: expected one robot with a laser, found {self.batch.shape[1]} robots "
-                             f"with scans of {self.batch.scans.shape[2]} beams")
+            raise ValueError(f"{world}: expected one robot with a laser, found scans {self.batch.scans.shape}")
         if Box is not None:
             self.observation_space = Box(0.0, 5.0, (36,), np.float32)
             self.action_space = Box(-1.0, 1.0, (2,), np.float32)
@@ -113,9 +110,6 @@ class ArenaEnv(Env):
             super().reset(seed=seed)
         self.batch.reset(seeds=None if seed is None else [seed])
         return self.batch.scans[0, 0].copy(), {}
-
-    def close(self):
-        self.batch.close()
 
     def step(self, action):
         self.batch.step(np.multiply(action, (0.5, 3.0)).reshape(1, 1, 2), steps=10)
