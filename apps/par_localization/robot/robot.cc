@@ -24,6 +24,8 @@ const int KNOWN_ROUNDS = 10;
 // The robot is lost if less of the scan fits the map in this number of rounds in a row.
 const double LOST_AGREEMENT = 0.75;
 const int LOST_ROUNDS = 10;
+// The robot gives up if there was no way from so many places where it seemed to be.
+const int MOST_WITHOUT_WAY = 3;
 
 // A point of the scan fits the map if a wall is as near as this [m].
 const double FITS = 0.08;
@@ -120,6 +122,7 @@ bool CRobot::navigation() {
   bool known = false;   // whether the robot knows its pose
   int fits = 0;         // rounds in a row in which the scan fits the map at the estimate
   int contradicts = 0;  // rounds in a row that contradict the estimate
+  int withoutWay = 0;   // how often there was no way from where it seemed to be
   for (int round = 0;; round++) {
     client->Read();
     if (!laser->IsFresh()) continue;
@@ -141,11 +144,16 @@ bool CRobot::navigation() {
       INFO(LOCALIZER_NAME << ": the robot is at (" << estimate.pose.x << ", " << estimate.pose.y
                           << ") m, heading " << estimate.pose.yaw << " rad; " << 100.0 * fitting
                           << " % of the scan fit the map");
-      if (!planFrom(estimate.pose)) {
-        halt();
-        return false;
+      known = planFrom(estimate.pose);
+      if (!known) {
+        // Places look alike: it may be elsewhere.
+        if (++withoutWay == MOST_WITHOUT_WAY) {
+          halt();
+          return false;
+        }
+        localizer->forget();
+        fits = 0;
       }
-      known = true;
     } else if (contradicts >= LOST_ROUNDS) {
       INFO("The robot is lost: " << 100.0 * fitting << " % of the scan fit the map"
                                  << (blocked ? ", and it cannot go ahead" : ""));
