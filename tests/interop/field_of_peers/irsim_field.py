@@ -8,40 +8,25 @@ pushed out of it and go on (collision mode "contact"), as in Playpen; by default
 good.
 """
 import sys
-import tempfile
-
-import irsim
-import yaml
 
 from hall import STEP_S, Hall, choose, print_figure
+from irsim_world import make_world
 
 WALL_M = 0.2  # thickness of the walls around the hall
 
 
-def world_of(hall):
+def obstacles_of(hall):
     side = hall.side
     walls = [(x, y, size_x, size_y) for at in (-0.5 * WALL_M, side + 0.5 * WALL_M)
              for x, y, size_x, size_y in ((at, 0.5 * side, WALL_M, side),
                                           (0.5 * side, at, side, WALL_M))]
-    boxes = [{"shape": {"name": "rectangle", "length": size_x, "width": size_y},
-              "state": [x, y, 0]} for x, y, size_x, size_y in walls + hall.boxes]
-    lidar = {"name": "lidar2d", "range_min": 0, "range_max": hall.range, "angle_range": hall.view,
-             "number": hall.beams, "noise": False, "offset": [hall.laser_x, 0, 0]}
-    robots = [{"kinematics": {"name": "diff"},
-               "shape": {"name": "polygon", "vertices": [list(point) for point in hall.footprint]},
-               "state": list(pose), "vel_min": [-1, -3], "vel_max": [1, 3], "sensors": [lidar]}
-              for pose in hall.robots]
-    return {"world": {"width": side, "height": side, "step_time": STEP_S, "sample_time": STEP_S,
-                      "control_mode": "auto", "collision_mode": "contact"},
-            "robot": robots, "obstacle": boxes}
+    return [{"shape": {"name": "rectangle", "length": size_x, "width": size_y},
+             "state": [x, y, 0]} for x, y, size_x, size_y in walls + hall.boxes]
 
 
 def main():
     hall = Hall(sys.stdin)
-    with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
-        yaml.dump(world_of(hall), file)
-        file.flush()
-        world = irsim.make(file.name, headless=True, log_level="ERROR")
+    world = make_world(hall, hall.side, hall.robots, obstacles_of(hall), STEP_S)
     robots = world.robot_list
     numbers = list(range(len(robots)))
 
