@@ -348,16 +348,13 @@ int fuzz_program(FuzzRequest request) {
   settings.seed = request.seed;
   settings.guided = !request.random;
   settings.most_findings = request.most_findings;
-  settings.is_over = [] { return interrupted != 0; };
-  if (request.runs) settings.most_runs = *request.runs;
-  if (!request.runs || request.budget_s) {
-    const double budget_s = request.budget_s.value_or(60.0);
-    if (!request.runs) settings.most_runs = std::numeric_limits<std::size_t>::max();
-    settings.is_over = [begin, budget_s] {
-      return interrupted != 0 ||
-             std::chrono::duration<double>(Clock::now() - begin).count() > budget_s;
-    };
-  }
+  settings.most_runs = request.runs.value_or(std::numeric_limits<std::size_t>::max());
+  const double budget_s =
+      request.budget_s.value_or(request.runs ? std::numeric_limits<double>::infinity() : 60.0);
+  settings.is_over = [begin, budget_s] {
+    return interrupted != 0 ||
+           std::chrono::duration<double>(Clock::now() - begin).count() > budget_s;
+  };
   fuzz::Search search(base, subject.rules, runner, settings);
   search.run([&findings](const fuzz::Finding& finding) { findings.add(finding); });
   const double spent_s = std::chrono::duration<double>(Clock::now() - begin).count();

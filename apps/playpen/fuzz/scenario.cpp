@@ -80,10 +80,9 @@ Base::Base(const std::string& file, const std::string& robot, const Freedom& fre
   }
   robot_ = static_cast<std::size_t>(found - robots.begin());
   robot_radius_m_ = radius_of(*sim::find_robot_model(world(), found->model));
-  own_room_m_ =
-      std::min(room_at(sim::distance_field(grade::make_truth(world().arena), kFarthestRoom_m),
-                       found->pose.position()),
-               robot_radius_m_ + kStartRoom_m);
+  const sim::DistanceField room =
+      sim::distance_field(grade::make_truth(world().arena), kFarthestRoom_m);
+  own_room_m_ = std::min(room_at(room, found->pose.position()), robot_radius_m_ + kStartRoom_m);
   read_bounds();
   const ordered_json root = ordered_json::parse(json_.text, nullptr, true, true);
   obstacles_ = list_at(root, "/arena/obstacles");
@@ -96,7 +95,7 @@ Base::Base(const std::string& file, const std::string& robot, const Freedom& fre
     const bool is_block = obstacle.type == sim::ObstacleType::kDynamic;
     if (freedom_.blocks && is_block) blocks_.push_back(obstacle.name);
   }
-  freedom_.maps = freedom_.maps && is_open();
+  freedom_.maps = freedom_.maps && is_open(room);
 }
 
 // Takes the section "fuzz" of the world and of the task into account.
@@ -148,10 +147,8 @@ void Base::find_devices(const sim::RobotDescription& robot, const std::string& p
 }
 
 // Whether there is enough free floor for a generated map.
-bool Base::is_open() const {
+bool Base::is_open(const sim::DistanceField& room) const {
   constexpr double kStep_m = 0.1;
-  const sim::DistanceField room =
-      sim::distance_field(grade::make_truth(world().arena), kFarthestRoom_m);
   int places = 0;
   int open = 0;
   for (double x_m = low_.x() + 0.5 * kStep_m; x_m < high_.x(); x_m += kStep_m) {

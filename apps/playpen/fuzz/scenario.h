@@ -91,7 +91,7 @@ class Base {
  private:
   void read_bounds();
   void find_devices(const sim::RobotDescription& robot, const std::string& pointer);
-  [[nodiscard]] bool is_open() const;
+  [[nodiscard]] bool is_open(const sim::DistanceField& room) const;
   [[nodiscard]] bool allows_element(const Element& element) const;
 
   [[nodiscard]] Element::Shape random_shape(bool moves, sim::RandomStream& random) const;
